@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/foot/side.h"
+#include "core/geometry/point_cloud.h"
+#include "core/geometry/rigid_transform.h"
+
+namespace instep {
+
+/// A point of anatomy found on the cloud.
+struct Landmark {
+  Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< foot frame
+  double confidence = 0.0;                                ///< 0 (a guess) to 1
+  std::string rule;                                       ///< how it was found, in a few words
+};
+
+/// One foot in its own frame, ready to be measured.
+///
+/// Foot frame: origin at the pternion projected on the floor, x from heel to toes, z up from the
+/// floor, y completing a right-handed frame (so the medial side of a right foot has y > 0 and that
+/// of a left foot y < 0). Left feet are not mirrored here; a rule that needs "medial" asks
+/// medial_sign().
+struct FootScan {
+  PointCloud cloud;  ///< foot frame
+  Side side = Side::kRight;
+  double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
+  RigidTransform foot_from_input = RigidTransform::Identity();
+  std::map<std::string, Landmark> landmarks;
+  std::vector<std::string> warnings;
+
+  /// +1 where medial is +y (right foot), -1 where it is -y (left foot).
+  double medial_sign() const { return side == Side::kRight ? 1.0 : -1.0; }
+};
+
+}  // namespace instep

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/girth/girth.h"
+#include "core/girth/tape_plane.h"
+
+namespace instep {
+
+/// One measure of a foot.
+struct Measure {
+  std::string id;  ///< such as "ball_girth"; the list is in the README
+  double value_mm = 0.0;
+  std::optional<double> u95_mm;     ///< half-width of the 95 % interval, if there is one
+  std::optional<TapePlane> plane;   ///< for a girth: foot frame
+  std::optional<Girth> girth;       ///< for a girth: its section; value_mm is its stretched length
+  std::string definition;           ///< the rule it follows, in a sentence
+  std::vector<std::string> warnings;
+};
+
+/// All measures of one foot, in a fixed order.
+struct MeasureSet {
+  std::vector<Measure> measures;
+
+  const Measure* find(const std::string& id) const {
+    for (const auto& measure : measures) {
+      if (measure.id == id) return &measure;
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace instep

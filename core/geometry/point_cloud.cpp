@@ -1,0 +1,99 @@
+#include "core/geometry/point_cloud.h"
+
+#include <cmath>
+#include <string>
+
+namespace instep {
+namespace {
+
+template <typename T>
+bool empty_or_sized(const std::vector<T>& list, std::size_t size) {
+  return list.empty() || list.size() == size;
+}
+
+/// Joins two optional lists; `was_empty` tells that the target held no points at all before.
+template <typename T>
+void append_list(std::vector<T>& target, const std::vector<T>& source, bool was_empty) {
+  if (was_empty) {
+    target = source;
+  } else if (target.empty() || source.empty()) {
+    target.clear();
+  } else {
+    target.insert(target.end(), source.begin(), source.end());
+  }
+}
+
+template <typename T>
+std::vector<T> pick(const std::vector<T>& list, const std::vector<std::size_t>& indices) {
+  std::vector<T> picked;
+  if (list.empty()) return picked;
+  picked.reserve(indices.size());
+  for (const std::size_t index : indices) picked.push_back(list[index]);
+  return picked;
+}
+
+tl::unexpected<Error> bad_point(std::size_t index, const std::string& what) {
+  return fail(ErrorCode::kInvalidInput, "point " + std::to_string(index) + " " + what,
+              "repair or export the cloud again");
+}
+
+}  // namespace
+
+bool PointCloud::is_consistent() const {
+  return empty_or_sized(normals, size()) && empty_or_sized(sigma_mm, size()) &&
+         empty_or_sized(view_directions, size()) && empty_or_sized(origins, size());
+}
+
+void PointCloud::append(const PointCloud& other) {
+  if (other.empty()) return;
+  const bool was_empty = empty();
+  if (!origins.empty() || !other.origins.empty()) {
+    origins.resize(size(), PointOrigin::kSeen);
+    for (std::size_t i = 0; i < other.size(); ++i) {
+      origins.push_back(other.was_seen(i) ? PointOrigin::kSeen : other.origins[i]);
+    }
+  }
+  append_list(normals, other.normals, was_empty);
+  append_list(sigma_mm, other.sigma_mm, was_empty);
+  append_list(view_directions, other.view_directions, was_empty);
+  positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+}
+
+PointCloud PointCloud::subset(const std::vector<std::size_t>& indices) const {
+  PointCloud part;
+  part.positions = pick(positions, indices);
+  part.normals = pick(normals, indices);
+  part.sigma_mm = pick(sigma_mm, indices);
+  part.view_directions = pick(view_directions, indices);
+  part.origins = pick(origins, indices);
+  return part;
+}
+
+PointCloud transformed(const RigidTransform& target_from_source, const PointCloud& cloud) {
+  PointCloud moved = cloud;
+  for (auto& position : moved.positions) position = target_from_source * position;
+  for (auto& normal : moved.normals) normal = target_from_source.linear() * normal;
+  for (auto& view : moved.view_directions) view = target_from_source.linear() * view;
+  return moved;
+}
+
+Result<void> check_cloud(const PointCloud& cloud) {
+  if (!cloud.is_consistent()) {
+    return fail(ErrorCode::kInternal, "the lists of a cloud differ in length", "report this");
+  }
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (!cloud.positions[i].allFinite()) return bad_point(i, "has a coordinate that is no number");
+    if (cloud.positions[i].cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
+      return bad_point(i, "lies more than 100 m from the origin");
+    }
+    if (cloud.has_normals() && !(std::abs(cloud.normals[i].norm() - 1.0) < 1e-3)) {
+      return bad_point(i, "has a normal that is not of unit length");
+    }
+    if (cloud.has_sigma() && !(cloud.sigma_mm[i] > 0.0 && std::isfinite(cloud.sigma_mm[i]))) {
+      return bad_point(i, "has a sigma that is not positive");
+    }
+  }
+  return {};
+}
+
+}  // namespace instep

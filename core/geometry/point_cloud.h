@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/rigid_transform.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// Where a point comes from. Only `kSeen` points are evidence; the others stand for surface that
+/// no camera saw, and a girth that runs over them says so.
+enum class PointOrigin : std::uint8_t {
+  kSeen,      ///< measured by a camera or read from a file
+  kPlatform,  ///< put on the platform under a sole that no camera saw
+};
+
+/// Points on a surface, in millimetres. Every list but `positions` is either empty (not known) or
+/// as long as `positions`; is_consistent() checks it.
+///
+/// A plain value: copying copies the points. Safe to read from many threads.
+struct PointCloud {
+  std::vector<Eigen::Vector3d> positions;
+
+  /// Unit length, pointing out of the body.
+  std::vector<Eigen::Vector3d> normals;
+
+  /// Standard deviation of a point's position along its normal, > 0.
+  std::vector<double> sigma_mm;
+
+  /// Unit vector from the point towards the camera that saw it. It orients normals without
+  /// guessing: a surface is only ever seen from outside.
+  std::vector<Eigen::Vector3d> view_directions;
+
+  /// Empty means that all points were seen.
+  std::vector<PointOrigin> origins;
+
+  std::size_t size() const { return positions.size(); }
+  bool empty() const { return positions.empty(); }
+  bool has_normals() const { return !normals.empty(); }
+  bool has_sigma() const { return !sigma_mm.empty(); }
+  bool was_seen(std::size_t index) const {
+    return origins.empty() || origins[index] == PointOrigin::kSeen;
+  }
+
+  bool is_consistent() const;
+
+  /// Adds the points of `other`. A list that only one of the two knows is dropped, but `origins`,
+  /// whose absence has a meaning.
+  void append(const PointCloud& other);
+
+  /// The points at `indices`, in that order, with all that is known of them.
+  PointCloud subset(const std::vector<std::size_t>& indices) const;
+};
+
+/// Moves positions, and turns normals and view directions.
+PointCloud transformed(const RigidTransform& target_from_source, const PointCloud& cloud);
+
+/// The largest coordinate, in millimetres, that a cloud may hold: 100 m. Beyond it the numbers are
+/// damage or another unit, never a foot.
+inline constexpr double kLargestCoordinateMm = 1e5;
+
+/// The gate through which every cloud from outside passes: consistent lists, finite numbers,
+/// coordinates within kLargestCoordinateMm, unit normals, positive sigma. The first fault is
+/// reported with the index of its point. Cost: one pass.
+Result<void> check_cloud(const PointCloud& cloud);
+
+}  // namespace instep

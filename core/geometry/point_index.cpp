@@ -1,0 +1,95 @@
+#include "core/geometry/point_index.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kPointsPerLeaf = 16;
+
+struct PointsAdaptor {
+  const std::vector<Eigen::Vector3d>* points;
+
+  std::size_t kdtree_get_point_count() const { return points->size(); }
+  double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return (*points)[index][static_cast<Eigen::Index>(axis)];
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using KdTree = nanoflann::KDTreeSingleIndexAdaptor<
+    nanoflann::L2_Simple_Adaptor<double, PointsAdaptor>, PointsAdaptor, 3, std::size_t>;
+
+void order(std::vector<PointIndex::Neighbour>& found) {
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    if (a.squared_distance != b.squared_distance) return a.squared_distance < b.squared_distance;
+    return a.index < b.index;
+  });
+}
+
+}  // namespace
+
+struct PointIndex::Tree {
+  explicit Tree(const std::vector<Eigen::Vector3d>& points)
+      : adaptor{&points},
+        tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(kPointsPerLeaf)) {}
+
+  PointsAdaptor adaptor;
+  KdTree tree;
+};
+
+PointIndex::PointIndex(const std::vector<Eigen::Vector3d>& points)
+    : tree_(std::make_unique<Tree>(points)) {}
+PointIndex::~PointIndex() = default;
+PointIndex::PointIndex(PointIndex&&) noexcept = default;
+PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
+
+std::vector<PointIndex::Neighbour> PointIndex::nearest(const Eigen::Vector3d& query,
+                                                       std::size_t count) const {
+  count = std::min(count, tree_->adaptor.points->size());
+  std::vector<Neighbour> found;
+  if (count == 0) return found;
+  std::vector<std::size_t> indices(count);
+  std::vector<double> squared(count);
+  const std::size_t got = tree_->tree.knnSearch(query.data(), count, indices.data(), squared.data());
+  found.reserve(got);
+  for (std::size_t i = 0; i < got; ++i) found.push_back({indices[i], squared[i]});
+  order(found);
+  return found;
+}
+
+std::vector<PointIndex::Neighbour> PointIndex::within(const Eigen::Vector3d& query,
+                                                      double radius) const {
+  std::vector<Neighbour> found;
+  if (tree_->adaptor.points->empty()) return found;
+  // nanoflann leaves out points at exactly the squared radius.
+  const double squared_radius = std::nextafter(radius * radius, radius * radius + 1.0);
+  std::vector<std::pair<std::size_t, double>> raw;
+  tree_->tree.radiusSearch(query.data(), squared_radius, raw,
+                           nanoflann::SearchParams(32, 0.0F, false));
+  found.reserve(raw.size());
+  for (const auto& [index, squared] : raw) found.push_back({index, squared});
+  order(found);
+  return found;
+}
+
+double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
+                      std::size_t sample) {
+  if (points.size() < 2 || sample == 0) return 0.0;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    const auto found = index.nearest(points[i], 2);
+    distances.push_back(std::sqrt(found.back().squared_distance));
+  }
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+}  // namespace instep

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace instep {
+
+/// Finds neighbours among points in space (a k-d tree).
+///
+/// Borrows the points: they must outlive the index and stay where they are. All coordinates must be
+/// finite. Building costs O(n log n); queries O(log n + found) on typical data, and may be made
+/// from many threads at once. Duplicates are allowed.
+class PointIndex {
+ public:
+  struct Neighbour {
+    std::size_t index = 0;
+    double squared_distance = 0.0;
+  };
+
+  explicit PointIndex(const std::vector<Eigen::Vector3d>& points);
+  ~PointIndex();
+  PointIndex(PointIndex&&) noexcept;
+  PointIndex& operator=(PointIndex&&) noexcept;
+
+  /// The `count` nearest points (fewer if there are fewer), nearest first; equal distances are
+  /// ordered by index, so that the answer does not depend on the tree.
+  std::vector<Neighbour> nearest(const Eigen::Vector3d& query, std::size_t count) const;
+
+  /// All points within `radius` (inclusive), nearest first, ordered as above.
+  std::vector<Neighbour> within(const Eigen::Vector3d& query, double radius) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+/// Median distance from a point to its nearest other point, over an even sample of at most
+/// `sample` points: the spacing of a cloud. Zero for fewer than two points.
+double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
+                      std::size_t sample = 2000);
+
+}  // namespace instep

@@ -1,0 +1,59 @@
+#include "core/geometry/polygon.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace instep {
+namespace {
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool left_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+}
+
+/// Appends the chain that keeps turning left over points in the order given.
+template <typename Iterator>
+void append_chain(Iterator begin, Iterator end, std::vector<Eigen::Vector2d>& hull) {
+  const std::size_t start = hull.size();
+  for (Iterator it = begin; it != end; ++it) {
+    while (hull.size() >= start + 2 &&
+           cross(hull.back() - hull[hull.size() - 2], *it - hull.back()) <= 0.0) {
+      hull.pop_back();
+    }
+    hull.push_back(*it);
+  }
+  hull.pop_back();  // the next chain begins with it
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
+  std::sort(points.begin(), points.end(), left_of);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  std::vector<Eigen::Vector2d> hull;
+  append_chain(points.begin(), points.end(), hull);
+  append_chain(points.rbegin(), points.rend(), hull);
+  return hull;
+}
+
+double perimeter(const std::vector<Eigen::Vector2d>& polygon) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    length += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+  }
+  return length;
+}
+
+double signed_area(const std::vector<Eigen::Vector2d>& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace instep

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace instep {
+
+/// The convex hull of points in the plane, counter-clockwise, without the points inside its edges
+/// (Andrew's monotone chain). Fewer than three points come back as they are, sorted and without
+/// duplicates. Coordinates must be finite. O(n log n).
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
+
+/// Length round a closed polygon whose first point is not repeated; twice the length for two
+/// points, zero for fewer.
+double perimeter(const std::vector<Eigen::Vector2d>& polygon);
+
+/// Area of a closed polygon, positive if it runs counter-clockwise.
+double signed_area(const std::vector<Eigen::Vector2d>& polygon);
+
+}  // namespace instep

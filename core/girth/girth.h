@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/point_cloud.h"
+#include "core/geometry/triangle_mesh.h"
+#include "core/girth/tape_plane.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// What is known beforehand about a girth to be measured.
+struct GirthOptions {
+  /// Noise of a point along its normal. Without it the cloud's own sigma is used, and without that
+  /// it is estimated from the points near the plane.
+  std::optional<double> sigma_mm;
+};
+
+/// The length of a tape laid round a body in one plane, and how it came about.
+struct Girth {
+  /// Tape that bridges hollows: the perimeter of the section's convex hull.
+  double stretched_mm = 0.0;
+  /// Tape that follows the skin: the section's own perimeter.
+  double contact_mm = 0.0;
+  /// Half-widths of the 95 % intervals; nothing where a method has none.
+  std::optional<double> stretched_u95_mm;
+  std::optional<double> contact_u95_mm;
+
+  std::size_t points = 0;       ///< points of the whole cloud
+  std::size_t band_points = 0;  ///< points near the plane that took part
+  double sigma_mm = 0.0;        ///< noise that was used
+  /// Longest stretch of the section without a seen point under it.
+  double largest_gap_mm = 0.0;
+  std::vector<std::string> warnings;
+
+  /// The section as a closed polygon (the first point is not repeated), in the plane's own
+  /// coordinates, counter-clockwise; fine enough to draw and to compare.
+  std::vector<Eigen::Vector2d> contour;
+};
+
+/// The best method of this project: a local RBF implicit surface where the plane passes (see
+/// core/surface), its zero contour traced on the plane.
+///
+/// Refuses, with the reason, where no closed section can be told from the points: too few points
+/// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput).
+/// Deterministic: the same cloud gives the same bytes.
+Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
+                           const GirthOptions& options = {});
+
+/// The paper's Method 1 (section 2.1): the points near the plane, projected on it, and their convex
+/// hull. Knows no skin, so contact equals stretched, with a warning; has no interval.
+Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
+                            const GirthOptions& options = {});
+
+/// Cuts the faces that a mesh already has; no surface is fitted. All loops are chained; of several
+/// the longest closed one counts and the others are named in a warning. An open section is bridged
+/// for the stretched length, and the contact length is that of the pieces, with a warning.
+Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane);
+
+}  // namespace instep

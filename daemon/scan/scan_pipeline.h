@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/foot/side.h"
+#include "core/fusion/depth_frame.h"
+#include "daemon/scan/scan_record.h"
+#include "drivers/depth_camera.h"
+
+namespace instep {
+
+/// Everything that one press of the pedal brought in.
+struct Capture {
+  std::vector<CameraDescription> cameras;
+  std::vector<DepthFrame> frames;  ///< of all cameras, in any order
+  std::optional<double> platform_height_mm;
+  bool simulated = false;
+  std::string calibration;
+};
+
+/// Told at each step; returning false cancels the scan (the pipeline then fails with kCancelled).
+/// `done` runs from 0 to 1 over the whole scan and never decreases.
+using ScanProgress = std::function<bool(std::string_view stage, double done)>;
+
+struct PipelineSettings {
+  std::string station = "unnamed";
+  double point_spacing_mm = 1.0;
+  bool refine_views = false;      ///< align the views to each other: for nominal camera poses
+  std::optional<Side> side;       ///< forced side; nothing = told from the shape
+};
+
+/// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Pure
+/// computation on the calling thread; takes no file and no device. Gives one record for each foot
+/// on the platform, the left one first, and fails if there is none.
+Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
+                                                const PipelineSettings& settings,
+                                                const ScanProgress& progress);
+
+}  // namespace instep

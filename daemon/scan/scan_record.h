@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/foot/foot_scan.h"
+#include "core/foot/measure_set.h"
+#include "drivers/depth_camera.h"
+
+namespace instep {
+
+/// One measured foot with all that is told about how it came to be: what result.json holds.
+struct ScanRecord {
+  std::string id;  ///< sortable by time, says nothing about the person
+  std::chrono::system_clock::time_point time;
+  std::string station;
+  std::vector<CameraDescription> devices;
+  std::string calibration;  ///< where the cameras' poses come from
+  bool simulated = false;
+  std::map<std::string, double> timings_ms;  ///< stage -> milliseconds
+  std::map<std::string, double> quality;     ///< figure -> value, names carry their unit
+  std::vector<std::string> warnings;         ///< of the scan as a whole
+
+  FootScan foot;
+  MeasureSet measures;
+};
+
+/// A new id: UTC time to the millisecond and some random letters, such as
+/// "20261121T091502417Z-k3f9".
+std::string new_scan_id(std::chrono::system_clock::time_point time);
+
+}  // namespace instep

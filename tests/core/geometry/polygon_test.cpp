@@ -1,0 +1,56 @@
+#include "core/geometry/polygon.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+
+TEST(ConvexHull, KeepsTheCornersOfASquareOnly) {
+  const auto hull =
+      convex_hull({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {0.5, 0}, {1, 0.5}, {0, 0}});
+  EXPECT_EQ(hull.size(), 4U);
+  EXPECT_DOUBLE_EQ(perimeter(hull), 4.0);
+  EXPECT_DOUBLE_EQ(signed_area(hull), 1.0);
+}
+
+TEST(ConvexHull, OfARegularPolygonIsThePolygon) {
+  const int sides = 120;
+  std::vector<Vector2d> points;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    points.emplace_back(40 * std::cos(angle), 40 * std::sin(angle));
+  }
+  EXPECT_NEAR(perimeter(convex_hull(points)), sides * 2 * 40 * std::sin(std::numbers::pi / sides),
+              1e-10);
+}
+
+TEST(ConvexHull, ContainsAllRandomPoints) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  std::vector<Vector2d> points(500);
+  for (auto& point : points) point = {normal(random), normal(random)};
+  const auto hull = convex_hull(points);
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d edge = hull[(i + 1) % hull.size()] - hull[i];
+    for (const auto& point : points) {
+      const Vector2d offset = point - hull[i];
+      EXPECT_GE(edge.x() * offset.y() - edge.y() * offset.x(), -1e-12);
+    }
+  }
+}
+
+TEST(ConvexHull, GivesBackWhatHasNoArea) {
+  EXPECT_TRUE(convex_hull({}).empty());
+  EXPECT_EQ(convex_hull({{1, 1}, {1, 1}}).size(), 1U);
+  const auto segment = convex_hull({{0, 0}, {3, 0}, {1, 0}, {2, 0}});
+  EXPECT_DOUBLE_EQ(perimeter(segment), 6.0);
+}
+
+}  // namespace
+}  // namespace instep
