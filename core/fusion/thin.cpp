@@ -29,7 +29,7 @@ class Thinning {
       : points_(points.cloud),
         views_(points.views),
         settings_(settings),
-        grid_(points.cloud.positions, settings.spacing_mm) {}
+        grid_(points.cloud.positions, reach(points.cloud.sigma_mm, settings.spacing_mm)) {}
 
   PointCloud run() {
     choose_and_assign();
@@ -39,6 +39,13 @@ class Thinning {
   }
 
  private:
+  /// How far a point looks: along the surface, and across it as far as the noise goes.
+  static double reach(std::vector<double> sigma_mm, double spacing_mm) {
+    const auto middle = sigma_mm.begin() + static_cast<std::ptrdiff_t>(sigma_mm.size() / 2);
+    std::nth_element(sigma_mm.begin(), middle, sigma_mm.end());
+    return std::max(spacing_mm, 2.5 * *middle);
+  }
+
   /// Distance from a chosen point along the surface, or infinity if it is another surface.
   double distance(std::size_t chosen, std::size_t point) const {
     const Vector3d offset = points_.positions[point] - points_.positions[chosen];
