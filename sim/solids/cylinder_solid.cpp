@@ -1,0 +1,20 @@
+#include "sim/solids/cylinder_solid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/solids/blend.h"
+
+namespace instep {
+
+double CylinderSolid::value(const Eigen::Vector3d& point) const {
+  const double outside_wall = std::hypot(point.x(), point.y()) - radius_;
+  const double outside_ends = std::max(-point.z(), point.z() - height_);
+  return rounded_maximum(outside_wall, outside_ends, 0.0);
+}
+
+Eigen::AlignedBox3d CylinderSolid::bounds() const {
+  return {Eigen::Vector3d(-radius_, -radius_, 0.0), Eigen::Vector3d(radius_, radius_, height_)};
+}
+
+}  // namespace instep
