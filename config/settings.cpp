@@ -5,7 +5,8 @@
 namespace instep {
 namespace {
 
-std::string describe_camera(const CameraSettings& camera, const SimulationSettings& simulation) {
+std::string describe_camera(const CameraSettings& camera,
+                            const SimulatedStationSettings& simulation) {
   if (camera.kind == CameraKind::kRecording) return "the recording " + camera.path.string();
   return fmt::format("{} simulated", simulation.cameras);
 }

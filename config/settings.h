@@ -24,9 +24,9 @@ struct StationSettings {
 };
 
 struct CaptureSettings {
-  int frames_per_camera = 15;               ///< 1 to 120
-  int warmup_frames = 3;                    ///< dropped before the first one counts, 0 to 120
-  std::chrono::milliseconds deadline{5000};  ///< for the whole capture, 200 to 60000
+  int frames_per_camera = 15;                   ///< 1 to 120
+  int warmup_frames = 3;                        ///< dropped before the first one counts, 0 to 120
+  std::chrono::milliseconds deadline{5000};     ///< for the whole capture, 200 to 60000
   std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 10000
   std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
 };
@@ -35,8 +35,8 @@ enum class PedalKind { kNone, kSimulated };
 
 struct PedalSettings {
   PedalKind kind = PedalKind::kSimulated;
-  std::chrono::milliseconds debounce{30};          ///< 5 to 200
-  std::chrono::milliseconds hold_to_cancel{2000};  ///< 500 to 10000
+  std::chrono::milliseconds debounce{30};            ///< 5 to 200
+  std::chrono::milliseconds hold_to_cancel{2000};    ///< 500 to 10000
   std::filesystem::path fifo = "/run/instep/pedal";  ///< of the simulated pedal
 };
 
@@ -49,14 +49,16 @@ struct CameraSettings {
 };
 
 enum class SimulatedNoise { kNone, kTypical, kPessimistic };
-enum class SimulatedSubject { kFoot, kCylinder, kLast };
+enum class SimulatedSubject { kFoot, kFeet, kCylinder, kLast };
 enum class SimulatedPacing { kRealTime, kAsFastAsPossible };
 
-struct SimulationSettings {
+struct SimulatedStationSettings {
   std::uint64_t seed = 1;
   SimulatedSubject subject = SimulatedSubject::kFoot;
   Side side = Side::kRight;
-  int cameras = 4;  ///< 1 to 8
+  int cameras = 4;      ///< 1 to 8
+  int width_px = 640;   ///< 64 to 1280
+  int height_px = 480;  ///< 48 to 960
   SimulatedNoise noise = SimulatedNoise::kTypical;
   SimulatedPacing pacing = SimulatedPacing::kRealTime;
   std::filesystem::path fault_script;  ///< empty = nothing goes wrong
@@ -83,7 +85,7 @@ struct Settings {
   CaptureSettings capture;
   PedalSettings pedal;
   std::vector<CameraSettings> cameras;  ///< 1 to 8
-  SimulationSettings simulation;
+  SimulatedStationSettings simulation;
   StoreSettings store;
   ControlSettings control;
   LogSettings log;

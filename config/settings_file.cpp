@@ -66,22 +66,25 @@ CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& ba
   return camera;
 }
 
-void read_simulation(SettingsTable& table, SimulationSettings& simulation,
+void read_simulation(SettingsTable& table, SimulatedStationSettings& simulation,
                      const std::filesystem::path& base) {
   table.read("seed", simulation.seed);
   table.choose("subject", simulation.subject,
                {{"foot", SimulatedSubject::kFoot},
+                {"feet", SimulatedSubject::kFeet},
                 {"cylinder", SimulatedSubject::kCylinder},
                 {"last", SimulatedSubject::kLast}});
   table.choose("side", simulation.side, kSides);
   table.read("cameras", simulation.cameras, 1, 8);
+  table.read("width_px", simulation.width_px, 64, 1280);
+  table.read("height_px", simulation.height_px, 48, 960);
   table.choose("noise", simulation.noise,
                {{"none", SimulatedNoise::kNone},
                 {"typical", SimulatedNoise::kTypical},
                 {"pessimistic", SimulatedNoise::kPessimistic}});
-  table.choose("pacing", simulation.pacing,
-               {{"real-time", SimulatedPacing::kRealTime},
-                {"fast", SimulatedPacing::kAsFastAsPossible}});
+  table.choose(
+      "pacing", simulation.pacing,
+      {{"real-time", SimulatedPacing::kRealTime}, {"fast", SimulatedPacing::kAsFastAsPossible}});
   table.read("fault_script", simulation.fault_script, base);
 }
 
@@ -165,8 +168,8 @@ Result<Settings> load_settings(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
     const auto code = errno == EACCES ? ErrorCode::kPermissionDenied : ErrorCode::kIo;
-    return fail(code, "the settings file " + file.string() + " cannot be opened: " +
-                          std::strerror(errno),
+    return fail(code,
+                "the settings file " + file.string() + " cannot be opened: " + std::strerror(errno),
                 "let the user of the station read it");
   }
   std::string text(kLargestSettingsFile + 1, '\0');

@@ -49,7 +49,8 @@ void SettingsTable::read(const std::string& key, std::string& value, std::size_t
     return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
   });
   if (found.empty() || found.size() > longest || !printable) {
-    return fault(*node, fmt::format("{} must have 1 to {} printable characters", full(key), longest));
+    return fault(*node,
+                 fmt::format("{} must have 1 to {} printable characters", full(key), longest));
   }
   value = found;
 }
@@ -131,11 +132,11 @@ void SettingsTable::finish() {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
     const std::string meant = nearest_word(name, known_);
-    faults_.add(key.source().begin.line,
-                meant.empty() ? fmt::format("there is no setting {}: known here are {}", full(name),
-                                            quoted(known_))
-                              : fmt::format("there is no setting {}: did you mean {}?", full(name),
-                                            full(meant)));
+    faults_.add(
+        key.source().begin.line,
+        meant.empty()
+            ? fmt::format("there is no setting {}: known here are {}", full(name), quoted(known_))
+            : fmt::format("there is no setting {}: did you mean {}?", full(name), full(meant)));
   }
 }
 

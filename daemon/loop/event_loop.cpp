@@ -107,7 +107,9 @@ Result<void> EventLoop::run() {
   return {};
 }
 
-void EventLoop::leave() { sd_event_exit(event_, 0); }
+void EventLoop::leave() {
+  sd_event_exit(event_, 0);
+}
 
 EventLoop::Post EventLoop::poster() const {
   return [mailbox = mailbox_](std::function<void()> task) { mailbox->put(std::move(task)); };
@@ -120,8 +122,8 @@ EventLoop::Watch EventLoop::watch(int descriptor, std::uint32_t events,
   watch.state_->on_ready = std::move(on_ready);
   const auto ring = [](sd_event_source*, int, std::uint32_t ready, void* user) {
     // A callback may drop the very watch that called it: its copy keeps it whole until the end.
-    const auto on_ready = static_cast<Watch::State*>(user)->on_ready;
-    on_ready(ready);
+    const auto callback = static_cast<Watch::State*>(user)->on_ready;
+    callback(ready);
     return 0;
   };
   sd_event_add_io(event_, &watch.state_->source, descriptor, events, ring, watch.state_.get());
@@ -137,8 +139,8 @@ EventLoop::Timer EventLoop::timer(std::function<void()> on_time) {
   timer.state_ = std::make_shared<Timer::State>();
   timer.state_->on_time = std::move(on_time);
   const auto ring = [](sd_event_source*, std::uint64_t, void* user) {
-    const auto on_time = static_cast<Timer::State*>(user)->on_time;
-    on_time();
+    const auto callback = static_cast<Timer::State*>(user)->on_time;
+    callback();
     return 0;
   };
   constexpr std::uint64_t kAccuracy = 1000;

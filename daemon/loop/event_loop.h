@@ -13,9 +13,9 @@ struct sd_event_source;
 
 namespace instep {
 
-/// One thread's loop over descriptors, timers, signals and what other threads post. A thin coat over
-/// sd-event: it already joins epoll, timerfd and signalfd, and libsystemd is linked for readiness
-/// and the watchdog anyway.
+/// One thread's loop over descriptors, timers, signals and what other threads post. A thin coat
+/// over sd-event: it already joins epoll, timerfd and signalfd, and libsystemd is linked for
+/// readiness and the watchdog anyway.
 ///
 /// Callbacks run on the thread of run() and must not block. Only post() may be called from other
 /// threads.

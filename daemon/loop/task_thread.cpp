@@ -24,7 +24,9 @@ TaskThread::TaskThread(const std::string& name) : shared_(std::make_shared<Share
   pthread_setname_np(thread_.native_handle(), name.substr(0, 15).c_str());
 }
 
-TaskThread::~TaskThread() { stop(std::chrono::seconds(1)); }
+TaskThread::~TaskThread() {
+  stop(std::chrono::seconds(1));
+}
 
 void TaskThread::run(const std::shared_ptr<Shared>& shared) {
   std::unique_lock lock(shared->mutex);
@@ -78,6 +80,8 @@ bool TaskThread::is_busy() const {
   return shared_->running || !shared_->tasks.empty();
 }
 
-std::uint64_t TaskThread::progress() const { return shared_->progress.steps(); }
+std::uint64_t TaskThread::progress() const {
+  return shared_->progress.steps();
+}
 
 }  // namespace instep

@@ -135,13 +135,13 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
   const auto gathering = std::make_shared<Gathering>();
   gathering->brought.resize(workers_.size());
   for (std::size_t i = 0; i < workers_.size(); ++i) {
-    workers_[i]->thread->post([gathering, i, settings,
-                               camera = workers_[i]->camera](TaskProgress& progress) {
-      Result<Frames> frames = camera->start().and_then(
-          [&] { return take_frames(*camera, settings, gathering->cancelled, progress); });
-      camera->stop();
-      gathering->bring(i, std::move(frames));
-    });
+    workers_[i]->thread->post(
+        [gathering, i, settings, camera = workers_[i]->camera](TaskProgress& progress) {
+          Result<Frames> frames = camera->start().and_then(
+              [&] { return take_frames(*camera, settings, gathering->cancelled, progress); });
+          camera->stop();
+          gathering->bring(i, std::move(frames));
+        });
   }
 
   bool wanted = true;
@@ -172,9 +172,8 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
     at_fault += (at_fault.empty() ? "" : ", ") + id;
   };
   const bool faults = std::any_of(
-      gathering->brought.begin(), gathering->brought.end(), [](const auto& one) {
-        return one && !*one && one->error().code != ErrorCode::kCancelled;
-      });
+      gathering->brought.begin(), gathering->brought.end(),
+      [](const auto& one) { return one && !*one && one->error().code != ErrorCode::kCancelled; });
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     auto& brought = gathering->brought[i];
     const std::string& id = workers_[i]->id();

@@ -55,12 +55,17 @@ void PedalDebouncer::change(bool pressed, Time since) {
 std::optional<PedalDebouncer::Time> PedalDebouncer::next_deadline() const {
   std::optional<Time> next;
   const auto consider = [&](Time time) { next = next ? std::min(*next, time) : time; };
-  if (raw_ != pressed_) consider(raw_since_ + debounce_);
-  else if (pressed_ && !held_) consider(pressed_since_ + hold_);
-  else if (pressed_ && !stuck_) consider(pressed_since_ + kStuckAfter);
+  if (raw_ != pressed_)
+    consider(raw_since_ + debounce_);
+  else if (pressed_ && !held_)
+    consider(pressed_since_ + hold_);
+  else if (pressed_ && !stuck_)
+    consider(pressed_since_ + kStuckAfter);
   return next;
 }
 
-std::vector<PedalSignal> PedalDebouncer::take_signals() { return std::exchange(signals_, {}); }
+std::vector<PedalSignal> PedalDebouncer::take_signals() {
+  return std::exchange(signals_, {});
+}
 
 }  // namespace instep

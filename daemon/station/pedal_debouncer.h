@@ -9,10 +9,10 @@
 namespace instep {
 
 enum class PedalSignal {
-  kPressed,   ///< a foot went down: one per press, however the contact bounced
-  kHeld,      ///< and stayed down for the hold time
+  kPressed,  ///< a foot went down: one per press, however the contact bounced
+  kHeld,     ///< and stayed down for the hold time
   kReleased,
-  kStuck,     ///< down at start-up, or for kStuckAfter: not a foot, or no contact that works
+  kStuck,  ///< down at start-up, or for kStuckAfter: not a foot, or no contact that works
 };
 
 /// Makes presses of edges, on the edges' own time stamps. The contact counts as changed once it has
@@ -45,12 +45,12 @@ class PedalDebouncer {
   Time debounce_;
   Time hold_;
   Time now_;
-  bool raw_ = false;         ///< the contact as last seen
-  Time raw_since_{0};        ///< its last edge
-  bool pressed_ = false;     ///< the contact as believed
+  bool raw_ = false;      ///< the contact as last seen
+  Time raw_since_{0};     ///< its last edge
+  bool pressed_ = false;  ///< the contact as believed
   Time pressed_since_{0};
-  bool held_ = false;        ///< kHeld has been given for this press
-  bool stuck_ = false;       ///< kStuck has been given for this press
+  bool held_ = false;   ///< kHeld has been given for this press
+  bool stuck_ = false;  ///< kStuck has been given for this press
   std::vector<PedalSignal> signals_;
 };
 

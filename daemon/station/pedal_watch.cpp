@@ -13,7 +13,9 @@ PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open
   reopen_timer_.set(std::chrono::nanoseconds(0));
 }
 
-void PedalWatch::set(const PedalSettings& settings) { settings_ = settings; }
+void PedalWatch::set(const PedalSettings& settings) {
+  settings_ = settings;
+}
 
 void PedalWatch::open() {
   if (!pedal_) {

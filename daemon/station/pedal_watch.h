@@ -13,8 +13,8 @@
 
 namespace instep {
 
-/// A pedal on the event loop: reads its edges, lets the debouncer judge them, opens it again when it
-/// was lost. Lives on the loop's thread.
+/// A pedal on the event loop: reads its edges, lets the debouncer judge them, opens it again when
+/// it was lost. Lives on the loop's thread.
 class PedalWatch {
  public:
   /// What the owner is told.

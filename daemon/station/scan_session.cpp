@@ -67,15 +67,10 @@ class ScanSession {
         outcome.store_failed = true;
         return outcome;
       }
-      outcome.stored.push_back({record.id, std::move(*folder), summary(record)});
+      outcome.stored.push_back({record.id, std::move(*folder), record.foot.side});
     }
     listener_.on_progress("done", 1.0);
     return outcome;
-  }
-
-  static std::string summary(const ScanRecord& record) {
-    const Measure* length = nullptr;
-    return to_string(record.foot.side);
   }
 
   static ScanOutcome failed(const Error& error) {
@@ -104,7 +99,7 @@ ScanOutcome run_scan(const ScanTools& tools, const std::atomic<bool>& cancelled,
     outcome = ScanSession(tools, cancelled, progress, listener).run();
   } catch (const std::bad_alloc&) {
     outcome.error = Error{ErrorCode::kInternal, Remedy::kRetry, "there is not enough memory",
-                          "close other programs, or raise capture limits"};
+                          "close other programs, or lower capture.frames_per_camera"};
   } catch (const std::exception& error) {
     outcome.error = bug(error.what());
   }

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,19 +14,20 @@
 #include "daemon/loop/task_thread.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/station/camera_set.h"
+#include "daemon/station/devices.h"
 #include "daemon/store/result_store.h"
 
 namespace instep {
 
 /// measure_capture() of scan_pipeline.h, or what a test puts in its place.
-using Measure = std::function<Result<std::vector<ScanRecord>>(
+using MeasureCapture = std::function<Result<std::vector<ScanRecord>>(
     const Capture&, const PipelineSettings&, const ScanProgress&)>;
 
 /// A result that is on disk.
 struct StoredResult {
   std::string id;
   std::filesystem::path folder;
-  std::string summary;  ///< one line for people: side and length
+  Side side = Side::kRight;
 };
 
 /// What a scan works with. Shared, so that a scan that hangs can be left behind.
@@ -38,8 +38,8 @@ struct ScanTools {
   std::optional<double> platform_height_mm;
   std::string calibration;
   bool simulated = false;
-  std::map<std::string, double> truth;
-  Measure measure;
+  std::vector<KnownTruth> truth;
+  MeasureCapture measure;
   std::shared_ptr<ResultStore> store;
 };
 

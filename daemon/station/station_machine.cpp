@@ -66,8 +66,8 @@ Actions StationMachine::handle(StationEvent event) {
       store_fault_ = false;
       return end_scan({StationAction::kAnnounceResult});
     case StationEvent::kStoreFailed:
-      if (phase_ != Phase::kStoring) return {};
       store_fault_ = true;
+      if (phase_ != Phase::kStoring) return {};
       return end_scan({StationAction::kAnnounceFailure});
     case StationEvent::kScanFailed:
       return phase_ == Phase::kCapturing

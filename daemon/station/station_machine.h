@@ -7,13 +7,13 @@ namespace instep {
 
 /// What the station is at, as it is shown.
 enum class StationState {
-  kStarting,   ///< the cameras have not answered yet
-  kReady,      ///< waits for the pedal
+  kStarting,  ///< the cameras have not answered yet
+  kReady,     ///< waits for the pedal
   kCapturing,
   kMeasuring,
   kStoring,
-  kDegraded,   ///< a camera is away; the daemon tries to get it back and scans wait until then
-  kFault,      ///< a person has to do something; scanning is tried all the same if cameras are there
+  kDegraded,  ///< a camera is away; the daemon tries to get it back and scans wait until then
+  kFault,     ///< a person has to do something; scanning is tried all the same if cameras are there
 };
 
 const char* to_string(StationState state);
@@ -27,10 +27,10 @@ enum class StationEvent {
   kCancelRequested,  ///< the pedal was held, or somebody asked
   kCaptured,
   kMeasured,
-  kStored,           ///< the results are durable
-  kScanFailed,       ///< while capturing or measuring
-  kStoreFailed,
-  kScanCancelled,    ///< the scan has ended on request
+  kStored,         ///< the results are durable
+  kScanFailed,     ///< while capturing or measuring
+  kStoreFailed,    ///< results cannot be written: found at start-up, or while storing
+  kScanCancelled,  ///< the scan has ended on request
   kShutdown,
 };
 

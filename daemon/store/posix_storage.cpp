@@ -44,15 +44,15 @@ class Descriptor {
 
 }  // namespace
 
-Error storage_error(int error_number, const std::string& doing,
-                    const std::filesystem::path& path) {
-  const std::string message = doing + " " + path.string() + " failed: " +
-                              (error_number == 0 ? "" : std::strerror(error_number));
+Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
+  const std::string message = doing + " " + path.string() +
+                              " failed: " + (error_number == 0 ? "" : std::strerror(error_number));
   switch (error_number) {
     case ENOSPC:
     case EDQUOT:
-      return {ErrorCode::kNoSpace, Remedy::kOperator, message,
-              "make room on the disk of the results, or let store.keep_days do it; then scan again"};
+      return {
+          ErrorCode::kNoSpace, Remedy::kOperator, message,
+          "make room on the disk of the results, or let store.keep_days do it; then scan again"};
     case EACCES:
     case EPERM:
     case EROFS:
@@ -89,7 +89,9 @@ Result<void> PosixStorage::sync(File file) {
   return {};
 }
 
-void PosixStorage::close(File file) { ::close(file); }
+void PosixStorage::close(File file) {
+  ::close(file);
+}
 
 Result<void> PosixStorage::make_folder(const std::filesystem::path& path) {
   if (::mkdir(path.c_str(), kFolderMode) == 0) {

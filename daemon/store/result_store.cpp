@@ -74,8 +74,8 @@ Result<void> ResultStore::make_day_folder(const std::string& id) {
     const auto parent = folder;
     folder /= part;
     // The parent is flushed even if the folder was there: whoever made it may not have come to it.
-    const auto made = storage_.make_folder(folder).and_then(
-        [&] { return storage_.sync_folder(parent); });
+    const auto made =
+        storage_.make_folder(folder).and_then([&] { return storage_.sync_folder(parent); });
     if (!made) return made;
   }
   return {};
@@ -156,9 +156,10 @@ Result<std::string> ResultStore::find(const std::string& id) const {
   if (!ids) return tl::make_unexpected(ids.error());
   if (id == "latest" && !ids->empty()) return ids->front();
   if (std::find(ids->begin(), ids->end(), id) != ids->end()) return id;
-  return id == "latest" ? fail(ErrorCode::kNotFound, "there is no scan yet", "make one: instep scan")
-                        : fail(ErrorCode::kNotFound, "there is no scan " + id,
-                               "instep list shows those there are");
+  return id == "latest"
+             ? fail(ErrorCode::kNotFound, "there is no scan yet", "make one: instep scan")
+             : fail(ErrorCode::kNotFound, "there is no scan " + id,
+                    "instep list shows those there are");
 }
 
 std::filesystem::path ResultStore::folder_of(const std::string& id) const {

@@ -22,7 +22,8 @@ struct Retention {
 ///
 /// A result appears whole or not at all, whatever fails and whenever the power goes: it is written
 /// under a temporary name in the folder where it will lie, each file and the folder are flushed,
-/// then it is renamed, and the folder above is flushed. A result that put() has reported is durable.
+/// then it is renamed, and the folder above is flushed. A result that put() has reported is
+/// durable.
 ///
 /// Holds no state but the disk's. Safe from many threads.
 class ResultStore {

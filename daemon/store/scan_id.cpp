@@ -15,7 +15,9 @@ constexpr std::string_view kLetters = "abcdefghijkmnpqrstuvwxyz23456789";
 constexpr std::string_view kShape = "dddddddd-ddddddddd-";  // 'T' and 'Z' stand at the dashes
 constexpr std::size_t kIdLength = 24;                       // 20261121T091502417Z-k3f9
 
-bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
+bool is_digit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
 
 int number(std::string_view id, std::size_t begin, std::size_t length) {
   int value = 0;
@@ -30,9 +32,9 @@ std::string new_scan_id(std::chrono::system_clock::time_point time) {
   const auto since_epoch = time.time_since_epoch();
   const auto milliseconds =
       std::chrono::floor<std::chrono::milliseconds>(since_epoch).count() % 1000;
-  std::string id = fmt::format("{:%Y%m%dT%H%M%S}{:03}Z-",
-                               fmt::gmtime(std::chrono::system_clock::to_time_t(time)),
-                               milliseconds);
+  std::string id =
+      fmt::format("{:%Y%m%dT%H%M%S}{:03}Z-",
+                  fmt::gmtime(std::chrono::system_clock::to_time_t(time)), milliseconds);
   for (int i = 0; i < 4; ++i) id += kLetters[random() % kLetters.size()];
   return id;
 }

@@ -11,8 +11,8 @@
 namespace instep {
 
 /// The few calls of a file system that the result store makes, each as bare as the system's own, so
-/// that tests can let any of them fail, and can cut the power between any two. Failures are kNoSpace,
-/// kPermissionDenied, kNotFound or kIo, all of them for the operator.
+/// that tests can let any of them fail, and can cut the power between any two. Failures are
+/// kNoSpace, kPermissionDenied, kNotFound or kIo, all of them for the operator.
 class Storage {
  public:
   using File = int;
