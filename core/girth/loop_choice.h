@@ -11,4 +11,7 @@ namespace instep {
 std::vector<Eigen::Vector2d> choose_loop(std::vector<std::vector<Eigen::Vector2d>> loops,
                                          std::vector<std::string>& warnings);
 
+/// What a warning says of a loop that was not chosen.
+std::string other_loop_warning(double length_mm);
+
 }  // namespace instep

@@ -1,7 +1,10 @@
 #include "tests/support/shape_files.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -9,6 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "tests/support/random_numbers.h"
 
 namespace instep::test {
 namespace {
@@ -114,6 +119,32 @@ std::vector<KnownSection> known_sections(const std::string& folder) {
     }
   }
   return sections;
+}
+
+PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
+                     std::uint64_t seed) {
+  const auto corner = [&](const auto& face, std::size_t k) { return mesh.positions[face[k]]; };
+  std::vector<double> areas;
+  double total = 0.0;
+  for (const auto& face : mesh.triangles) {
+    const Eigen::Vector3d a = corner(face, 0);
+    total += 0.5 * (corner(face, 1) - a).cross(corner(face, 2) - a).norm();
+    areas.push_back(total);
+  }
+  RandomNumbers random(seed);
+  PointCloud cloud;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto place = std::upper_bound(areas.begin(), areas.end(), random.uniform() * total);
+    const auto& face = mesh.triangles[static_cast<std::size_t>(place - areas.begin())];
+    const Eigen::Vector3d a = corner(face, 0);
+    const Eigen::Vector3d ab = corner(face, 1) - a;
+    const Eigen::Vector3d ac = corner(face, 2) - a;
+    const double root = std::sqrt(random.uniform());
+    const double part = random.uniform();
+    cloud.positions.push_back(a + root * ((1.0 - part) * ab + part * ac) +
+                              sigma_mm * random.normal() * ab.cross(ac).normalized());
+  }
+  return cloud;
 }
 
 std::filesystem::path trial_data() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -32,6 +33,11 @@ struct KnownSection {
 
 /// The sections named by the truth.json of a folder of the trial data: "shapes", "feet" or "lasts".
 std::vector<KnownSection> known_sections(const std::string& folder);
+
+/// Points spread evenly at random over the faces of a mesh, `sigma_mm` off along the face's normal;
+/// no normals are told.
+PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
+                     std::uint64_t seed);
 
 /// The folder of the trial data; it does not exist on every machine.
 std::filesystem::path trial_data();
