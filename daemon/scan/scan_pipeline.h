@@ -29,8 +29,8 @@ using ScanProgress = std::function<bool(std::string_view stage, double done)>;
 struct PipelineSettings {
   std::string station = "unnamed";
   double point_spacing_mm = 1.0;
-  bool refine_views = false;      ///< align the views to each other: for nominal camera poses
-  std::optional<Side> side;       ///< forced side; nothing = told from the shape
+  bool refine_views = false;  ///< align the views to each other: for nominal camera poses
+  std::optional<Side> side;   ///< forced side; nothing = told from the shape
 };
 
 /// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Pure

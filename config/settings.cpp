@@ -1,0 +1,41 @@
+#include "config/settings.h"
+
+#include <fmt/format.h>
+
+namespace instep {
+namespace {
+
+std::string describe_camera(const CameraSettings& camera,
+                            const SimulatedStationSettings& simulation) {
+  if (camera.kind == CameraKind::kRecording) return "the recording " + camera.path.string();
+  return fmt::format("{} simulated", simulation.cameras);
+}
+
+std::string describe_keeping(const StoreSettings& store) {
+  std::string text;
+  if (store.keep_days > 0) text += fmt::format(", kept for {} days", store.keep_days);
+  if (store.keep_count > 0) text += fmt::format(", at most {}", store.keep_count);
+  return text.empty() ? ", kept for ever" : text;
+}
+
+}  // namespace
+
+std::string describe(const Settings& settings) {
+  const auto& [station, capture, pedal, cameras, simulation, store, control, log] = settings;
+  std::string text = fmt::format("station  {}, points every {} mm, side {}\n", station.name,
+                                 station.point_spacing_mm,
+                                 station.side ? to_string(*station.side) : "told from the shape");
+  for (const auto& camera : cameras) {
+    text += fmt::format("cameras  {}\n", describe_camera(camera, simulation));
+  }
+  text += fmt::format("capture  {} frames of each camera after {} to warm up, within {} ms\n",
+                      capture.frames_per_camera, capture.warmup_frames, capture.deadline.count());
+  text += pedal.kind == PedalKind::kNone
+              ? "pedal    none\n"
+              : fmt::format("pedal    simulated, taps are written to {}\n", pedal.fifo.string());
+  text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
+  text += fmt::format("control  {}\n", control.socket.string());
+  return text;
+}
+
+}  // namespace instep

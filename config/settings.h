@@ -1,0 +1,97 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/foot/side.h"
+
+namespace instep {
+
+/// Everything that can be set about a station, with the values it has when nothing is said. A plain
+/// value; ranges stand beside each field and are checked by the loader (settings_file.h).
+
+struct StationSettings {
+  std::string name = "unnamed";  ///< written into every result; 1 to 64 characters
+  /// z of the standing surface in the station frame, -1000 to 1000. Nothing = as the cameras say.
+  std::optional<double> platform_height_mm;
+  double point_spacing_mm = 1.0;  ///< of the fused cloud, 0.2 to 10
+  bool refine_views = false;      ///< align the views to each other: for nominal camera poses
+  std::optional<Side> side;       ///< forced side; nothing = told from the shape
+};
+
+struct CaptureSettings {
+  int frames_per_camera = 15;                   ///< 1 to 120
+  int warmup_frames = 3;                        ///< dropped before the first one counts, 0 to 120
+  std::chrono::milliseconds deadline{5000};     ///< for the whole capture, 200 to 60000
+  std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 10000
+  std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
+};
+
+enum class PedalKind { kNone, kSimulated };
+
+struct PedalSettings {
+  PedalKind kind = PedalKind::kSimulated;
+  std::chrono::milliseconds debounce{30};            ///< 5 to 200
+  std::chrono::milliseconds hold_to_cancel{2000};    ///< 500 to 10000
+  std::filesystem::path fifo = "/run/instep/pedal";  ///< of the simulated pedal
+};
+
+/// Where depth frames come from. One source may bring several cameras.
+enum class CameraKind { kSimulated, kRecording };
+
+struct CameraSettings {
+  CameraKind kind = CameraKind::kSimulated;
+  std::filesystem::path path;  ///< of a recording: its folder
+};
+
+enum class SimulatedNoise { kNone, kTypical, kPessimistic };
+enum class SimulatedSubject { kFoot, kFeet, kCylinder, kLast };
+enum class SimulatedPacing { kRealTime, kAsFastAsPossible };
+
+struct SimulatedStationSettings {
+  std::uint64_t seed = 1;
+  SimulatedSubject subject = SimulatedSubject::kFoot;
+  Side side = Side::kRight;
+  int cameras = 4;      ///< 1 to 8
+  int width_px = 640;   ///< 64 to 1280
+  int height_px = 480;  ///< 48 to 960
+  SimulatedNoise noise = SimulatedNoise::kTypical;
+  SimulatedPacing pacing = SimulatedPacing::kRealTime;
+  std::filesystem::path fault_script;  ///< empty = nothing goes wrong
+};
+
+struct StoreSettings {
+  std::filesystem::path root = "/var/lib/instep/scans";
+  int keep_days = 0;   ///< older results are deleted, 0 (never) to 36500
+  int keep_count = 0;  ///< beyond this many the oldest are deleted, 0 (no limit) to 1000000
+};
+
+struct ControlSettings {
+  std::filesystem::path socket = "/run/instep/control.sock";  ///< at most 100 characters
+};
+
+enum class LogLevel { kDebug, kInfo, kWarning, kError };
+
+struct LogSettings {
+  LogLevel level = LogLevel::kInfo;
+};
+
+struct Settings {
+  StationSettings station;
+  CaptureSettings capture;
+  PedalSettings pedal;
+  std::vector<CameraSettings> cameras;  ///< 1 to 8
+  SimulatedStationSettings simulation;
+  StoreSettings store;
+  ControlSettings control;
+  LogSettings log;
+};
+
+/// What the settings say, as the lines that `instepd --check` prints.
+std::string describe(const Settings& settings);
+
+}  // namespace instep

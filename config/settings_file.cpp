@@ -1,0 +1,189 @@
+#include "config/settings_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "config/settings_table.h"
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kMostCameraSources = 8;
+
+const SettingsTable::Choices<Side> kSides = {{"left", Side::kLeft}, {"right", Side::kRight}};
+
+/// Reads the table [name] with `read_fields`, if it is there.
+template <typename ReadFields>
+void section(SettingsTable& root, const std::string& name, SettingsFaults& faults,
+             ReadFields read_fields) {
+  const toml::table* found = root.table(name);
+  if (found == nullptr) return;
+  SettingsTable table(*found, name, faults);
+  read_fields(table);
+  table.finish();
+}
+
+void read_station(SettingsTable& table, StationSettings& station) {
+  table.read("name", station.name, 64);
+  table.read("platform_height_mm", station.platform_height_mm, -1000, 1000);
+  table.read("point_spacing_mm", station.point_spacing_mm, 0.2, 10);
+  table.read("refine_views", station.refine_views);
+  table.choose("side", station.side,
+               {{"left", Side::kLeft}, {"right", Side::kRight}, {"auto", std::nullopt}});
+}
+
+void read_capture(SettingsTable& table, CaptureSettings& capture) {
+  table.read("frames_per_camera", capture.frames_per_camera, 1, 120);
+  table.read("warmup_frames", capture.warmup_frames, 0, 120);
+  table.read("deadline_ms", capture.deadline, 200, 60000);
+  table.read("frame_limit_ms", capture.frame_limit, 50, 10000);
+  table.read("check_every_s", capture.check_every, 1, 3600);
+}
+
+void read_pedal(SettingsTable& table, PedalSettings& pedal, const std::filesystem::path& base) {
+  table.choose("kind", pedal.kind,
+               {{"simulated", PedalKind::kSimulated}, {"none", PedalKind::kNone}});
+  table.read("debounce_ms", pedal.debounce, 5, 200);
+  table.read("hold_to_cancel_ms", pedal.hold_to_cancel, 500, 10000);
+  table.read("fifo", pedal.fifo, base);
+}
+
+CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& base,
+                           SettingsFaults& faults) {
+  CameraSettings camera;
+  table.choose("kind", camera.kind,
+               {{"simulated", CameraKind::kSimulated}, {"recording", CameraKind::kRecording}});
+  table.read("path", camera.path, base);
+  if (camera.kind == CameraKind::kRecording && camera.path.empty()) {
+    faults.add(table.line(), "camera.path is missing: name the folder of the recording");
+  }
+  table.finish();
+  return camera;
+}
+
+void read_simulation(SettingsTable& table, SimulatedStationSettings& simulation,
+                     const std::filesystem::path& base) {
+  table.read("seed", simulation.seed);
+  table.choose("subject", simulation.subject,
+               {{"foot", SimulatedSubject::kFoot},
+                {"feet", SimulatedSubject::kFeet},
+                {"cylinder", SimulatedSubject::kCylinder},
+                {"last", SimulatedSubject::kLast}});
+  table.choose("side", simulation.side, kSides);
+  table.read("cameras", simulation.cameras, 1, 8);
+  table.read("width_px", simulation.width_px, 64, 1280);
+  table.read("height_px", simulation.height_px, 48, 960);
+  table.choose("noise", simulation.noise,
+               {{"none", SimulatedNoise::kNone},
+                {"typical", SimulatedNoise::kTypical},
+                {"pessimistic", SimulatedNoise::kPessimistic}});
+  table.choose(
+      "pacing", simulation.pacing,
+      {{"real-time", SimulatedPacing::kRealTime}, {"fast", SimulatedPacing::kAsFastAsPossible}});
+  table.read("fault_script", simulation.fault_script, base);
+}
+
+void read_store(SettingsTable& table, StoreSettings& store, const std::filesystem::path& base) {
+  table.read("root", store.root, base);
+  table.read("keep_days", store.keep_days, 0, 36500);
+  table.read("keep_count", store.keep_count, 0, 1000000);
+}
+
+void read_log(SettingsTable& table, LogSettings& log) {
+  table.choose("level", log.level,
+               {{"debug", LogLevel::kDebug},
+                {"info", LogLevel::kInfo},
+                {"warning", LogLevel::kWarning},
+                {"error", LogLevel::kError}});
+}
+
+void read_cameras(SettingsTable& root, std::vector<CameraSettings>& cameras,
+                  const std::filesystem::path& base, SettingsFaults& faults) {
+  for (const toml::table* camera : root.tables("camera")) {
+    SettingsTable table(*camera, "camera", faults);
+    cameras.push_back(read_camera(table, base, faults));
+  }
+  if (cameras.empty()) {
+    faults.add(1, "there is no [[camera]]: add one, such as kind = \"simulated\"");
+  }
+  if (cameras.size() > kMostCameraSources) {
+    faults.add(1, fmt::format("there are {} [[camera]] tables, more than {}", cameras.size(),
+                              kMostCameraSources));
+  }
+}
+
+void check_socket(const toml::table& root, const ControlSettings& control, SettingsFaults& faults) {
+  constexpr std::size_t kLongestSocketPath = 100;
+  if (control.socket.native().size() <= kLongestSocketPath) return;
+  faults.add(root["control"]["socket"].node()->source().begin.line,
+             fmt::format("control.socket is longer than {} characters, the most that a Unix socket "
+                         "can be called",
+                         kLongestSocketPath));
+}
+
+void read_all(const toml::table& toml, const std::filesystem::path& base, Settings& settings,
+              SettingsFaults& faults) {
+  using Table = SettingsTable;
+  Table root(toml, "", faults);
+  section(root, "station", faults, [&](Table& table) { read_station(table, settings.station); });
+  section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
+  section(root, "pedal", faults, [&](Table& table) { read_pedal(table, settings.pedal, base); });
+  section(root, "simulation", faults,
+          [&](Table& table) { read_simulation(table, settings.simulation, base); });
+  section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });
+  section(root, "control", faults,
+          [&](Table& table) { table.read("socket", settings.control.socket, base); });
+  section(root, "log", faults, [&](Table& table) { read_log(table, settings.log); });
+  read_cameras(root, settings.cameras, base, faults);
+  check_socket(toml, settings.control, faults);
+  root.finish();
+}
+
+}  // namespace
+
+SettingsReading read_settings(std::string_view text, const std::filesystem::path& file) {
+  SettingsReading reading;
+  SettingsFaults faults(file.string());
+  try {
+    const toml::table toml = toml::parse(text, file.string());
+    read_all(toml, file.parent_path(), reading.settings, faults);
+  } catch (const toml::parse_error& error) {
+    faults.add(error.source().begin.line, std::string(error.description()));
+  }
+  reading.faults = faults.in_order();
+  return reading;
+}
+
+Result<Settings> load_settings(const std::filesystem::path& file) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(file, missing)) {
+    return fail(ErrorCode::kNotFound, "there is no settings file " + file.string(),
+                "name one with --config");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    const auto code = errno == EACCES ? ErrorCode::kPermissionDenied : ErrorCode::kIo;
+    return fail(code,
+                "the settings file " + file.string() + " cannot be opened: " + std::strerror(errno),
+                "let the user of the station read it");
+  }
+  std::string text(kLargestSettingsFile + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > kLargestSettingsFile) {
+    return fail(ErrorCode::kInvalidInput, "the settings file " + file.string() + " is far too long",
+                "check that it is a settings file");
+  }
+  SettingsReading reading = read_settings(text, std::filesystem::absolute(file));
+  if (reading.good()) return std::move(reading.settings);
+  std::string all;
+  for (const auto& fault : reading.faults) all += (all.empty() ? "" : "\n") + fault;
+  return fail(ErrorCode::kInvalidInput, all, "");
+}
+
+}  // namespace instep

@@ -1,0 +1,46 @@
+#include "config/settings_search.h"
+
+#include <cstdlib>
+#include <system_error>
+
+namespace instep {
+
+std::vector<std::filesystem::path> settings_candidates(const SettingsPlaces& places,
+                                                       const Environment& environment) {
+  if (places.asked) return {*places.asked};
+  if (const auto named = environment("INSTEP_CONFIG")) return {*named};
+  const auto prefix = places.binary_folder.parent_path();
+  return {"/etc/instep/instep.toml", prefix / "etc/instep/instep.toml",
+          prefix / "share/instep/instep.toml", places.source_folder / "config/instep.toml"};
+}
+
+Result<std::filesystem::path> find_settings(const SettingsPlaces& places,
+                                            const Environment& environment) {
+  std::string tried;
+  for (const auto& candidate : settings_candidates(places, environment)) {
+    std::error_code missing;
+    if (std::filesystem::is_regular_file(candidate, missing)) return candidate;
+    tried += (tried.empty() ? "" : ", ") + candidate.string();
+  }
+  return fail(ErrorCode::kNotFound, "there is no settings file at " + tried,
+              "name one with --config");
+}
+
+void override_paths(Settings& settings, const Environment& environment) {
+  if (const auto root = environment("INSTEP_STORE")) settings.store.root = *root;
+  if (const auto socket = environment("INSTEP_SOCKET")) settings.control.socket = *socket;
+  if (const auto fifo = environment("INSTEP_PEDAL")) settings.pedal.fifo = *fifo;
+}
+
+std::optional<std::string> process_environment(const char* name) {
+  const char* value = std::getenv(name);
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  return value;
+}
+
+std::filesystem::path running_program_folder() {
+  std::error_code failed;
+  return std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+}
+
+}  // namespace instep

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <chrono>
+#include <concepts>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace instep {
+
+/// Where the faults of one settings file gather, each with its line.
+class SettingsFaults {
+ public:
+  explicit SettingsFaults(std::string file) : file_(std::move(file)) {}
+
+  void add(unsigned line, const std::string& text) {
+    by_line_.emplace(line, file_ + ":" + std::to_string(line) + ": " + text);
+  }
+
+  std::vector<std::string> in_order() const;
+
+ private:
+  std::string file_;
+  std::multimap<unsigned, std::string> by_line_;
+};
+
+/// One table of a settings file, read field by field. A field that is absent keeps its value; one
+/// that is wrong leaves a fault. finish() reports the keys that nobody asked for.
+class SettingsTable {
+ public:
+  template <typename T>
+  using Choices = std::vector<std::pair<std::string, T>>;
+
+  SettingsTable(const toml::table& table, std::string name, SettingsFaults& faults)
+      : table_(table), name_(std::move(name)), faults_(faults) {}
+
+  void read(const std::string& key, bool& value);
+  void read(const std::string& key, std::string& value, std::size_t longest);
+  void read(const std::string& key, double& value, double least, double most);
+  void read(const std::string& key, std::optional<double>& value, double least, double most);
+  void read(const std::string& key, int& value, int least, int most);
+  void read(const std::string& key, std::uint64_t& value);
+  /// A relative path is taken from `base`.
+  void read(const std::string& key, std::filesystem::path& value,
+            const std::filesystem::path& base);
+
+  template <typename Period>
+  void read(const std::string& key, std::chrono::duration<std::int64_t, Period>& value, int least,
+            int most) {
+    int count = static_cast<int>(value.count());
+    read(key, count, least, most);
+    value = std::chrono::duration<std::int64_t, Period>(count);
+  }
+
+  template <typename T>
+  void choose(const std::string& key, T& value, const Choices<std::type_identity_t<T>>& choices) {
+    std::string word;
+    const toml::node* node = text(key, word);
+    if (node == nullptr) return;
+    for (const auto& [name, choice] : choices) {
+      if (name == word) {
+        value = choice;
+        return;
+      }
+    }
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.push_back(choice.first);
+    not_a_choice(*node, key, word, names);
+  }
+
+  /// The tables of [[key]], each with its line; empty if there is none.
+  std::vector<const toml::table*> tables(const std::string& key);
+  /// The table [key]; nullptr if there is none.
+  const toml::table* table(const std::string& key);
+
+  /// Call when all fields have been read.
+  void finish();
+
+  void fault(const toml::node& node, const std::string& text);
+  unsigned line() const { return table_.source().begin.line; }
+
+ private:
+  const toml::node* find(const std::string& key);
+  const toml::node* text(const std::string& key, std::string& value);
+  std::string full(const std::string& key) const;
+  void wrong_type(const toml::node& node, const std::string& key, const std::string& wanted);
+  void not_a_choice(const toml::node& node, const std::string& key, const std::string& word,
+                    const std::vector<std::string>& names);
+
+  const toml::table& table_;
+  std::string name_;
+  SettingsFaults& faults_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace instep

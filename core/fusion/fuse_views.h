@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fusion/close_sole.h"
+#include "core/fusion/deprojector.h"
+#include "core/fusion/depth_frame.h"
+#include "core/fusion/outliers.h"
+#include "core/fusion/platform.h"
+#include "core/fusion/registration.h"
+#include "core/fusion/separate_feet.h"
+#include "core/fusion/surface_points.h"
+#include "core/fusion/temporal_fusion.h"
+#include "core/fusion/thin.h"
+#include "core/geometry/point_cloud.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// What one camera saw.
+struct View {
+  CameraGeometry geometry;
+  FusedDepth depth;
+  /// The camera's rays, if the caller keeps them; else they are computed anew (2 to 20 ms).
+  std::shared_ptr<const Deprojector> rays;
+};
+
+struct FusionSettings {
+  double point_spacing_mm = 1.0;
+  std::optional<double> platform_height_mm;  ///< z of the standing surface, station frame
+  bool refine_views = false;                 ///< align the views to each other: nominal poses
+  bool close_soles = true;
+  double foot_ceiling_mm = 150.0;  ///< points higher above the platform are leg and are cut
+  /// Points further from the station's origin, in plan and in height, are background.
+  double region_radius_mm = 600.0;
+  double region_height_mm = 500.0;
+  double platform_clearance_mm = 1.0;  ///< points nearer than this, or 4 sigma, are platform
+
+  SurfaceSettings surface;
+  PlatformSettings platform;
+  RegistrationSettings registration;
+  OutlierSettings outliers;
+  SeparationSettings separation;
+  SoleSettings sole;
+};
+
+/// How the fusion went, in figures.
+struct FusionDiagnostics {
+  std::size_t views_used = 0;
+  std::size_t pixels = 0;           ///< with data, of all views
+  std::size_t flying_pixels = 0;    ///< dropped on silhouettes
+  std::size_t grazing_pixels = 0;   ///< dropped for their slant, or for want of a normal
+  std::size_t platform_pixels = 0;  ///< taken away with the platform
+  std::size_t outliers = 0;
+  std::size_t strays = 0;  ///< dropped as part of no foot
+  bool platform_found = false;
+  double platform_scatter_mm = 0.0;
+  double platform_tilt_deg = 0.0;
+  double registration_before_mm = 0.0;  ///< median distance between the views; 0 if not refined
+  double registration_after_mm = 0.0;
+  std::vector<std::size_t> points;           ///< of each foot, platform points not counted
+  std::vector<double> coverage;              ///< of each foot: share of directions round it seen
+  std::vector<std::size_t> platform_points;  ///< put under each foot
+};
+
+/// The feet on the platform. Station frame, levelled: z up, the standing plane level at z =
+/// standing_height_mm.
+struct FusedScene {
+  std::vector<PointCloud> feet;  ///< one or two, the larger first
+  double standing_height_mm = 0.0;
+  FusionDiagnostics diagnostics;
+  std::vector<std::string> warnings;
+};
+
+/// From one depth image a camera to the clouds of the feet, each with normals, sigma, view
+/// directions and origins. Pure computation on the calling thread; the same views give the same
+/// bytes.
+///
+/// Fails with kInvalidInput where a pose or lens is not sound or there is no view, kCorruptData
+/// where a depth image does not fit its camera, kInsufficientData where no camera saw anything or
+/// no foot stands there. A camera that saw nothing while others did is a warning.
+Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings = {});
+
+}  // namespace instep

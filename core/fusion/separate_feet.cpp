@@ -1,0 +1,243 @@
+#include "core/fusion/separate_feet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/geometry/point_index.h"
+#include "core/geometry/polygon.h"
+#include "core/geometry/rectangle.h"
+#include "core/geometry/voxel_grid.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kMostPieces = 40;      // the largest ones; the rest is small
+constexpr double kWidestFoot = 0.55;         // width over length
+constexpr double kFootLikeLengthMm = 120.0;  // a piece as long as this may be a foot by itself
+constexpr double kOutlineMarginMm = 6.0;     // a small piece may lie so far outside the outline
+constexpr double kSplitBandMm = 8.0;         // width of the strip that is searched for a waist
+constexpr double kLeastSplitShare = 0.25;    // of a piece on the smaller side of a split
+
+/// Connected cells, each standing for the points in it.
+struct Piece {
+  std::vector<Vector3d> cells;
+  std::vector<std::size_t> points;
+  double lowest_mm = std::numeric_limits<double>::infinity();
+
+  std::vector<Vector2d> hull() const {
+    std::vector<Vector2d> plan;
+    for (const auto& cell : cells) plan.push_back(cell.head<2>());
+    return convex_hull(std::move(plan));
+  }
+};
+
+Piece joined(const Piece& a, const Piece& b) {
+  Piece piece = a;
+  piece.cells.insert(piece.cells.end(), b.cells.begin(), b.cells.end());
+  piece.points.insert(piece.points.end(), b.points.begin(), b.points.end());
+  piece.lowest_mm = std::min(a.lowest_mm, b.lowest_mm);
+  return piece;
+}
+
+bool larger(const Piece& a, const Piece& b) {
+  return a.cells.size() > b.cells.size();
+}
+
+std::vector<Piece> find_pieces(const std::vector<Vector3d>& positions, double link_mm) {
+  const VoxelGrid grid(positions, link_mm);
+  const auto clusters = grid.clusters();
+  std::vector<Piece> pieces;
+  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+    if (clusters[cell] >= pieces.size()) pieces.resize(clusters[cell] + 1);
+    auto& piece = pieces[clusters[cell]];
+    Vector3d sum = Vector3d::Zero();
+    for (const std::uint32_t index : grid.members(cell)) {
+      sum += positions[index];
+      piece.points.push_back(index);
+      piece.lowest_mm = std::min(piece.lowest_mm, positions[index].z());
+    }
+    piece.cells.push_back(sum / static_cast<double>(grid.members(cell).size()));
+  }
+  std::stable_sort(pieces.begin(), pieces.end(), larger);
+  return pieces;
+}
+
+bool fits_a_foot(const Piece& piece, const SeparationSettings& settings) {
+  const auto sides = enclosing_rectangle(piece.hull());
+  return sides.length <= settings.most_length_mm && sides.width <= settings.most_width_mm;
+}
+
+double gap_between(const Piece& a, const Piece& b) {
+  const auto& [small, large] = a.cells.size() < b.cells.size() ? std::tie(a, b) : std::tie(b, a);
+  const PointIndex index(large.cells);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& cell : small.cells) {
+    least = std::min(least, index.nearest(cell, 1)[0].squared_distance);
+  }
+  return std::sqrt(least);
+}
+
+/// Whether two pieces can be parts of one foot.
+bool may_join(const Piece& a, const Piece& b, const SeparationSettings& settings) {
+  const Piece both = joined(a, b);
+  if (!fits_a_foot(both, settings)) return false;
+  const bool two_feet = enclosing_rectangle(a.hull()).length > kFootLikeLengthMm &&
+                        enclosing_rectangle(b.hull()).length > kFootLikeLengthMm;
+  const auto sides = enclosing_rectangle(both.hull());
+  return !two_feet || sides.width <= kWidestFoot * sides.length;
+}
+
+/// Joins the nearest two pieces that can be one foot, until none can.
+void join_pieces(std::vector<Piece>& pieces, const SeparationSettings& settings) {
+  for (;;) {
+    double least = settings.most_gap_mm;
+    std::optional<std::pair<std::size_t, std::size_t>> nearest;
+    for (std::size_t a = 0; a < pieces.size(); ++a) {
+      for (std::size_t b = a + 1; b < pieces.size(); ++b) {
+        const double gap = gap_between(pieces[a], pieces[b]);
+        if (gap >= least || !may_join(pieces[a], pieces[b], settings)) continue;
+        least = gap;
+        nearest = {a, b};
+      }
+    }
+    if (!nearest) return;
+    pieces[nearest->first] = joined(pieces[nearest->first], pieces[nearest->second]);
+    pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(nearest->second));
+  }
+}
+
+/// A line in plan: points with direction.dot(xy) < offset lie on its first side.
+struct SplitLine {
+  Vector2d direction;
+  double offset;
+};
+
+/// The line with the fewest cells near it that leaves a fair part on both sides.
+std::optional<SplitLine> thinnest_line(const Piece& piece) {
+  std::optional<SplitLine> best;
+  std::size_t fewest = piece.cells.size();
+  const auto share =
+      static_cast<std::size_t>(kLeastSplitShare * static_cast<double>(piece.cells.size()));
+  for (int degree = 0; degree < 180; degree += 5) {
+    const double angle = degree * std::numbers::pi / 180.0;
+    const Vector2d direction(std::cos(angle), std::sin(angle));
+    std::vector<double> offsets;
+    for (const auto& cell : piece.cells) offsets.push_back(direction.dot(cell.head<2>()));
+    std::sort(offsets.begin(), offsets.end());
+    for (std::size_t first = share; first + share < offsets.size(); ++first) {
+      const auto end =
+          std::upper_bound(offsets.begin(), offsets.end(), offsets[first] + kSplitBandMm);
+      const auto past = static_cast<std::size_t>(end - offsets.begin());
+      if (past + share > offsets.size() || past - first >= fewest) continue;
+      fewest = past - first;
+      best = SplitLine{direction, offsets[first] + 0.5 * kSplitBandMm};
+    }
+  }
+  return best;
+}
+
+/// Splits a piece that is too large for one foot. Points go by their own position.
+void split_piece(std::vector<Piece>& pieces, std::size_t at,
+                 const std::vector<Vector3d>& positions) {
+  const auto line = thinnest_line(pieces[at]);
+  if (!line) return;
+  std::array<Piece, 2> sides;
+  const auto side_of = [&](const Vector3d& point) -> Piece& {
+    return sides[line->direction.dot(point.head<2>()) < line->offset ? 0 : 1];
+  };
+  for (const auto& cell : pieces[at].cells) side_of(cell).cells.push_back(cell);
+  for (const std::size_t index : pieces[at].points) {
+    auto& side = side_of(positions[index]);
+    side.points.push_back(index);
+    side.lowest_mm = std::min(side.lowest_mm, positions[index].z());
+  }
+  pieces[at] = std::move(sides[0]);
+  pieces.push_back(std::move(sides[1]));
+}
+
+bool inside_outline(const std::vector<Vector2d>& hull, const Vector2d& point) {
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    const Vector2d offset = point - hull[i];
+    if (edge.x() * offset.y() - edge.y() * offset.x() < -kOutlineMarginMm) return false;
+  }
+  return true;
+}
+
+/// Gives the small pieces to the foot whose outline they lie in.
+void adopt(std::vector<Piece>& feet, const std::vector<Piece>& small) {
+  std::vector<std::vector<Vector2d>> hulls;
+  for (const auto& foot : feet) hulls.push_back(foot.hull());
+  for (const auto& piece : small) {
+    Vector2d middle = Vector2d::Zero();
+    for (const auto& cell : piece.cells) middle += cell.head<2>();
+    middle /= static_cast<double>(piece.cells.size());
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (!inside_outline(hulls[i], middle)) continue;
+      feet[i].points.insert(feet[i].points.end(), piece.points.begin(), piece.points.end());
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double standing_height_mm,
+                            const SeparationSettings& settings) {
+  SeparatedFeet separated;
+  auto pieces = find_pieces(positions, settings.link_mm);
+  if (pieces.empty()) return separated;
+  const auto is_small = [&](const Piece& piece) {
+    return static_cast<double>(piece.cells.size()) <
+           0.02 * static_cast<double>(pieces.front().cells.size());
+  };
+  std::vector<Piece> large;
+  std::vector<Piece> small;
+  for (const auto& piece : pieces) {
+    (large.size() < kMostPieces && !is_small(piece) ? large : small).push_back(piece);
+  }
+  for (std::size_t i = 0, count = large.size(); i < count; ++i) {
+    if (!fits_a_foot(large[i], settings)) split_piece(large, i, positions);
+  }
+  join_pieces(large, settings);
+  std::stable_sort(large.begin(), large.end(), larger);
+
+  std::vector<Piece> feet;
+  for (auto& piece : large) {
+    const bool stands = piece.lowest_mm < standing_height_mm + settings.stands_below_mm;
+    const bool long_enough = enclosing_rectangle(piece.hull()).length >= settings.least_length_mm;
+    const bool fair =
+        feet.empty() || static_cast<double>(piece.cells.size()) >=
+                            settings.least_share * static_cast<double>(feet.front().cells.size());
+    if (stands && long_enough && fair) {
+      feet.push_back(std::move(piece));
+    } else {
+      small.push_back(std::move(piece));
+    }
+  }
+  if (feet.size() > 2) {
+    separated.warnings.push_back(
+        "more than two foot-like things stand on the platform; the two largest are taken");
+    feet.resize(2);
+  }
+  adopt(feet, small);
+  std::size_t kept = 0;
+  for (auto& foot : feet) {
+    if (!fits_a_foot(foot, settings)) {
+      separated.warnings.push_back("something larger than a foot stands on the platform");
+    }
+    std::sort(foot.points.begin(), foot.points.end());
+    kept += foot.points.size();
+    separated.feet.push_back(std::move(foot.points));
+  }
+  separated.strays = positions.size() - kept;
+  return separated;
+}
+
+}  // namespace instep

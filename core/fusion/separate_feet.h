@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace instep {
+
+/// What a foot looks like from above, and how far apart its pieces may lie.
+struct SeparationSettings {
+  double link_mm = 4.0;  ///< points within about this (up to twice) belong together
+  double most_length_mm = 350.0;
+  double most_width_mm = 155.0;
+  double least_length_mm = 90.0;
+  double most_gap_mm = 40.0;      ///< between two pieces of one foot, where no camera saw between
+  double stands_below_mm = 45.0;  ///< a foot comes this near to the platform; a leg alone does not
+  double least_share = 0.15;      ///< of the larger foot's surface that the other one must have
+};
+
+struct SeparatedFeet {
+  std::vector<std::vector<std::size_t>> feet;  ///< indices of points, ascending; larger foot first
+  std::size_t strays = 0;                      ///< points that belong to no foot
+  std::vector<std::string> warnings;
+};
+
+/// Tells one or two feet from each other and from what is left of legs, background and floor.
+/// `positions` are in the station frame, z up, without platform.
+///
+/// Points that touch form pieces; pieces are joined, nearest first, as long as the joined one still
+/// fits into a foot's rectangle (and two pieces that look like feet are never joined side by side);
+/// a piece too wide for a foot is split where it is thinnest. Then small pieces go to the foot
+/// whose outline they lie in, and everything else is stray. No foot gives an empty list.
+SeparatedFeet separate_feet(const std::vector<Eigen::Vector3d>& positions,
+                            double standing_height_mm, const SeparationSettings& settings = {});
+
+}  // namespace instep

@@ -1,0 +1,102 @@
+#include "core/geometry/voxel_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace instep {
+namespace {
+
+constexpr std::int64_t kHalf = 1 << 20;  // 21 bits an axis
+constexpr std::int64_t kSpan = 1 << 21;
+
+std::uint64_t axis_number(double coordinate, double cell_mm) {
+  const double cell = std::floor(coordinate / cell_mm);
+  const double bounded =
+      std::clamp(cell, static_cast<double>(2 - kHalf), static_cast<double>(kHalf - 2));
+  return static_cast<std::uint64_t>(static_cast<std::int64_t>(bounded) + kHalf);
+}
+
+/// z counts in the lowest bits, so that cells above each other follow each other.
+std::uint64_t key_of(const Eigen::Vector3d& point, double cell_mm) {
+  constexpr auto kStep = static_cast<std::uint64_t>(kSpan);
+  return (axis_number(point.x(), cell_mm) * kStep + axis_number(point.y(), cell_mm)) * kStep +
+         axis_number(point.z(), cell_mm);
+}
+
+std::size_t root_of(std::vector<std::size_t>& parents, std::size_t cell) {
+  while (parents[cell] != cell) {
+    parents[cell] = parents[parents[cell]];
+    cell = parents[cell];
+  }
+  return cell;
+}
+
+}  // namespace
+
+VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    order[i] = {key_of(points[i], cell_mm), static_cast<std::uint32_t>(i)};
+  }
+  std::sort(order.begin(), order.end());
+  members_.reserve(order.size());
+  for (const auto& [key, index] : order) {
+    if (keys_.empty() || keys_.back() != key) {
+      keys_.push_back(key);
+      begins_.push_back(static_cast<std::uint32_t>(members_.size()));
+    }
+    members_.push_back(index);
+  }
+  begins_.push_back(static_cast<std::uint32_t>(members_.size()));
+}
+
+std::span<const std::uint32_t> VoxelGrid::members(std::size_t cell) const {
+  return {members_.data() + begins_[cell], members_.data() + begins_[cell + 1]};
+}
+
+std::vector<std::size_t> VoxelGrid::neighbourhood(std::size_t cell) const {
+  std::vector<std::size_t> found;
+  for (std::int64_t dx = -1; dx <= 1; ++dx) {
+    for (std::int64_t dy = -1; dy <= 1; ++dy) {
+      const auto shift = static_cast<std::uint64_t>((dx * kSpan + dy) * kSpan - 1);
+      const std::uint64_t lowest = keys_[cell] + shift;
+      auto it = std::lower_bound(keys_.begin(), keys_.end(), lowest);
+      for (; it != keys_.end() && *it <= lowest + 2; ++it) {
+        found.push_back(static_cast<std::size_t>(it - keys_.begin()));
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<std::size_t> VoxelGrid::clusters() const {
+  std::vector<std::size_t> parents(cell_count());
+  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+    for (const std::size_t other : neighbourhood(cell)) {
+      if (other >= cell) break;
+      const std::size_t a = root_of(parents, cell);
+      const std::size_t b = root_of(parents, other);
+      parents[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::vector<std::size_t> numbers(cell_count());
+  std::size_t count = 0;
+  for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+    const std::size_t root = root_of(parents, cell);
+    numbers[cell] = root == cell ? count++ : numbers[root];
+  }
+  return numbers;
+}
+
+std::vector<std::size_t> VoxelGrid::clusters_of_points() const {
+  const auto of_cell = clusters();
+  std::vector<std::size_t> of_point(members_.size());
+  for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+    for (const std::uint32_t index : members(cell)) of_point[index] = of_cell[cell];
+  }
+  return of_point;
+}
+
+}  // namespace instep

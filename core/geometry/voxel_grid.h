@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace instep {
+
+/// Points sorted into cubic cells: who shares a cell, which cells touch. Finds crowds and clusters
+/// far quicker than a search tree, where the answer need not be finer than a cell.
+///
+/// Only occupied cells are kept, in a fixed order that depends on the points alone. Coordinates
+/// must be finite; those beyond a million cells from the origin are put into the outermost cell.
+/// Building costs one sort. Read-only afterwards.
+class VoxelGrid {
+ public:
+  /// `cell_mm` > 0.
+  VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm);
+
+  std::size_t cell_count() const { return keys_.size(); }
+
+  /// Indices of the points in a cell, ascending.
+  std::span<const std::uint32_t> members(std::size_t cell) const;
+
+  /// The occupied cells among a cell and the 26 round it, the cell itself included, ascending.
+  std::vector<std::size_t> neighbourhood(std::size_t cell) const;
+
+  /// For each cell the number of its cluster: cells that touch, by face, edge or corner, are of
+  /// one cluster. Clusters are numbered from zero by their first cell.
+  std::vector<std::size_t> clusters() const;
+
+  /// The same for each point.
+  std::vector<std::size_t> clusters_of_points() const;
+
+ private:
+  std::vector<std::uint64_t> keys_;     ///< of occupied cells, ascending
+  std::vector<std::uint32_t> begins_;   ///< first member of each cell, and the end of the last
+  std::vector<std::uint32_t> members_;  ///< point indices, cell by cell
+};
+
+}  // namespace instep

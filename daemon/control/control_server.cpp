@@ -1,0 +1,165 @@
+#include "daemon/control/control_server.h"
+
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <utility>
+#include <vector>
+
+#include "daemon/control/unix_socket.h"
+
+namespace instep {
+
+ControlServer::Connection::~Connection() {
+  watch = {};
+  if (descriptor >= 0) ::close(descriptor);
+}
+
+Result<std::unique_ptr<ControlServer>> ControlServer::listen(EventLoop& loop,
+                                                             const std::filesystem::path& socket,
+                                                             Handler handler) {
+  std::unique_ptr<ControlServer> server(new ControlServer(loop, socket, std::move(handler)));
+  if (const auto opened = server->open(); !opened) return tl::make_unexpected(opened.error());
+  return server;
+}
+
+Result<void> ControlServer::open() {
+  const auto descriptor = listen_on_unix_socket(socket_);
+  if (!descriptor) return tl::make_unexpected(descriptor.error());
+  descriptor_ = *descriptor;
+  watch_ = loop_.watch(descriptor_, EPOLLIN, [this](std::uint32_t) { accept(); });
+  return {};
+}
+
+ControlServer::~ControlServer() {
+  if (descriptor_ < 0) return;
+  connections_.clear();
+  watch_ = {};
+  ::close(descriptor_);
+  ::unlink(socket_.c_str());
+}
+
+void ControlServer::accept() {
+  const int descriptor = ::accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (descriptor < 0) return;
+  auto connection = std::make_shared<Connection>();
+  connection->descriptor = descriptor;
+  if (connections_.size() >= kMostClients) {
+    const std::string line =
+        error_answer({ErrorCode::kBusy, Remedy::kRetry, "too many programs talk to the daemon",
+                      "close some and try again"}) +
+        "\n";
+    [[maybe_unused]] const auto sent = ::send(descriptor, line.data(), line.size(), MSG_NOSIGNAL);
+    return;
+  }
+  const Client client = next_client_++;
+  connection->watch = loop_.watch(descriptor, EPOLLIN,
+                                  [this, client](std::uint32_t events) { ready(client, events); });
+  connections_.emplace(client, std::move(connection));
+}
+
+void ControlServer::ready(Client client, std::uint32_t events) {
+  const auto found = connections_.find(client);
+  if (found == connections_.end()) return;
+  const auto connection = found->second;
+  const bool stays = ((events & EPOLLOUT) == 0 || flush(*connection)) &&
+                     ((events & (EPOLLIN | EPOLLHUP | EPOLLERR)) == 0 || read(client));
+  if (!stays) drop(client);
+}
+
+bool ControlServer::read(Client client) {
+  auto& connection = *connections_.at(client);
+  std::array<char, kLongestRequest> block;
+  const auto got = ::recv(connection.descriptor, block.data(), block.size(), 0);
+  if (got < 0) return errno == EAGAIN || errno == EINTR;
+  if (got == 0) return false;
+  connection.input.append(block.data(), static_cast<std::size_t>(got));
+  return take_lines(client);
+}
+
+bool ControlServer::take_lines(Client client) {
+  while (true) {
+    const auto found = connections_.find(client);
+    if (found == connections_.end()) return false;
+    auto& connection = *found->second;
+    const auto end = connection.input.find('\n');
+    if (std::min(end, connection.input.size()) > kLongestRequest) {
+      send(client, error_answer({ErrorCode::kInvalidInput, Remedy::kOperator,
+                                 "the request is too long", "send short lines"}));
+      return false;
+    }
+    if (end == std::string::npos) return true;
+    const std::string line = connection.input.substr(0, end);
+    connection.input.erase(0, end + 1);
+    if (++connection.open_requests > kMostOpenRequests) return false;
+    if (const auto request = parse_request(line)) {
+      handler_(client, *request);
+    } else {
+      answer(client, error_answer(request.error()));
+    }
+  }
+}
+
+void ControlServer::answer(Client client, const std::string& line) {
+  const auto found = connections_.find(client);
+  if (found == connections_.end()) return;
+  if (found->second->open_requests > 0) --found->second->open_requests;
+  send(client, line);
+}
+
+void ControlServer::send(Client client, const std::string& line) {
+  const auto found = connections_.find(client);
+  if (found == connections_.end()) return;
+  auto& connection = *found->second;
+  connection.output += line;
+  connection.output += '\n';
+  if (!flush(connection) || connection.output.size() > kMostUnreadBytes) drop(client);
+}
+
+bool ControlServer::flush(Connection& connection) {
+  std::size_t done = 0;
+  while (done < connection.output.size()) {
+    const auto sent = ::send(connection.descriptor, connection.output.data() + done,
+                             connection.output.size() - done, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0 && errno != EAGAIN) return false;
+    if (sent < 0) break;
+    done += static_cast<std::size_t>(sent);
+  }
+  connection.output.erase(0, done);
+  connection.watch.set_events(connection.output.empty() ? EPOLLIN : EPOLLIN | EPOLLOUT);
+  return true;
+}
+
+void ControlServer::add_watcher(Client client) {
+  if (const auto found = connections_.find(client); found != connections_.end()) {
+    found->second->watches = true;
+  }
+}
+
+void ControlServer::send_event(Client client, const std::string& line) {
+  send(client, line);
+}
+
+void ControlServer::broadcast(const std::string& line) {
+  std::vector<Client> watchers;
+  for (const auto& [client, connection] : connections_) {
+    if (connection->watches) watchers.push_back(client);
+  }
+  for (const Client client : watchers) send(client, line);
+}
+
+bool ControlServer::has_watchers() const {
+  return std::any_of(connections_.begin(), connections_.end(),
+                     [](const auto& one) { return one.second->watches; });
+}
+
+void ControlServer::drop(Client client) {
+  connections_.erase(client);
+}
+
+}  // namespace instep

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/result.h"
+#include "daemon/control/protocol.h"
+#include "daemon/loop/event_loop.h"
+
+namespace instep {
+
+/// The listening end of the local protocol (protocol.h), on the event loop; never blocks. Clients
+/// cannot hurt it: their number, the length of their lines, the requests they may have open and the
+/// unread output they may pile up are bounded, and who goes beyond is disconnected.
+class ControlServer {
+ public:
+  using Client = std::uint64_t;
+  static constexpr std::size_t kMostClients = 32;
+  static constexpr std::size_t kMostUnreadBytes = 20 * 1024 * 1024;
+  static constexpr std::size_t kMostOpenRequests = 64;
+
+  /// A sound request; answer() it once, now or later.
+  using Handler = std::function<void(Client, const Request&)>;
+
+  /// Takes over a stale socket. Fails with kBusy if another daemon answers on it, and with
+  /// kPermissionDenied, kNotFound or kIo if it cannot be made.
+  static Result<std::unique_ptr<ControlServer>> listen(EventLoop& loop,
+                                                       const std::filesystem::path& socket,
+                                                       Handler handler);
+  /// Removes the socket.
+  ~ControlServer();
+  ControlServer(const ControlServer&) = delete;
+  ControlServer& operator=(const ControlServer&) = delete;
+
+  /// Lines without their end. A client that has gone is passed over.
+  void answer(Client client, const std::string& line);
+  /// From now on the client gets every event.
+  void add_watcher(Client client);
+  void send_event(Client client, const std::string& line);
+  void broadcast(const std::string& line);
+  bool has_watchers() const;
+
+ private:
+  struct Connection {
+    int descriptor = -1;
+    EventLoop::Watch watch;
+    std::string input;
+    std::string output;
+    std::size_t open_requests = 0;
+    bool watches = false;
+    ~Connection();
+  };
+
+  ControlServer(EventLoop& loop, std::filesystem::path socket, Handler handler)
+      : loop_(loop), socket_(std::move(socket)), handler_(std::move(handler)) {}
+  Result<void> open();
+  void accept();
+  void ready(Client client, std::uint32_t events);
+  /// False if the client has to go.
+  bool read(Client client);
+  bool take_lines(Client client);
+  void send(Client client, const std::string& line);
+  bool flush(Connection& connection);
+  void drop(Client client);
+
+  EventLoop& loop_;
+  std::filesystem::path socket_;
+  Handler handler_;
+  int descriptor_ = -1;
+  EventLoop::Watch watch_;
+  Client next_client_ = 1;
+  std::map<Client, std::shared_ptr<Connection>> connections_;
+};
+
+}  // namespace instep

@@ -1,0 +1,132 @@
+#include "daemon/control/protocol.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+
+struct Verb {
+  const char* name;
+  bool needs_id;
+  bool takes_latest;
+};
+
+constexpr std::array<Verb, 8> kVerbs = {{{"scan", false, false},
+                                         {"cancel", false, false},
+                                         {"status", false, false},
+                                         {"watch", false, false},
+                                         {"list", false, false},
+                                         {"show", true, true},
+                                         {"export", true, true},
+                                         {"delete", true, false}}};
+
+tl::unexpected<Error> refused(const std::string& message) {
+  return fail(ErrorCode::kInvalidInput, message,
+              "send one JSON object a line, such as {\"verb\": \"status\"}");
+}
+
+/// Text from outside may hold bytes that are no UTF-8: they are replaced, never thrown about.
+std::string dump(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string with(const json& content, const char* key, const json& value) {
+  json object = content.is_object() ? content : json::object();
+  object[key] = value;
+  return dump(object);
+}
+
+ErrorCode code_from(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(ErrorCode::kInternal); ++i) {
+    if (name == to_string(static_cast<ErrorCode>(i))) return static_cast<ErrorCode>(i);
+  }
+  return ErrorCode::kInternal;
+}
+
+}  // namespace
+
+Result<Request> parse_request(std::string_view line) {
+  const json request = json::parse(line, nullptr, false);
+  if (!request.is_object()) return refused("the request is not a JSON object");
+  for (const auto& [key, value] : request.items()) {
+    if (key != "verb" && key != "id") return refused("the request has an unknown key");
+    if (!value.is_string()) return refused("\"" + key + "\" must be text");
+  }
+  Request parsed{request.value("verb", ""), request.value("id", "")};
+  const auto* verb = std::find_if(kVerbs.begin(), kVerbs.end(),
+                                  [&](const Verb& one) { return parsed.verb == one.name; });
+  if (verb == kVerbs.end()) return refused("there is no such verb");
+  if (verb->needs_id && parsed.id.empty()) return refused(parsed.verb + " needs an \"id\"");
+  if (!verb->needs_id && !parsed.id.empty()) return refused(parsed.verb + " takes no \"id\"");
+  if (parsed.id == "latest" && !verb->takes_latest) {
+    return refused(parsed.verb + " needs the id itself, not \"latest\"");
+  }
+  return parsed;
+}
+
+std::string ok_answer(const json& content) {
+  return with(content, "ok", true);
+}
+
+std::string error_answer(const Error& error) {
+  return dump({{"ok", false}, {"error", to_json(error)}});
+}
+
+std::string event_line(const char* event, const json& content) {
+  return with(content, "event", event);
+}
+
+json to_json(const Error& error) {
+  return {{"code", to_string(error.code)},
+          {"remedy", to_string(error.remedy)},
+          {"message", error.message},
+          {"advice", error.advice}};
+}
+
+json to_json(const StationStatus& status) {
+  json cameras = json::array();
+  for (const auto& camera : status.cameras) {
+    cameras.push_back({{"id", camera.id},
+                       {"model", camera.model},
+                       {"ok", !camera.trouble.has_value()},
+                       {"trouble", camera.trouble ? camera.trouble->line() : ""}});
+  }
+  return {{"state", to_string(status.state)},
+          {"trouble", status.trouble},
+          {"stage", status.stage},
+          {"done", status.done},
+          {"cameras", cameras},
+          {"scans", status.scans},
+          {"ignored_presses", status.ignored_presses},
+          {"last_result", status.last_result}};
+}
+
+json to_json(const std::vector<StoredResult>& results) {
+  json scans = json::array();
+  for (const auto& result : results) {
+    scans.push_back(
+        {{"id", result.id}, {"folder", result.folder.string()}, {"side", to_string(result.side)}});
+  }
+  return {{"scans", scans}};
+}
+
+Result<void> answer_outcome(const json& answer) {
+  if (!answer.is_object()) {
+    return fail(ErrorCode::kCorruptData, "the daemon's answer cannot be understood",
+                "check that instep and instepd are of the same version");
+  }
+  if (answer.value("ok", json(false)) == json(true)) return {};
+  const json error = answer.value("error", json::object());
+  const auto text = [&](const char* key) {
+    return error.is_object() && error.contains(key) && error[key].is_string()
+               ? error[key].get<std::string>()
+               : std::string();
+  };
+  return fail(code_from(text("code")), text("message"), text("advice"));
+}
+
+}  // namespace instep

@@ -1,0 +1,186 @@
+#include "daemon/loop/event_loop.h"
+
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <systemd/sd-event.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <utility>
+
+namespace instep {
+namespace {
+
+Error refused(int negative_errno) {
+  return Error{ErrorCode::kIo, Remedy::kOperator,
+               std::string("the event loop fails: ") + std::strerror(-negative_errno),
+               "check the limits on open files and memory"};
+}
+
+std::uint64_t microseconds(std::chrono::nanoseconds time) {
+  const auto rounded_up = std::chrono::ceil<std::chrono::microseconds>(time).count();
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(0, rounded_up));
+}
+
+}  // namespace
+
+/// What other threads have posted, and the eventfd that tells of it.
+struct EventLoop::Mailbox {
+  int descriptor = -1;
+  std::mutex mutex;
+  std::vector<std::function<void()>> tasks;
+  bool closed = false;
+
+  ~Mailbox() {
+    if (descriptor >= 0) ::close(descriptor);
+  }
+
+  void put(std::function<void()> task) {
+    const std::lock_guard lock(mutex);
+    if (closed) return;
+    tasks.push_back(std::move(task));
+    const std::uint64_t one = 1;
+    // A full counter already rings; there is nothing else that this write could fail of.
+    [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
+  }
+
+  std::vector<std::function<void()>> take() {
+    const std::lock_guard lock(mutex);
+    std::uint64_t count = 0;
+    [[maybe_unused]] const auto got = ::read(descriptor, &count, sizeof count);
+    return std::exchange(tasks, {});
+  }
+};
+
+struct EventLoop::SignalHandler {
+  sd_event_source* source = nullptr;
+  std::function<void()> on_signal;
+  ~SignalHandler() { sd_event_source_disable_unref(source); }
+};
+
+struct EventLoop::Watch::State {
+  sd_event_source* source = nullptr;
+  std::function<void(std::uint32_t)> on_ready;
+  ~State() { sd_event_source_disable_unref(source); }
+};
+
+struct EventLoop::Timer::State {
+  sd_event_source* source = nullptr;
+  std::function<void()> on_time;
+  ~State() { sd_event_source_disable_unref(source); }
+};
+
+Result<std::unique_ptr<EventLoop>> EventLoop::create() {
+  std::unique_ptr<EventLoop> loop(new EventLoop);
+  if (const int failed = sd_event_new(&loop->event_); failed < 0) {
+    return tl::make_unexpected(refused(failed));
+  }
+  loop->mailbox_ = std::make_shared<Mailbox>();
+  loop->mailbox_->descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  if (loop->mailbox_->descriptor < 0) return tl::make_unexpected(refused(-errno));
+  const std::weak_ptr<Mailbox> weak = loop->mailbox_;
+  loop->mail_watch_ = loop->watch(loop->mailbox_->descriptor, EPOLLIN, [weak](std::uint32_t) {
+    const auto mailbox = weak.lock();
+    if (!mailbox) return;
+    for (auto& task : mailbox->take()) task();
+  });
+  return loop;
+}
+
+EventLoop::~EventLoop() {
+  if (mailbox_) {
+    const std::lock_guard lock(mailbox_->mutex);
+    mailbox_->closed = true;
+    mailbox_->tasks.clear();
+  }
+  signal_handlers_.clear();
+  mail_watch_ = {};
+  sd_event_unref(event_);
+}
+
+Result<void> EventLoop::run() {
+  const int failed = sd_event_loop(event_);
+  if (failed < 0) return tl::make_unexpected(refused(failed));
+  return {};
+}
+
+void EventLoop::leave() {
+  sd_event_exit(event_, 0);
+}
+
+EventLoop::Post EventLoop::poster() const {
+  return [mailbox = mailbox_](std::function<void()> task) { mailbox->put(std::move(task)); };
+}
+
+EventLoop::Watch EventLoop::watch(int descriptor, std::uint32_t events,
+                                  std::function<void(std::uint32_t)> on_ready) {
+  Watch watch;
+  watch.state_ = std::make_shared<Watch::State>();
+  watch.state_->on_ready = std::move(on_ready);
+  const auto ring = [](sd_event_source*, int, std::uint32_t ready, void* user) {
+    // A callback may drop the very watch that called it: its copy keeps it whole until the end.
+    const auto callback = static_cast<Watch::State*>(user)->on_ready;
+    callback(ready);
+    return 0;
+  };
+  sd_event_add_io(event_, &watch.state_->source, descriptor, events, ring, watch.state_.get());
+  return watch;
+}
+
+void EventLoop::Watch::set_events(std::uint32_t events) {
+  if (state_) sd_event_source_set_io_events(state_->source, events);
+}
+
+EventLoop::Timer EventLoop::timer(std::function<void()> on_time) {
+  Timer timer;
+  timer.state_ = std::make_shared<Timer::State>();
+  timer.state_->on_time = std::move(on_time);
+  const auto ring = [](sd_event_source*, std::uint64_t, void* user) {
+    const auto callback = static_cast<Timer::State*>(user)->on_time;
+    callback();
+    return 0;
+  };
+  constexpr std::uint64_t kAccuracy = 1000;
+  sd_event_add_time(event_, &timer.state_->source, CLOCK_MONOTONIC, 0, kAccuracy, ring,
+                    timer.state_.get());
+  timer.clear();
+  return timer;
+}
+
+void EventLoop::Timer::set(std::chrono::nanoseconds from_now) {
+  set_at(monotonic_now() + from_now);
+}
+
+void EventLoop::Timer::set_at(std::chrono::nanoseconds monotonic_time) {
+  if (!state_) return;
+  sd_event_source_set_time(state_->source, microseconds(monotonic_time));
+  sd_event_source_set_enabled(state_->source, SD_EVENT_ONESHOT);
+}
+
+void EventLoop::Timer::clear() {
+  if (state_) sd_event_source_set_enabled(state_->source, SD_EVENT_OFF);
+}
+
+Result<void> EventLoop::on_signal(int signal, std::function<void()> on_signal) {
+  auto handler = std::make_unique<SignalHandler>();
+  handler->on_signal = std::move(on_signal);
+  const auto ring = [](sd_event_source*, const struct signalfd_siginfo*, void* user) {
+    static_cast<SignalHandler*>(user)->on_signal();
+    return 0;
+  };
+  const int failed = sd_event_add_signal(event_, &handler->source, signal, ring, handler.get());
+  if (failed < 0) return tl::make_unexpected(refused(failed));
+  signal_handlers_.push_back(std::move(handler));
+  return {};
+}
+
+std::chrono::nanoseconds EventLoop::monotonic_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+}
+
+}  // namespace instep

@@ -1,0 +1,87 @@
+#include "daemon/loop/task_thread.h"
+
+#include <pthread.h>
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <utility>
+
+namespace instep {
+
+struct TaskThread::Shared {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::deque<Task> tasks;
+  bool running = false;
+  bool stopping = false;
+  bool ended = false;
+  TaskProgress progress;
+};
+
+TaskThread::TaskThread(const std::string& name) : shared_(std::make_shared<Shared>()) {
+  thread_ = std::thread([shared = shared_] { run(shared); });
+  pthread_setname_np(thread_.native_handle(), name.substr(0, 15).c_str());
+}
+
+TaskThread::~TaskThread() {
+  stop(std::chrono::seconds(1));
+}
+
+void TaskThread::run(const std::shared_ptr<Shared>& shared) {
+  std::unique_lock lock(shared->mutex);
+  while (true) {
+    shared->changed.wait(lock, [&] { return shared->stopping || !shared->tasks.empty(); });
+    if (shared->stopping) break;
+    {
+      const Task task = std::move(shared->tasks.front());
+      shared->tasks.pop_front();
+      shared->running = true;
+      lock.unlock();
+      shared->progress.step();
+      task(shared->progress);
+      shared->progress.step();
+    }
+    lock.lock();
+    shared->running = false;
+  }
+  shared->ended = true;
+  shared->changed.notify_all();
+}
+
+void TaskThread::post(Task task) {
+  const std::lock_guard lock(shared_->mutex);
+  if (shared_->stopping) return;
+  shared_->tasks.push_back(std::move(task));
+  shared_->changed.notify_all();
+}
+
+bool TaskThread::stop(std::chrono::milliseconds limit) {
+  if (!thread_.joinable()) return true;
+  std::deque<Task> dropped;
+  bool ended = false;
+  {
+    std::unique_lock lock(shared_->mutex);
+    shared_->stopping = true;
+    dropped.swap(shared_->tasks);
+    shared_->changed.notify_all();
+    ended = shared_->changed.wait_for(lock, limit, [&] { return shared_->ended; });
+  }
+  if (ended) {
+    thread_.join();
+  } else {
+    thread_.detach();
+  }
+  return ended;
+}
+
+bool TaskThread::is_busy() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->running || !shared_->tasks.empty();
+}
+
+std::uint64_t TaskThread::progress() const {
+  return shared_->progress.steps();
+}
+
+}  // namespace instep

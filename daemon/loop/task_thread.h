@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace instep {
+
+/// Counts the steps of a task, so that the watchdog can tell a long one from a hung one.
+class TaskProgress {
+ public:
+  void step() { steps_.fetch_add(1, std::memory_order_relaxed); }
+  std::uint64_t steps() const { return steps_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<std::uint64_t> steps_{0};
+};
+
+/// One thread that does tasks in the order they are posted. A task that never ends cannot be
+/// stopped in C++; it is left behind, with what it holds, and the thread is told to be hung by
+/// is_busy() and a progress that stands still. So tasks own, by shared_ptr, whatever they touch.
+class TaskThread {
+ public:
+  using Task = std::function<void(TaskProgress&)>;
+
+  explicit TaskThread(const std::string& name);
+  /// stop() with a limit of one second.
+  ~TaskThread();
+  TaskThread(const TaskThread&) = delete;
+  TaskThread& operator=(const TaskThread&) = delete;
+
+  /// Ignored after stop().
+  void post(Task task);
+
+  /// Drops waiting tasks and waits for the running one. False if it did not end within the limit;
+  /// the thread is then abandoned.
+  bool stop(std::chrono::milliseconds limit);
+
+  /// A task runs or waits.
+  bool is_busy() const;
+  std::uint64_t progress() const;
+
+ private:
+  struct Shared;
+  static void run(const std::shared_ptr<Shared>& shared);
+
+  std::shared_ptr<Shared> shared_;
+  std::thread thread_;
+};
+
+}  // namespace instep

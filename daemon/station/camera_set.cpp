@@ -1,0 +1,229 @@
+#include "daemon/station/camera_set.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "daemon/loop/task_thread.h"
+
+namespace instep {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using Frames = std::vector<DepthFrame>;
+
+constexpr milliseconds kStopGrace{300};
+/// A camera that sends this many bad frames for each one asked is broken.
+constexpr int kMostBadFramesForEach = 3;
+
+Error named(const std::string& camera, const Error& error) {
+  Error with_name = error;
+  with_name.message = "camera " + camera + ": " + error.message;
+  return with_name;
+}
+
+Error silent(const std::string& camera) {
+  return {ErrorCode::kTimeout, Remedy::kReopen, "camera " + camera + " does not answer",
+          "unplug it and plug it in again; if that does not help, restart instepd"};
+}
+
+/// Takes `count` good frames from a started camera.
+Result<Frames> take_frames(DepthCamera& camera, const CaptureSettings& settings,
+                           const std::atomic<bool>& cancelled, TaskProgress& progress) {
+  for (int i = 0; i < settings.warmup_frames; ++i) {
+    if (cancelled) return fail(ErrorCode::kCancelled, "the capture was stopped", "");
+    const auto frame = camera.next_frame(settings.frame_limit);
+    if (!frame) return tl::make_unexpected(frame.error());
+    progress.step();
+  }
+  const auto wanted = static_cast<std::size_t>(settings.frames_per_camera);
+  Frames frames;
+  int bad = 0;
+  while (frames.size() < wanted) {
+    if (cancelled) return fail(ErrorCode::kCancelled, "the capture was stopped", "");
+    auto frame = camera.next_frame(settings.frame_limit);
+    if (!frame) return tl::make_unexpected(frame.error());
+    progress.step();
+    if (frame->status == FrameStatus::kGood) {
+      frames.push_back(std::move(*frame));
+    } else if (++bad > kMostBadFramesForEach * settings.frames_per_camera) {
+      return fail(ErrorCode::kCorruptData, Remedy::kReset, "it sends damaged frames only",
+                  "check its cable, and that it has a USB controller of its own");
+    }
+  }
+  return frames;
+}
+
+}  // namespace
+
+struct CameraSet::Worker {
+  explicit Worker(std::unique_ptr<DepthCamera> owned)
+      : camera(std::move(owned)),
+        description(camera->description()),
+        thread(std::make_unique<TaskThread>("cam " + description.geometry.id)) {}
+
+  std::shared_ptr<DepthCamera> camera;
+  CameraDescription description;
+  std::unique_ptr<TaskThread> thread;
+
+  const std::string& id() const { return description.geometry.id; }
+};
+
+/// Where the cameras of one capture bring their frames. Shared, so that a camera that comes far too
+/// late finds a place that nobody looks at any more.
+struct CameraSet::Gathering {
+  std::atomic<bool> cancelled = false;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<std::optional<Result<Frames>>> brought;
+
+  void bring(std::size_t camera, Result<Frames> frames) {
+    const std::lock_guard lock(mutex);
+    brought[camera] = std::move(frames);
+    changed.notify_all();
+  }
+
+  bool complete() const {
+    return std::all_of(brought.begin(), brought.end(), [](const auto& one) { return !!one; });
+  }
+  bool any_failed() const {
+    return std::any_of(brought.begin(), brought.end(),
+                       [](const auto& one) { return one && !one->has_value(); });
+  }
+};
+
+CameraSet::CameraSet(std::vector<std::unique_ptr<DepthCamera>> cameras) {
+  for (auto& camera : cameras) workers_.push_back(std::make_shared<Worker>(std::move(camera)));
+}
+
+CameraSet::~CameraSet() {
+  interrupt();
+  // All are asked before any is waited for, so that the limit holds for all together.
+  const auto deadline = steady_clock::now() + kStopGrace;
+  for (const auto& worker : workers_) {
+    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
+    worker->thread->stop(std::max(left, milliseconds(1)));
+  }
+}
+
+std::vector<CameraDescription> CameraSet::descriptions() const {
+  std::vector<CameraDescription> all;
+  for (const auto& worker : workers_) all.push_back(worker->description);
+  return all;
+}
+
+Result<Frames> CameraSet::capture(const CaptureSettings& settings,
+                                  const std::function<bool()>& go_on) {
+  const auto deadline = steady_clock::now() + settings.deadline;
+  auto frames = capture_once(settings, deadline, go_on);
+  const bool worth_another = !frames && frames.error().code != ErrorCode::kCancelled &&
+                             frames.error().remedy != Remedy::kOperator &&
+                             frames.error().remedy != Remedy::kBug;
+  if (worth_another && steady_clock::now() < deadline) {
+    frames = capture_once(settings, deadline, go_on);
+  }
+  return frames;
+}
+
+Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
+                                       steady_clock::time_point deadline,
+                                       const std::function<bool()>& go_on) {
+  const auto gathering = std::make_shared<Gathering>();
+  gathering->brought.resize(workers_.size());
+  for (std::size_t i = 0; i < workers_.size(); ++i) {
+    workers_[i]->thread->post(
+        [gathering, i, settings, camera = workers_[i]->camera](TaskProgress& progress) {
+          Result<Frames> frames = camera->start().and_then(
+              [&] { return take_frames(*camera, settings, gathering->cancelled, progress); });
+          camera->stop();
+          gathering->bring(i, std::move(frames));
+        });
+  }
+
+  bool wanted = true;
+  std::unique_lock lock(gathering->mutex);
+  while (wanted && !gathering->complete() && !gathering->any_failed() &&
+         steady_clock::now() < deadline) {
+    gathering->changed.wait_for(lock, milliseconds(20));
+    lock.unlock();
+    wanted = go_on();
+    lock.lock();
+  }
+  if (!gathering->complete()) {
+    gathering->cancelled = true;
+    lock.unlock();
+    interrupt();
+    lock.lock();
+    gathering->changed.wait_for(lock, kStopGrace, [&] { return gathering->complete(); });
+  }
+  if (!wanted) return fail(ErrorCode::kCancelled, "the scan was cancelled", "");
+
+  // What a camera says for having been interrupted is not its fault; with no other fault, those
+  // that were not done by the deadline are.
+  Frames all;
+  std::optional<Error> first_fault;
+  std::string at_fault;
+  const auto blame = [&](const std::string& id, const Error& error) {
+    if (!first_fault) first_fault = error;
+    at_fault += (at_fault.empty() ? "" : ", ") + id;
+  };
+  const bool faults = std::any_of(
+      gathering->brought.begin(), gathering->brought.end(),
+      [](const auto& one) { return one && !*one && one->error().code != ErrorCode::kCancelled; });
+  for (std::size_t i = 0; i < workers_.size(); ++i) {
+    auto& brought = gathering->brought[i];
+    const std::string& id = workers_[i]->id();
+    if (!brought) {
+      blame(id, silent(id));
+    } else if (brought->has_value()) {
+      std::move((*brought)->begin(), (*brought)->end(), std::back_inserter(all));
+    } else if (brought->error().code != ErrorCode::kCancelled) {
+      blame(id, named(id, brought->error()));
+    } else if (!faults) {
+      blame(id, {ErrorCode::kTimeout, Remedy::kRetry,
+                 "camera " + id + " did not bring its frames in time",
+                 "scan again, or raise capture.deadline_ms"});
+    }
+  }
+  if (!first_fault) return all;
+  if (at_fault.find(',') != std::string::npos) {
+    first_fault->message += " (cameras at fault: " + at_fault + ")";
+  }
+  return tl::make_unexpected(*first_fault);
+}
+
+void CameraSet::check(milliseconds frame_limit, const Report& report) {
+  for (std::size_t i = 0; i < workers_.size(); ++i) {
+    const Worker& worker = *workers_[i];
+    if (worker.thread->is_busy()) {
+      report(i, tl::make_unexpected(silent(worker.id())));
+      continue;
+    }
+    worker.thread->post([i, report, frame_limit, camera = worker.camera,
+                         id = worker.id()](TaskProgress&) {
+      const auto frame = camera->start().and_then([&] { return camera->next_frame(frame_limit); });
+      camera->stop();
+      if (frame) {
+        report(i, {});
+      } else {
+        report(i, tl::make_unexpected(named(id, frame.error())));
+      }
+    });
+  }
+}
+
+void CameraSet::interrupt() const {
+  for (const auto& worker : workers_) worker->camera->interrupt();
+}
+
+void CameraSet::note_progress(ProgressWatch& watch) const {
+  for (const auto& worker : workers_) {
+    watch.note("camera " + worker->id(), worker->thread->is_busy(), worker->thread->progress());
+  }
+}
+
+}  // namespace instep

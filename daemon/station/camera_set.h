@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "core/fusion/depth_frame.h"
+#include "core/result.h"
+#include "daemon/loop/progress_watch.h"
+#include "drivers/depth_camera.h"
+
+namespace instep {
+
+/// The cameras of the station, each on a thread of its own, so that one that hangs holds up neither
+/// the others nor the daemon. All calls may be made from any thread; none but capture() waits.
+class CameraSet {
+ public:
+  explicit CameraSet(std::vector<std::unique_ptr<DepthCamera>> cameras);
+  /// Interrupts what runs; a camera that hangs is left behind.
+  ~CameraSet();
+  CameraSet(const CameraSet&) = delete;
+  CameraSet& operator=(const CameraSet&) = delete;
+
+  std::size_t size() const { return workers_.size(); }
+  std::vector<CameraDescription> descriptions() const;
+
+  /// The good frames of all cameras, or nothing: a partial set is never returned. Starts the
+  /// cameras, drops what warms them up, and stops them again. If a camera fails and there is time
+  /// left, the whole set is taken once more; if that fails too, the error names the cameras. Asks
+  /// `go_on` at least every 20 ms. Returns by settings.deadline, at the latest 300 ms later.
+  Result<std::vector<DepthFrame>> capture(const CaptureSettings& settings,
+                                          const std::function<bool()>& go_on);
+
+  /// Looks whether each camera gives a frame, and reports each on its thread. One that is not done
+  /// with what it was asked before counts as silent.
+  using Report = std::function<void(std::size_t camera, Result<void> outcome)>;
+  void check(std::chrono::milliseconds frame_limit, const Report& report);
+
+  /// Enters every camera's thread for the watchdog.
+  void note_progress(ProgressWatch& watch) const;
+
+ private:
+  struct Worker;
+  struct Gathering;
+
+  Result<std::vector<DepthFrame>> capture_once(const CaptureSettings& settings,
+                                               std::chrono::steady_clock::time_point deadline,
+                                               const std::function<bool()>& go_on);
+  void interrupt() const;
+
+  std::vector<std::shared_ptr<Worker>> workers_;
+};
+
+}  // namespace instep

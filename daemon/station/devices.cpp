@@ -1,0 +1,145 @@
+#include "daemon/station/devices.h"
+
+#include <fstream>
+#include <set>
+#include <utility>
+
+#include "drivers/recording/recording_camera.h"
+#include "drivers/recording/recording_reader.h"
+#include "sim/fault_script.h"
+#include "sim/simulated_station.h"
+
+namespace instep {
+namespace {
+
+Subject subject_of(SimulatedSubject subject) {
+  switch (subject) {
+    case SimulatedSubject::kFoot:
+      return Subject::kFoot;
+    case SimulatedSubject::kFeet:
+      return Subject::kFeet;
+    case SimulatedSubject::kCylinder:
+      return Subject::kCylinder;
+    case SimulatedSubject::kLast:
+      return Subject::kLast;
+  }
+  return Subject::kFoot;
+}
+
+NoiseLaw noise_of(SimulatedNoise noise) {
+  switch (noise) {
+    case SimulatedNoise::kNone:
+      return NoiseLaw::kNone;
+    case SimulatedNoise::kTypical:
+      return NoiseLaw::kTypical;
+    case SimulatedNoise::kPessimistic:
+      return NoiseLaw::kPessimistic;
+  }
+  return NoiseLaw::kTypical;
+}
+
+Result<std::string> read_fault_script(const std::filesystem::path& path) {
+  if (path.empty()) return std::string();
+  constexpr std::streamsize kLargestScript = 64 * 1024;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    return fail(ErrorCode::kNotFound, "the fault script " + path.string() + " cannot be read",
+                "check simulation.fault_script");
+  }
+  std::string text(static_cast<std::size_t>(kLargestScript), '\0');
+  stream.read(text.data(), kLargestScript);
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+Result<void> add_simulated(const SimulatedStationSettings& chosen, Devices& devices) {
+  auto script = read_fault_script(chosen.fault_script);
+  if (!script) return tl::make_unexpected(script.error());
+  SimulationSettings settings;
+  settings.seed = chosen.seed;
+  settings.subject = subject_of(chosen.subject);
+  settings.side = chosen.side;
+  settings.cameras = chosen.cameras;
+  settings.width_px = chosen.width_px;
+  settings.height_px = chosen.height_px;
+  settings.noise = noise_of(chosen.noise);
+  settings.pacing =
+      chosen.pacing == SimulatedPacing::kRealTime ? Pacing::kRealTime : Pacing::kAsFastAsPossible;
+  settings.fault_script = std::move(*script);
+  auto station = build_station(settings);
+  if (!station) return tl::make_unexpected(station.error());
+  for (auto& camera : station->cameras) devices.cameras.push_back(std::move(camera));
+  for (auto& truth : station->truth) {
+    devices.truth.push_back({truth.side, std::move(truth.measures)});
+  }
+  devices.platform_height_mm = station->platform_height_mm;
+  devices.calibration = "simulated: exact poses";
+  devices.simulated = true;
+  return {};
+}
+
+Result<void> add_recording(const std::filesystem::path& folder, Devices& devices) {
+  auto read = read_recording(folder);
+  if (!read) return tl::make_unexpected(read.error());
+  const auto recording = std::make_shared<const Recording>(std::move(*read));
+  for (const auto& description : recording->cameras) {
+    auto camera = RecordingCamera::open(recording, description.geometry.id,
+                                        {.as_recorded = false, .loop = true});
+    if (!camera) return tl::make_unexpected(camera.error());
+    devices.cameras.push_back(std::move(*camera));
+  }
+  devices.platform_height_mm = recording->platform_height_mm;
+  devices.calibration = "as the recording says";
+  devices.simulated = devices.simulated || recording->simulated;
+  return {};
+}
+
+/// Frames are told apart by their camera's name.
+Result<void> check_names(const Devices& devices) {
+  std::set<std::string> names;
+  for (const auto& camera : devices.cameras) {
+    const auto& name = camera->description().geometry.id;
+    if (names.insert(name).second) continue;
+    return fail(ErrorCode::kInvalidInput, "two cameras are called " + name,
+                "name each source once among the [[camera]] tables");
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Devices> open_devices(const Settings& settings) {
+  Devices devices;
+  for (const auto& camera : settings.cameras) {
+    Result<void> added;
+    switch (camera.kind) {
+      case CameraKind::kSimulated:
+        added = add_simulated(settings.simulation, devices);
+        break;
+      case CameraKind::kRecording:
+        added = add_recording(camera.path, devices);
+        break;
+    }
+    if (!added) return tl::make_unexpected(added.error());
+  }
+  if (const auto distinct = check_names(devices); !distinct) {
+    return tl::make_unexpected(distinct.error());
+  }
+  if (settings.station.platform_height_mm) {
+    devices.platform_height_mm = settings.station.platform_height_mm;
+  }
+  return devices;
+}
+
+Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings) {
+  if (settings.pedal.kind == PedalKind::kNone) return nullptr;
+  const auto text = read_fault_script(settings.simulation.fault_script);
+  if (!text) return tl::make_unexpected(text.error());
+  const auto script = parse_fault_script(*text);
+  if (!script) return tl::make_unexpected(script.error());
+  auto pedal = SimulatedPedal::open({.faults = script->pedal, .fifo = settings.pedal.fifo});
+  if (!pedal) return tl::make_unexpected(pedal.error());
+  return std::move(*pedal);
+}
+
+}  // namespace instep

@@ -1,0 +1,79 @@
+#include "daemon/station/pedal_watch.h"
+
+#include <sys/epoll.h>
+
+#include <utility>
+
+namespace instep {
+
+PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener)
+    : loop_(loop), settings_(settings), open_(std::move(open)), listener_(std::move(listener)) {
+  settle_timer_ = loop_.timer([this] { settle(); });
+  reopen_timer_ = loop_.timer([this] { this->open(); });
+  reopen_timer_.set(std::chrono::nanoseconds(0));
+}
+
+void PedalWatch::set(const PedalSettings& settings) {
+  settings_ = settings;
+}
+
+void PedalWatch::open() {
+  if (!pedal_) {
+    auto opened = open_();
+    if (!opened) return lost(opened.error());
+    pedal_ = std::move(*opened);
+    if (!pedal_) return;
+  } else if (const auto reopened = pedal_->reopen(); !reopened) {
+    return lost(reopened.error());
+  }
+  begin();
+}
+
+void PedalWatch::begin() {
+  const auto pressed = pedal_->is_pressed();
+  if (!pressed) return lost(pressed.error());
+  debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, *pressed,
+                     EventLoop::monotonic_now());
+  watch_ = loop_.watch(pedal_->descriptor(), EPOLLIN, [this](std::uint32_t) { read(); });
+  back_off_.reset();
+  if (std::exchange(was_lost_, false)) listener_.on_returned();
+  pass_on();
+}
+
+void PedalWatch::read() {
+  const auto edges = pedal_->read_edges();
+  if (!edges) return lost(edges.error());
+  for (const auto& edge : *edges) debouncer_->on_edge(edge);
+  pass_on();
+}
+
+void PedalWatch::settle() {
+  if (!debouncer_) return;
+  // Edges that wait are older than the level and come first.
+  const auto edges = pedal_->read_edges();
+  if (!edges) return lost(edges.error());
+  for (const auto& edge : *edges) debouncer_->on_edge(edge);
+  const auto pressed = pedal_->is_pressed();
+  if (!pressed) return lost(pressed.error());
+  debouncer_->on_level(*pressed, EventLoop::monotonic_now());
+  pass_on();
+}
+
+void PedalWatch::pass_on() {
+  for (const auto signal : debouncer_->take_signals()) listener_.on_signal(signal);
+  if (const auto deadline = debouncer_->next_deadline()) {
+    settle_timer_.set_at(*deadline);
+  } else {
+    settle_timer_.clear();
+  }
+}
+
+void PedalWatch::lost(const Error& error) {
+  watch_ = {};
+  settle_timer_.clear();
+  debouncer_.reset();
+  if (!std::exchange(was_lost_, true)) listener_.on_lost(error);
+  reopen_timer_.set(back_off_.next());
+}
+
+}  // namespace instep

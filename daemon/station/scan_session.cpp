@@ -1,0 +1,111 @@
+#include "daemon/station/scan_session.h"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <exception>
+#include <utility>
+
+namespace instep {
+namespace {
+
+/// Of the whole scan, the part that is over when all frames are there.
+constexpr double kCaptureShare = 0.3;
+constexpr double kMeasureShare = 0.6;
+
+class ScanSession {
+ public:
+  ScanSession(const ScanTools& tools, const std::atomic<bool>& cancelled, TaskProgress& progress,
+              const ScanListener& listener)
+      : tools_(tools), cancelled_(cancelled), progress_(progress), listener_(listener) {}
+
+  ScanOutcome run() {
+    const auto capture = take_capture();
+    if (!capture) return failed(capture.error());
+    listener_.on_step(ScanStep::kCaptured);
+
+    const auto records = measure(*capture);
+    if (!records) return failed(records.error());
+    listener_.on_step(ScanStep::kMeasured);
+
+    return store(*records);
+  }
+
+ private:
+  Result<Capture> take_capture() {
+    listener_.on_progress("capture", 0.0);
+    auto frames = tools_.cameras->capture(tools_.capture, [this] {
+      progress_.step();
+      return !cancelled_;
+    });
+    if (!frames) return tl::make_unexpected(frames.error());
+    Capture capture;
+    capture.cameras = tools_.cameras->descriptions();
+    capture.frames = std::move(*frames);
+    capture.platform_height_mm = tools_.platform_height_mm;
+    capture.simulated = tools_.simulated;
+    capture.calibration = tools_.calibration;
+    return capture;
+  }
+
+  Result<std::vector<ScanRecord>> measure(const Capture& capture) {
+    return tools_.measure(capture, tools_.pipeline, [this](std::string_view stage, double done) {
+      progress_.step();
+      listener_.on_progress(stage, kCaptureShare + kMeasureShare * done);
+      return !cancelled_;
+    });
+  }
+
+  ScanOutcome store(const std::vector<ScanRecord>& records) {
+    ScanOutcome outcome;
+    listener_.on_progress("store", kCaptureShare + kMeasureShare);
+    for (const auto& record : records) {
+      progress_.step();
+      auto folder = tools_.store->put(record.id, content_of(record));
+      if (!folder) {
+        outcome.error = folder.error();
+        outcome.store_failed = true;
+        return outcome;
+      }
+      outcome.stored.push_back({record.id, std::move(*folder), record.foot.side});
+    }
+    listener_.on_progress("done", 1.0);
+    return outcome;
+  }
+
+  static ScanOutcome failed(const Error& error) {
+    ScanOutcome outcome;
+    outcome.error = error;
+    return outcome;
+  }
+
+  const ScanTools& tools_;
+  const std::atomic<bool>& cancelled_;
+  TaskProgress& progress_;
+  const ScanListener& listener_;
+};
+
+Error bug(const char* what) {
+  return {ErrorCode::kInternal, Remedy::kBug, fmt::format("the scan broke off: {}", what),
+          "scan again; if it happens again, report it"};
+}
+
+}  // namespace
+
+ScanOutcome run_scan(const ScanTools& tools, const std::atomic<bool>& cancelled,
+                     TaskProgress& progress, const ScanListener& listener) {
+  ScanOutcome outcome;
+  try {
+    outcome = ScanSession(tools, cancelled, progress, listener).run();
+  } catch (const std::bad_alloc&) {
+    outcome.error = Error{ErrorCode::kInternal, Remedy::kRetry, "there is not enough memory",
+                          "close other programs, or lower capture.frames_per_camera"};
+  } catch (const std::exception& error) {
+    outcome.error = bug(error.what());
+  }
+  // The frames of a scan are most of this process: they go back to the system at once.
+  malloc_trim(0);
+  return outcome;
+}
+
+}  // namespace instep

@@ -1,0 +1,291 @@
+#include "daemon/station/station.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace instep {
+namespace {
+
+constexpr std::chrono::milliseconds kOpeningGrace{1000};
+
+Error stuck_pedal() {
+  return {ErrorCode::kBusy, Remedy::kOperator, "the pedal is held down or stuck",
+          "take the foot off it; if it stays so, check its cable"};
+}
+
+}  // namespace
+
+Station::Station(EventLoop& loop, Settings settings, MeasureCapture measure,
+                 std::shared_ptr<ResultStore> store, StationListener listener)
+    : loop_(loop),
+      settings_(std::move(settings)),
+      measure_(std::move(measure)),
+      store_(std::move(store)),
+      listener_(std::move(listener)) {
+  check_timer_ = loop_.timer([this] { cameras_ ? check_cameras() : open_devices_again(); });
+  check_deadline_ = loop_.timer([this] { end_check(); });
+}
+
+Station::~Station() {
+  if (cancelled_) *cancelled_ = true;
+  cameras_.reset();
+}
+
+void Station::begin() {
+  open_devices_again();
+  pedal_.emplace(
+      loop_, settings_.pedal, [settings = settings_] { return open_pedal(settings); },
+      PedalWatch::Listener{[this](PedalSignal signal) { pedal_signalled(signal); },
+                           [this](const Error& error) { pedal_lost(error); },
+                           [this] { pedal_returned(); }});
+}
+
+void Station::store_failed(const Error& error) {
+  store_trouble_ = error;
+  handle(StationEvent::kStoreFailed);
+}
+
+Result<void> Station::request_scan() {
+  if (machine_.is_busy()) {
+    handle(StationEvent::kScanRequested);
+    return fail(ErrorCode::kBusy, "a scan is under way", "wait for it, or cancel it");
+  }
+  handle(StationEvent::kScanRequested);
+  if (machine_.is_busy()) return {};
+  if (const auto trouble = first_trouble()) return tl::make_unexpected(*trouble);
+  return fail(ErrorCode::kBusy, "the station is starting", "wait a moment and scan again");
+}
+
+Result<void> Station::request_cancel() {
+  const auto state = machine_.state();
+  if (state != StationState::kCapturing && state != StationState::kMeasuring) {
+    return fail(ErrorCode::kNotFound, "there is no scan to cancel", "");
+  }
+  handle(StationEvent::kCancelRequested);
+  return {};
+}
+
+void Station::reload(const Settings& settings) {
+  settings_.station = settings.station;
+  settings_.capture = settings.capture;
+  settings_.pedal.debounce = settings.pedal.debounce;
+  settings_.pedal.hold_to_cancel = settings.pedal.hold_to_cancel;
+  if (pedal_) pedal_->set(settings_.pedal);
+  if (settings.station.platform_height_mm) {
+    devices_.platform_height_mm = settings.station.platform_height_mm;
+  }
+}
+
+void Station::shut_down() {
+  handle(StationEvent::kShutdown);
+}
+
+StationStatus Station::status() const {
+  StationStatus status;
+  status.state = machine_.state();
+  if (const auto trouble = first_trouble()) status.trouble = trouble->line();
+  status.stage = stage_;
+  status.done = done_;
+  status.cameras = camera_status_;
+  status.scans = scans_;
+  status.ignored_presses = machine_.ignored_presses();
+  status.last_result = last_result_;
+  return status;
+}
+
+void Station::note_progress(ProgressWatch& watch) const {
+  watch.note("scan", scan_thread_.is_busy(), scan_thread_.progress());
+  if (cameras_) cameras_->note_progress(watch);
+}
+
+void Station::handle(StationEvent event) {
+  const auto actions = machine_.handle(event);
+  for (const auto action : actions) act(action);
+  listener_.on_change();
+}
+
+void Station::act(StationAction action) {
+  switch (action) {
+    case StationAction::kStartScan:
+      return start_scan();
+    case StationAction::kCancelScan:
+      *cancelled_ = true;
+      return;
+    case StationAction::kRefuseScan:
+      if (const auto trouble = first_trouble()) listener_.on_failure(*trouble);
+      return;
+    case StationAction::kIgnorePress:
+      return listener_.on_ignored_press(machine_.ignored_presses());
+    case StationAction::kAnnounceResult:
+      return listener_.on_result(outcome_.stored);
+    case StationAction::kAnnounceFailure:
+    case StationAction::kAnnounceCancelled:
+      return listener_.on_failure(*outcome_.error);
+    case StationAction::kCheckCameras:
+      return check_cameras();
+    case StationAction::kLeave:
+      return listener_.on_left();
+  }
+}
+
+void Station::open_devices_again() {
+  scan_thread_.post([this, post = loop_.poster(), settings = settings_](TaskProgress&) {
+    auto devices = std::make_shared<Result<Devices>>(open_devices(settings));
+    post([this, devices] { take_devices(std::move(*devices)); });
+  });
+}
+
+void Station::take_devices(Result<Devices> devices) {
+  if (!devices) {
+    open_trouble_ = devices.error();
+    check_timer_.set(back_off_.next());
+    return handle(StationEvent::kCamerasLost);
+  }
+  open_trouble_.reset();
+  back_off_.reset();
+  devices_ = std::move(*devices);
+  cameras_ = std::make_shared<CameraSet>(std::exchange(devices_.cameras, {}));
+  for (const auto& camera : cameras_->descriptions()) {
+    camera_status_.push_back({camera.geometry.id, camera.model, std::nullopt});
+  }
+  check_cameras();
+}
+
+void Station::check_cameras() {
+  if (!cameras_ || machine_.is_busy()) return;
+  const auto round = ++check_round_;
+  unanswered_.assign(cameras_->size(), true);
+  check_deadline_.set(settings_.capture.frame_limit + kOpeningGrace);
+  cameras_->check(settings_.capture.frame_limit,
+                  [this, round, post = loop_.poster()](std::size_t camera, Result<void> outcome) {
+                    post([this, round, camera, outcome = std::move(outcome)] {
+                      camera_answered(round, camera, outcome);
+                    });
+                  });
+}
+
+void Station::camera_answered(std::uint64_t round, std::size_t camera,
+                              const Result<void>& outcome) {
+  if (round != check_round_ || !unanswered_[camera]) return;
+  unanswered_[camera] = false;
+  camera_status_[camera].trouble = outcome ? std::nullopt : std::optional(outcome.error());
+  if (std::none_of(unanswered_.begin(), unanswered_.end(), [](bool one) { return one; })) {
+    end_check();
+  }
+}
+
+void Station::end_check() {
+  ++check_round_;
+  check_deadline_.clear();
+  bool all = true;
+  for (std::size_t i = 0; i < camera_status_.size(); ++i) {
+    if (unanswered_[i]) {
+      camera_status_[i].trouble =
+          Error{ErrorCode::kTimeout, Remedy::kReopen,
+                "camera " + camera_status_[i].id + " does not answer",
+                "unplug it and plug it in again; if that does not help, restart instepd"};
+    }
+    all = all && !camera_status_[i].trouble;
+  }
+  if (all) back_off_.reset();
+  check_timer_.set(all ? std::chrono::nanoseconds(settings_.capture.check_every)
+                       : std::chrono::nanoseconds(back_off_.next()));
+  handle(all ? StationEvent::kCamerasReady : StationEvent::kCamerasLost);
+}
+
+void Station::pedal_signalled(PedalSignal signal) {
+  switch (signal) {
+    case PedalSignal::kPressed:
+      return handle(StationEvent::kScanRequested);
+    case PedalSignal::kHeld:
+      return handle(StationEvent::kCancelRequested);
+    case PedalSignal::kStuck:
+      pedal_trouble_ = stuck_pedal();
+      return handle(StationEvent::kPedalFault);
+    case PedalSignal::kReleased:
+      return pedal_returned();
+  }
+}
+
+void Station::pedal_lost(const Error& error) {
+  pedal_trouble_ = error;
+  handle(StationEvent::kPedalFault);
+}
+
+void Station::pedal_returned() {
+  if (!pedal_trouble_) return;
+  pedal_trouble_.reset();
+  handle(StationEvent::kPedalReady);
+}
+
+ScanTools Station::tools() const {
+  ScanTools tools;
+  tools.cameras = cameras_;
+  tools.capture = settings_.capture;
+  tools.pipeline.station = settings_.station.name;
+  tools.pipeline.point_spacing_mm = settings_.station.point_spacing_mm;
+  tools.pipeline.refine_views = settings_.station.refine_views;
+  tools.pipeline.side = settings_.station.side;
+  tools.platform_height_mm = devices_.platform_height_mm;
+  tools.calibration = devices_.calibration;
+  tools.simulated = devices_.simulated;
+  tools.truth = devices_.truth;
+  tools.measure = measure_;
+  tools.store = store_;
+  return tools;
+}
+
+void Station::start_scan() {
+  cancelled_ = std::make_shared<std::atomic<bool>>(false);
+  check_timer_.clear();
+  stage_ = "capture";
+  done_ = 0.0;
+  const auto post = loop_.poster();
+  ScanListener listener;
+  listener.on_step = [this, post](ScanStep step) {
+    post([this, step] {
+      handle(step == ScanStep::kCaptured ? StationEvent::kCaptured : StationEvent::kMeasured);
+    });
+  };
+  listener.on_progress = [this, post](std::string_view stage, double done) {
+    post([this, stage = std::string(stage), done] {
+      stage_ = stage;
+      done_ = done;
+      listener_.on_change();
+    });
+  };
+  scan_thread_.post([this, post, tools = tools(), cancelled = cancelled_,
+                     listener](TaskProgress& progress) {
+    auto outcome = std::make_shared<ScanOutcome>(run_scan(tools, *cancelled, progress, listener));
+    post([this, outcome] { scan_ended(*outcome); });
+  });
+}
+
+void Station::scan_ended(const ScanOutcome& outcome) {
+  outcome_ = outcome;
+  stage_.clear();
+  done_ = 0.0;
+  check_timer_.set(settings_.capture.check_every);
+  if (!outcome.stored.empty()) last_result_ = outcome.stored.back().id;
+  if (!outcome.error) {
+    ++scans_;
+    store_trouble_.reset();
+    return handle(StationEvent::kStored);
+  }
+  if (outcome.store_failed) {
+    store_trouble_ = outcome.error;
+    return handle(StationEvent::kStoreFailed);
+  }
+  handle(outcome.error->code == ErrorCode::kCancelled ? StationEvent::kScanCancelled
+                                                      : StationEvent::kScanFailed);
+}
+
+std::optional<Error> Station::first_trouble() const {
+  if (open_trouble_) return open_trouble_;
+  for (const auto& camera : camera_status_) {
+    if (camera.trouble) return camera.trouble;
+  }
+  return store_trouble_ ? store_trouble_ : pedal_trouble_;
+}
+
+}  // namespace instep

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/settings.h"
+#include "core/result.h"
+#include "daemon/loop/event_loop.h"
+#include "daemon/loop/progress_watch.h"
+#include "daemon/loop/task_thread.h"
+#include "daemon/station/back_off.h"
+#include "daemon/station/camera_set.h"
+#include "daemon/station/devices.h"
+#include "daemon/station/pedal_watch.h"
+#include "daemon/station/scan_session.h"
+#include "daemon/station/station_machine.h"
+
+namespace instep {
+
+struct CameraStatus {
+  std::string id;
+  std::string model;
+  std::optional<Error> trouble;  ///< nothing = it answers
+};
+
+/// All that is told of a station from outside.
+struct StationStatus {
+  StationState state = StationState::kStarting;
+  std::string trouble;  ///< what is wrong and what to do, one line; empty if nothing is
+  std::string stage;    ///< of the scan that runs; empty if none does
+  double done = 0.0;    ///< of that scan, 0 to 1
+  std::vector<CameraStatus> cameras;
+  std::uint64_t scans = 0;  ///< that ended with a result, since the daemon started
+  std::uint64_t ignored_presses = 0;
+  std::string last_result;  ///< id; empty if there was none since the daemon started
+};
+
+/// Told of what happens, on the loop's thread.
+struct StationListener {
+  std::function<void()> on_change;  ///< status() says something new
+  std::function<void(const std::vector<StoredResult>&)> on_result;
+  std::function<void(const Error&)>
+      on_failure;  ///< a scan ended without a result, or was cancelled
+  std::function<void(std::uint64_t ignored)> on_ignored_press;
+  std::function<void()> on_left;  ///< after shut_down(): nothing runs any more
+};
+
+/// The station at work: joins the state machine to the cameras, the pedal, the scan's thread and
+/// the store. Lives on the loop's thread, on which all calls are made; none of them waits.
+class Station {
+ public:
+  Station(EventLoop& loop, Settings settings, MeasureCapture measure,
+          std::shared_ptr<ResultStore> store, StationListener listener);
+  ~Station();
+
+  /// Opens the devices; on_change tells how that goes.
+  void begin();
+  /// Results cannot be written.
+  void store_failed(const Error& error);
+
+  /// As the pedal does. Fails with kBusy while a scan runs, or with the camera's trouble.
+  Result<void> request_scan();
+  /// Fails with kNotFound if no scan runs that can be cancelled.
+  Result<void> request_cancel();
+  /// Takes over what can change while running: station, capture, the pedal's times.
+  void reload(const Settings& settings);
+  /// Ends a scan that runs; on_left follows.
+  void shut_down();
+
+  StationStatus status() const;
+  void note_progress(ProgressWatch& watch) const;
+
+ private:
+  void handle(StationEvent event);
+  void act(StationAction action);
+  void open_devices_again();
+  void take_devices(Result<Devices> devices);
+  void check_cameras();
+  void camera_answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome);
+  void end_check();
+  void pedal_signalled(PedalSignal signal);
+  void pedal_lost(const Error& error);
+  void pedal_returned();
+  void start_scan();
+  void scan_ended(const ScanOutcome& outcome);
+  ScanTools tools() const;
+  std::optional<Error> first_trouble() const;
+
+  EventLoop& loop_;
+  Settings settings_;
+  MeasureCapture measure_;
+  std::shared_ptr<ResultStore> store_;
+  StationListener listener_;
+  StationMachine machine_;
+
+  std::optional<PedalWatch> pedal_;
+  std::optional<Error> pedal_trouble_;
+  std::optional<Error> store_trouble_;
+  std::optional<Error> open_trouble_;
+
+  Devices devices_;  ///< without its cameras, which the set owns
+  std::shared_ptr<CameraSet> cameras_;
+  std::vector<CameraStatus> camera_status_;
+  std::vector<bool> unanswered_;
+  std::uint64_t check_round_ = 0;
+  EventLoop::Timer check_timer_;
+  EventLoop::Timer check_deadline_;
+  BackOff back_off_;
+
+  TaskThread scan_thread_{"scan"};
+  std::shared_ptr<std::atomic<bool>> cancelled_;
+  ScanOutcome outcome_;
+  std::string stage_;
+  double done_ = 0.0;
+  std::uint64_t scans_ = 0;
+  std::string last_result_;
+};
+
+}  // namespace instep

@@ -1,0 +1,168 @@
+#include "daemon/store/posix_storage.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+namespace instep {
+namespace {
+
+constexpr mode_t kFileMode = 0640;
+constexpr mode_t kFolderMode = 0750;
+
+template <typename Call>
+auto uninterrupted(Call call) {
+  auto outcome = call();
+  while (outcome == -1 && errno == EINTR) outcome = call();
+  return outcome;
+}
+
+tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::path& path) {
+  return tl::make_unexpected(storage_error(errno, doing, path));
+}
+
+/// An open descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
+  const std::string message = doing + " " + path.string() +
+                              " failed: " + (error_number == 0 ? "" : std::strerror(error_number));
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+      return {
+          ErrorCode::kNoSpace, Remedy::kOperator, message,
+          "make room on the disk of the results, or let store.keep_days do it; then scan again"};
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return {ErrorCode::kPermissionDenied, Remedy::kOperator, message,
+              "let the user of the station write there (instep doctor says how)"};
+    case ENOENT:
+      return {ErrorCode::kNotFound, Remedy::kOperator, message, "check store.root"};
+    default:
+      return {ErrorCode::kIo, Remedy::kOperator, message, "check the disk of the results"};
+  }
+}
+
+Result<Storage::File> PosixStorage::create_file(const std::filesystem::path& path) {
+  const int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
+  const int file = uninterrupted([&] { return ::open(path.c_str(), flags, kFileMode); });
+  if (file < 0) return failed("making", path);
+  // What the umask took away of the group's right to read is given back.
+  if (::fchmod(file, kFileMode) != 0) {
+    const auto error = failed("giving rights to", path);
+    ::close(file);
+    return error;
+  }
+  return file;
+}
+
+Result<std::size_t> PosixStorage::write(File file, std::string_view bytes) {
+  const auto written = uninterrupted([&] { return ::write(file, bytes.data(), bytes.size()); });
+  if (written < 0) return failed("writing", "a result");
+  return static_cast<std::size_t>(written);
+}
+
+Result<void> PosixStorage::sync(File file) {
+  if (uninterrupted([&] { return ::fsync(file); }) != 0) return failed("flushing", "a result");
+  return {};
+}
+
+void PosixStorage::close(File file) {
+  ::close(file);
+}
+
+Result<void> PosixStorage::make_folder(const std::filesystem::path& path) {
+  if (::mkdir(path.c_str(), kFolderMode) == 0) {
+    if (::chmod(path.c_str(), kFolderMode) != 0) return failed("giving rights to", path);
+    return {};
+  }
+  struct stat there {};
+  if (errno == EEXIST && ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) return {};
+  return failed("making", path);
+}
+
+Result<void> PosixStorage::rename(const std::filesystem::path& from,
+                                  const std::filesystem::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) return failed("renaming", from);
+  return {};
+}
+
+Result<void> PosixStorage::remove_file(const std::filesystem::path& path) {
+  if (::unlink(path.c_str()) != 0) return failed("deleting", path);
+  return {};
+}
+
+Result<void> PosixStorage::remove_folder(const std::filesystem::path& path) {
+  if (::rmdir(path.c_str()) != 0) return failed("deleting", path);
+  return {};
+}
+
+Result<void> PosixStorage::sync_folder(const std::filesystem::path& path) {
+  const Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.get() < 0) return failed("opening", path);
+  if (uninterrupted([&] { return ::fsync(folder.get()); }) != 0) return failed("flushing", path);
+  return {};
+}
+
+Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::path& path) {
+  const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(path.c_str()), &::closedir);
+  if (!folder) return failed("listing", path);
+  std::vector<Entry> entries;
+  errno = 0;
+  while (const dirent* entry = ::readdir(folder.get())) {
+    const std::string name = entry->d_name;
+    if (name == "." || name == "..") continue;
+    bool is_folder = entry->d_type == DT_DIR;
+    if (entry->d_type == DT_UNKNOWN) {
+      struct stat there {};
+      is_folder = ::lstat((path / name).c_str(), &there) == 0 && S_ISDIR(there.st_mode);
+    }
+    entries.push_back({name, is_folder});
+    errno = 0;
+  }
+  if (errno != 0) return failed("listing", path);
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.name < b.name; });
+  return entries;
+}
+
+Result<std::string> PosixStorage::read(const std::filesystem::path& path, std::size_t most) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  if (file.get() < 0) return failed("reading", path);
+  std::string content;
+  std::string block(1 << 16, '\0');
+  while (true) {
+    const auto got = uninterrupted([&] { return ::read(file.get(), block.data(), block.size()); });
+    if (got < 0) return failed("reading", path);
+    if (got == 0) return content;
+    content.append(block, 0, static_cast<std::size_t>(got));
+    if (content.size() > most) {
+      return fail(ErrorCode::kCorruptData, path.string() + " is larger than any result",
+                  "delete that result");
+    }
+  }
+}
+
+}  // namespace instep

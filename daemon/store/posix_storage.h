@@ -1,0 +1,26 @@
+#pragma once
+
+#include "daemon/store/storage.h"
+
+namespace instep {
+
+/// The file system of this machine. Interrupted calls are repeated. Safe from many threads.
+class PosixStorage : public Storage {
+ public:
+  Result<File> create_file(const std::filesystem::path& path) override;
+  Result<std::size_t> write(File file, std::string_view bytes) override;
+  Result<void> sync(File file) override;
+  void close(File file) override;
+  Result<void> make_folder(const std::filesystem::path& path) override;
+  Result<void> rename(const std::filesystem::path& from, const std::filesystem::path& to) override;
+  Result<void> remove_file(const std::filesystem::path& path) override;
+  Result<void> remove_folder(const std::filesystem::path& path) override;
+  Result<void> sync_folder(const std::filesystem::path& path) override;
+  Result<std::vector<Entry>> list(const std::filesystem::path& path) override;
+  Result<std::string> read(const std::filesystem::path& path, std::size_t most) override;
+};
+
+/// The Error for a failed system call on `path`: `doing` as in "writing".
+Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path);
+
+}  // namespace instep

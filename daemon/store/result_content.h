@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/result.h"
+#include "daemon/scan/scan_record.h"
+
+namespace instep {
+
+/// The files of one result as ready bytes.
+struct ResultContent {
+  std::string result_json;
+  std::string cloud_ply;
+  std::string sections_svg;
+};
+
+/// Serialises a record. Pure; some milliseconds for a usual cloud.
+ResultContent content_of(const ScanRecord& record);
+
+}  // namespace instep

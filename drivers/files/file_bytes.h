@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace instep {
+
+/// The whole content of a regular file of at most `most_bytes`. It is read, not mapped: a mapped
+/// file that another program cuts short kills its reader.
+///
+/// Fails with kNotFound, kPermissionDenied, kInvalidInput (a folder or a device), kUnsupported
+/// (larger than the limit) or kIo; the message names the file. Never waits on a pipe.
+Result<std::string> read_file_bytes(const std::filesystem::path& path, std::size_t most_bytes);
+
+/// Puts `bytes` under the name `path`, whole or not at all: they are written to a temporary name in
+/// the same folder, brought to the disk and renamed. A file of that name is replaced; on failure it
+/// stays as it was and nothing is left behind.
+///
+/// Fails with kNoSpace, kPermissionDenied, kNotFound (no such folder) or kIo.
+Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes);
+
+/// The Error for an errno value met while doing something to a file: "cannot write /x/y (No space
+/// left on device): free some disk space ...".
+Error file_error(int error_number, const std::string& doing, const std::filesystem::path& path);
+
+}  // namespace instep

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "core/fusion/depth_frame.h"
+#include "core/result.h"
+#include "drivers/recording/recording.h"
+
+namespace instep {
+
+/// Reads and checks `recording.json` in `folder`; no image is opened. Everything is demanded: the
+/// format and its version, each key's kind and range, lens and pose of each camera
+/// (check_intrinsics(), is_rigid()), distinct camera ids, frames of known cameras only, and file
+/// names that stay in the folder. Unknown keys are passed over.
+///
+/// The first fault is returned with the name of the file, the place in it and what to do. At most
+/// kMostRecordingCameras and kMostRecordingFrames are taken.
+Result<Recording> read_recording(const std::filesystem::path& folder);
+
+/// Reads the pixels of one frame (`index` < frames.size()). DepthFrame::sequence is the frame's
+/// place among those of its camera and host_time is left at its default. Fails like
+/// read_depth_png(), with kCorruptData if the image has another size than its camera, and with
+/// kInvalidInput if a symbolic link leads out of the recording.
+Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t index);
+
+/// All frames in order; the first fault ends it.
+Result<std::vector<DepthFrame>> read_recorded_frames(const Recording& recording);
+
+}  // namespace instep

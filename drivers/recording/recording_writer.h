@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "core/fusion/depth_frame.h"
+#include "core/result.h"
+#include "drivers/recording/recording.h"
+
+namespace instep {
+
+/// Writes a recording that appears whole or not at all: each image under a temporary name that is
+/// then renamed, `recording.json` last. A writer that is destroyed before finish() takes away what
+/// it wrote.
+///
+///     auto writer = RecordingWriter::create("/data/visit", header);
+///     writer->add_frame(frame); ...
+///     writer->finish();
+///
+/// One thread at a time. Cost of a frame: its compression and one sync of the disk.
+class RecordingWriter {
+ public:
+  /// `header` holds everything but folder and frames, which are ignored. Makes `folder`; it must
+  /// not exist or be empty (kInvalidInput). Also fails where the cameras are not ones that
+  /// read_recording() would take, and with kPermissionDenied or kNoSpace.
+  static Result<RecordingWriter> create(const std::filesystem::path& folder, Recording header);
+
+  RecordingWriter(RecordingWriter&&) noexcept = default;
+  RecordingWriter& operator=(RecordingWriter&&) = delete;
+  ~RecordingWriter();
+
+  /// Writes the image of a frame. Its camera must be one of the header's, its size that camera's,
+  /// and its device_time not before the camera's last one (kInvalidInput).
+  Result<void> add_frame(const DepthFrame& frame);
+
+  /// Writes recording.json. After it nothing can be added. Fails with kInsufficientData without
+  /// frames.
+  Result<void> finish();
+
+  const Recording& recording() const { return recording_; }
+
+ private:
+  explicit RecordingWriter(Recording recording) : recording_(std::move(recording)) {}
+
+  struct CameraState {
+    std::size_t frames = 0;
+    std::chrono::microseconds latest{0};
+  };
+
+  Recording recording_;
+  std::map<std::string, CameraState> states_;
+  bool made_folder_ = false;
+};
+
+}  // namespace instep

@@ -1,0 +1,221 @@
+#include "sim/simulated_pedal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace instep {
+namespace {
+
+using std::chrono::nanoseconds;
+using namespace std::chrono_literals;
+
+constexpr nanoseconds kTapTime = 100ms;
+constexpr std::size_t kLongestLine = 64;
+
+nanoseconds now() {
+  return std::chrono::duration_cast<nanoseconds>(
+      std::chrono::steady_clock::now().time_since_epoch());
+}
+
+/// What `bounce` does where the script asks for nothing worse.
+PedalFaults usual_chatter() {
+  PedalFaults faults;
+  faults.bounce_edges = 6;
+  faults.bounce_time = 8ms;
+  return faults;
+}
+
+tl::unexpected<Error> system_failure(const std::string& what, const std::string& advice) {
+  const int reason = errno;
+  const ErrorCode code = reason == EACCES ? ErrorCode::kPermissionDenied : ErrorCode::kIo;
+  return fail(code, fmt::format("{}: {}", what, std::strerror(reason)), advice);
+}
+
+}  // namespace
+
+SimulatedPedal::SimulatedPedal(const Settings& settings)
+    : settings_(settings), pressed_(settings.faults.stuck) {}
+
+Result<std::unique_ptr<SimulatedPedal>> SimulatedPedal::open(const Settings& settings) {
+  std::unique_ptr<SimulatedPedal> pedal(new SimulatedPedal(settings));
+  if (auto opened = pedal->open_descriptors(); !opened) {
+    return tl::make_unexpected(opened.error());
+  }
+  return pedal;
+}
+
+SimulatedPedal::~SimulatedPedal() {
+  for (const int descriptor : {poll_descriptor_, event_descriptor_, fifo_descriptor_}) {
+    if (descriptor >= 0) close(descriptor);
+  }
+  if (made_fifo_) unlink(settings_.fifo.c_str());
+}
+
+Result<void> SimulatedPedal::open_descriptors() {
+  poll_descriptor_ = epoll_create1(EPOLL_CLOEXEC);
+  event_descriptor_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (poll_descriptor_ < 0 || event_descriptor_ < 0) {
+    return system_failure("the simulated pedal cannot be made", "raise the limit of open files");
+  }
+  if (!settings_.fifo.empty()) {
+    if (auto opened = open_fifo(); !opened) return opened;
+  }
+  for (const int descriptor : {event_descriptor_, fifo_descriptor_}) {
+    if (descriptor < 0) continue;
+    epoll_event interest{};
+    interest.events = EPOLLIN;
+    if (epoll_ctl(poll_descriptor_, EPOLL_CTL_ADD, descriptor, &interest) != 0) {
+      return system_failure("the simulated pedal cannot be watched", "look at the system's log");
+    }
+  }
+  return {};
+}
+
+Result<void> SimulatedPedal::open_fifo() {
+  const std::string name = settings_.fifo.string();
+  const std::string advice = "choose another file for the pedal, or another folder";
+  made_fifo_ = mkfifo(name.c_str(), 0660) == 0;
+  if (!made_fifo_ && errno != EEXIST) return system_failure("cannot make the FIFO " + name, advice);
+  // Open for writing as well: the FIFO then never reports its last writer's leaving.
+  fifo_descriptor_ = ::open(name.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+  if (fifo_descriptor_ < 0) return system_failure("cannot open the FIFO " + name, advice);
+  struct stat status {};
+  if (fstat(fifo_descriptor_, &status) != 0 || !S_ISFIFO(status.st_mode)) {
+    return fail(ErrorCode::kInvalidInput, name + " is there, but is no FIFO", advice);
+  }
+  return {};
+}
+
+Result<std::vector<PedalEdge>> SimulatedPedal::read_edges() {
+  const std::lock_guard lock(mutex_);
+  read_fifo();
+  if (gone_) return fail(ErrorCode::kDeviceGone, "the pedal left", "plug it in again");
+  std::uint64_t wakes = 0;
+  if (read(event_descriptor_, &wakes, sizeof wakes) < 0) wakes = 0;  // nothing waits: no fault
+  return std::exchange(edges_, {});
+}
+
+Result<bool> SimulatedPedal::is_pressed() {
+  const std::lock_guard lock(mutex_);
+  if (gone_) return fail(ErrorCode::kDeviceGone, "the pedal left", "plug it in again");
+  return pressed_;
+}
+
+Result<void> SimulatedPedal::reopen() {
+  const std::lock_guard lock(mutex_);
+  if (!gone_) return {};
+  if (!is_back()) return fail(ErrorCode::kNotFound, "the pedal is not there", "plug it in again");
+  gone_ = false;
+  edges_.clear();
+  std::uint64_t wakes = 0;
+  if (read(event_descriptor_, &wakes, sizeof wakes) < 0) return {};
+  return {};
+}
+
+void SimulatedPedal::press() {
+  const std::lock_guard lock(mutex_);
+  chatter(true, now(), settings_.faults);
+}
+
+void SimulatedPedal::release() {
+  const std::lock_guard lock(mutex_);
+  chatter(false, now(), settings_.faults);
+}
+
+void SimulatedPedal::tap() {
+  const std::lock_guard lock(mutex_);
+  tap_with(settings_.faults);
+}
+
+void SimulatedPedal::bounce() {
+  const std::lock_guard lock(mutex_);
+  tap_with(settings_.faults.bounce_edges > 0 ? settings_.faults : usual_chatter());
+}
+
+void SimulatedPedal::unplug() {
+  const std::lock_guard lock(mutex_);
+  gone_ = true;
+  return_time_.reset();
+  wake();
+}
+
+void SimulatedPedal::plug_in() {
+  const std::lock_guard lock(mutex_);
+  return_time_ = now();
+}
+
+void SimulatedPedal::read_fifo() {
+  if (fifo_descriptor_ < 0) return;
+  std::array<char, 512> bytes;
+  ssize_t count = 0;
+  while ((count = read(fifo_descriptor_, bytes.data(), bytes.size())) > 0) {
+    for (const char byte : std::string_view(bytes.data(), static_cast<std::size_t>(count))) {
+      if (byte != '\n') {
+        if (unfinished_line_.size() < kLongestLine) unfinished_line_ += byte;
+        continue;
+      }
+      obey(unfinished_line_);
+      unfinished_line_.clear();
+    }
+  }
+}
+
+void SimulatedPedal::obey(std::string_view line) {
+  if (line == "press") chatter(true, now(), settings_.faults);
+  if (line == "release") chatter(false, now(), settings_.faults);
+  if (line == "tap") tap_with(settings_.faults);
+  if (line == "bounce") {
+    tap_with(settings_.faults.bounce_edges > 0 ? settings_.faults : usual_chatter());
+  }
+}
+
+void SimulatedPedal::tap_with(const PedalFaults& faults) {
+  chatter(true, now() - kTapTime, faults);
+  chatter(false, now(), faults);
+}
+
+/// The contact comes to rest at `until`, after as many further edges as the script asks for.
+void SimulatedPedal::chatter(bool pressed, nanoseconds until, const PedalFaults& faults) {
+  if (pressed_ == pressed || faults.stuck) return;
+  const auto extra = static_cast<std::int64_t>(faults.bounce_edges / 2 * 2);
+  for (std::int64_t i = 0; i < extra; ++i) {
+    const nanoseconds before = nanoseconds(faults.bounce_time) * (extra - i) / extra;
+    move_contact(i % 2 == 0 ? pressed : !pressed, until - before);
+  }
+  move_contact(pressed, until);
+}
+
+void SimulatedPedal::move_contact(bool pressed, nanoseconds time) {
+  if (gone_) return;
+  pressed_ = pressed;
+  last_edge_ = std::max(time, last_edge_ + 1us);
+  edges_.push_back({pressed, last_edge_});
+  ++edge_count_;
+  const auto& absence = settings_.faults.absence;
+  if (absence && edge_count_ == absence->after) {
+    gone_ = true;
+    if (absence->duration) return_time_ = now() + nanoseconds(*absence->duration);
+  }
+  wake();
+}
+
+void SimulatedPedal::wake() const {
+  const std::uint64_t one = 1;
+  // Fails only when the counter is full, and then the descriptor is readable anyway.
+  if (write(event_descriptor_, &one, sizeof one) < 0) return;
+}
+
+bool SimulatedPedal::is_back() {
+  return return_time_ && now() >= *return_time_;
+}
+
+}  // namespace instep
