@@ -1,1 +1,53 @@
-int main() { return 0; }
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "daemon/command_line/command_output.h"
+#include "daemon/command_line/commands.h"
+
+namespace {
+
+constexpr const char* kDescription =
+    "Measures feet: the girths that a tape gives, from clouds, meshes and depth cameras.";
+
+constexpr const char* kExamples = R"(Examples:
+  instep girth foot.ply --plane 160,-5,22,160,-5,62,170,-44,22   one girth of a cloud
+  instep measure foot.ply                                       all measures of a foot
+  instep simulate --out visit && instep replay visit            the whole chain, no hardware
+  instep girth --help                                           all about one command
+
+JSON alone goes to stdout. Exit codes: 0 done, 1 it could not be done, 2 wrong usage.)";
+
+/// What a wrong usage is answered with: one line that says where help is.
+int explain_wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
+  std::string command = "instep";
+  for (const auto* chosen : app.get_subcommands()) command += " " + chosen->get_name();
+  instep::print_error({instep::ErrorCode::kInvalidInput, instep::Remedy::kOperator, error.what(),
+                       "see " + command + " --help"});
+  return instep::kWrongUsage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int exit_code = instep::kDone;
+  CLI::App app(kDescription, "instep");
+  try {
+    app.footer(kExamples);
+    app.set_version_flag("--version", std::string("instep ") + instep::program_version());
+    app.require_subcommand(1);
+    instep::add_cloud_commands(app, exit_code);
+    instep::add_recording_commands(app, exit_code);
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help or --version
+  } catch (const CLI::ParseError& error) {
+    return explain_wrong_usage(app, error);
+  } catch (const std::exception& error) {
+    instep::print_error(
+        {instep::ErrorCode::kInternal, instep::Remedy::kBug, error.what(), "report this"});
+    return instep::kNotDone;
+  }
+  return exit_code;
+}

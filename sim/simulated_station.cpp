@@ -11,6 +11,7 @@
 #include "sim/solids/foot_solid.h"
 #include "sim/solids/last_solid.h"
 #include "sim/station_layout.h"
+#include "sim/truth.h"
 
 namespace instep {
 namespace {
@@ -107,6 +108,21 @@ std::optional<Subject> subject_from_string(std::string_view name) {
   if (name == "cylinder") return Subject::kCylinder;
   if (name == "last") return Subject::kLast;
   return std::nullopt;
+}
+
+Result<std::vector<SubjectTruth>> SimulatedStation::truth() const {
+  std::vector<SubjectTruth> truths;
+  for (const PlacedSolid& placed : scene.solids) {
+    if (const auto* foot = dynamic_cast<const FootSolid*>(placed.solid.get())) {
+      auto truth = foot_truth(*foot);
+      if (!truth) return tl::make_unexpected(truth.error());
+      truths.push_back({truth->side, std::move(truth->measures)});
+    }
+    if (const auto* cylinder = dynamic_cast<const CylinderSolid*>(placed.solid.get())) {
+      truths.push_back({std::nullopt, {{"girth", 2.0 * std::numbers::pi * cylinder->radius_mm()}}});
+    }
+  }
+  return truths;
 }
 
 Result<SimulatedStation> build_station(const SimulationSettings& settings) {

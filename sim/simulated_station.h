@@ -39,8 +39,8 @@ struct SimulationSettings {
 
 /// What is true of one body on the platform: measure id -> value in mm.
 struct SubjectTruth {
-  std::optional<Side> side;  ///< nothing = not a foot
-  std::map<std::string, double> measures;
+  std::optional<Side> side;                ///< nothing = not a foot
+  std::map<std::string, double> measures;  ///< ids as in sim/truth.h; `girth` of a cylinder
 };
 
 /// A whole station: what stands on it, its cameras, its pedal, and the truth about the measures.
@@ -49,7 +49,10 @@ struct SimulatedStation {
   std::vector<std::unique_ptr<DepthCamera>> cameras;
   std::unique_ptr<SimulatedPedal> pedal;
   double platform_height_mm = 0.0;
-  std::vector<SubjectTruth> truth;  ///< the left foot first; empty for a last
+
+  /// The truth about what stands there, the left foot first; empty for a last. Cost: a second or
+  /// two a foot, so ask only when it is wanted.
+  Result<std::vector<SubjectTruth>> truth() const;
 };
 
 /// Builds it. The same settings give the same feet, frames and truth. Fails with kInvalidInput on

@@ -36,14 +36,15 @@ struct Ray {
   double tip_radius;
 };
 
-void add_rays(Blend& body, Blend& toes, const FootParameters& foot, double per_model) {
+/// Returns the middle of the second toe's tip.
+Vector3d add_rays(Blend& body, Blend& toes, const FootParameters& foot, double per_model) {
   const double second = foot.second_toe_mm * per_model;
   Ray rays[] = {
       {{108, 13, 36}, 20, {171, 22, 12}, 18, {208, 20, 9}, 11.5, {236, 18, 7}, 11},
       {{108, 3, 40}, 20, {179, 5, 12}, 17, {216, 2, 11}, 8.5, {0, 1, 5.5}, 8},
       {{103, -8, 35}, 20, {174, -9, 11}, 16.5, {208, -14, 10}, 8, {230, -16, 5}, 7.5},
       {{95, -18, 27}, 18, {165, -22, 10}, 15.5, {196, -28, 9}, 7.5, {217, -31, 5}, 7.5},
-      {{85, -25, 16}, 16.5, {153, -35, 8}, 14.5, {180, -41, 8}, 8, {200, -44, 5}, 8},
+      {{85, -25, 16}, 16.5, {153, -35, 8}, 14.5, {180, -37, 8}, 7.5, {200, -41, 5}, 7.5},
   };
   rays[0].middle = turned_outwards(rays[0].middle, rays[0].head, foot.hallux_angle_deg - 5.0);
   rays[0].tip = turned_outwards(rays[0].tip, rays[0].head, foot.hallux_angle_deg - 5.0);
@@ -53,12 +54,13 @@ void add_rays(Blend& body, Blend& toes, const FootParameters& foot, double per_m
     toes.add({ray.head, ray.middle_radius, ray.middle, ray.middle_radius});
     toes.add({ray.middle, ray.middle_radius, ray.tip, ray.tip_radius});
   }
+  return rays[1].tip;
 }
 
 void add_hindfoot(Blend& body, const FootParameters& foot, double per_model) {
   const double heel = 0.5 * foot.heel_breadth_mm * per_model - 2.5;
   const double arch = foot.arch_lift_mm * per_model;
-  body.add({{heel + 1, 0, 21}, heel, {36, 0, 60}, heel - 7});  // heel
+  body.add({{heel + 1, 0, 18}, heel, {37, 0, 60}, heel - 7});  // heel
   body.add({{40, -6, 14}, 22, {100, -21, 11}, 18});            // outer edge
   body.add({{45, 5, 40}, 24, {105, 13, 37 + arch}, 18});       // arch, inner side
   body.add({{60, 2, 75}, 24, {108, 4, 41}, 19});               // instep
@@ -102,10 +104,11 @@ Vector3d first_skin(const std::function<double(const Vector3d&)>& value, const V
 
 FootSolid::FootSolid(const FootParameters& parameters)
     : parameters_(parameters),
+      rim_(parameters.rim_radius_mm * kModelLength / parameters.length_mm),
       toes_(kTightToes + (kSpreadToes - kTightToes) * parameters.toe_separation),
       body_(kBodySoftness) {
   const double per_model = kModelLength / parameters.length_mm;
-  add_rays(body_, toes_, parameters, per_model);
+  second_toe_ = add_rays(body_, toes_, parameters, per_model);
   add_hindfoot(body_, parameters, per_model);
   add_leg(body_, parameters, per_model);
   fit_scale();
@@ -122,15 +125,39 @@ FootSolid::FootSolid(const FootParameters& parameters)
 }
 
 double FootSolid::model_value(const Vector3d& point) const {
-  const double flesh = soft_minimum(body_.value(point), toes_.value(point), kBodySoftness);
-  const double rim = parameters_.rim_radius_mm * kModelLength / parameters_.length_mm;
-  return rounded_maximum(flesh, -point.z(), rim);
+  double share = 0.0;
+  Eigen::Vector2d shares;
+  const double flesh = soft_minimum(body_.value(point), toes_.value(point), kBodySoftness, share);
+  return rounded_maximum(flesh, -point.z(), rim_, shares);
+}
+
+Vector3d FootSolid::model_gradient(const Vector3d& point) const {
+  Vector3d of_body, of_toes;
+  double share = 0.0;
+  Eigen::Vector2d shares;
+  const double body = body_.value(point, of_body);
+  const double toes = toes_.value(point, of_toes);
+  const double flesh = soft_minimum(body, toes, kBodySoftness, share);
+  rounded_maximum(flesh, -point.z(), rim_, shares);
+  return shares.x() * (share * of_body + (1.0 - share) * of_toes) - shares.y() * Vector3d::UnitZ();
+}
+
+Vector3d FootSolid::mirrored(const Vector3d& point) const {
+  const double mirror = parameters_.side == Side::kLeft ? -1.0 : 1.0;
+  return {point.x(), mirror * point.y(), point.z()};
+}
+
+Vector3d FootSolid::second_toe() const {
+  return mirrored(second_toe_.cwiseProduct(scale_));
 }
 
 double FootSolid::value(const Vector3d& point) const {
-  Vector3d in_model = point.cwiseQuotient(scale_);
-  if (parameters_.side == Side::kLeft) in_model.y() = -in_model.y();
-  return model_value(in_model) * scale_.minCoeff();
+  return model_value(mirrored(point).cwiseQuotient(scale_)) * scale_.minCoeff();
+}
+
+Vector3d FootSolid::gradient(const Vector3d& point) const {
+  const Vector3d slope = model_gradient(mirrored(point).cwiseQuotient(scale_));
+  return mirrored(slope.cwiseQuotient(scale_)) * scale_.minCoeff();
 }
 
 /// Measures the model on lines parallel to its axes, and sets the scale that gives it the asked

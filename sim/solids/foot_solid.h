@@ -19,16 +19,24 @@ class FootSolid final : public Solid {
   explicit FootSolid(const FootParameters& parameters);
 
   double value(const Eigen::Vector3d& point) const override;
+  Eigen::Vector3d gradient(const Eigen::Vector3d& point) const override;
   Eigen::AlignedBox3d bounds() const override { return bounds_; }
   const FootParameters& parameters() const { return parameters_; }
 
+  /// The middle of the second toe's tip: anatomy that the skin alone does not always show.
+  Eigen::Vector3d second_toe() const;
+
  private:
   double model_value(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d model_gradient(const Eigen::Vector3d& point) const;
+  Eigen::Vector3d mirrored(const Eigen::Vector3d& point) const;
   void fit_scale();
 
   FootParameters parameters_;
+  double rim_;  ///< radius, in the model
   Blend toes_;
   Blend body_;
+  Eigen::Vector3d second_toe_;                       ///< in the model
   Eigen::Vector3d scale_ = Eigen::Vector3d::Ones();  ///< foot from model
   Eigen::AlignedBox3d bounds_;
 };

@@ -33,6 +33,21 @@ double RoundCone::distance(const Eigen::Vector3d& point) const {
   return across * taper_cosine_ + along * taper_sine_ - from_radius_;
 }
 
+double RoundCone::distance(const Eigen::Vector3d& point, Eigen::Vector3d& slope) const {
+  const Eigen::Vector3d offset = point - from_;
+  const double along = offset.dot(axis_);
+  const Eigen::Vector3d across = offset - along * axis_;
+  const double side = along * taper_cosine_ - across.norm() * taper_sine_;
+  if (side <= 0.0) {
+    slope = offset.normalized();
+  } else if (side >= taper_cosine_ * length_) {
+    slope = (offset - length_ * axis_).normalized();
+  } else {
+    slope = taper_cosine_ * across.normalized() + taper_sine_ * axis_;
+  }
+  return distance(point);
+}
+
 void RoundCone::extend(Eigen::Vector3d& lowest, Eigen::Vector3d& highest) const {
   const Eigen::Vector3d to = from_ + length_ * axis_;
   lowest = lowest.cwiseMin((from_.array() - from_radius_).matrix())

@@ -15,6 +15,9 @@ class RoundCone {
   /// Signed distance to the skin: exact outside, and inside up to the medial axis.
   double distance(const Eigen::Vector3d& point) const;
 
+  /// The same, with the slope of the distance: a unit vector (any, on the axis).
+  double distance(const Eigen::Vector3d& point, Eigen::Vector3d& slope) const;
+
   void extend(Eigen::Vector3d& lowest, Eigen::Vector3d& highest) const;
 
  private:

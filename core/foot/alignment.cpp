@@ -1,0 +1,106 @@
+#include "core/foot/alignment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "core/foot/foot_axis.h"
+#include "core/foot/outline_axis.h"
+#include "core/foot/side_from_shape.h"
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kFewestPoints = 200;
+constexpr double kSureSide = 0.8;
+
+/// Files of triangles name a corner once for each face.
+PointCloud without_duplicates(const PointCloud& cloud) {
+  std::vector<std::size_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto before = [&](std::size_t a, std::size_t b) {
+    const auto& p = cloud.positions[a];
+    const auto& q = cloud.positions[b];
+    const auto compared =
+        std::lexicographical_compare_three_way(p.data(), p.data() + 3, q.data(), q.data() + 3);
+    return compared != 0 ? compared < 0 : a < b;
+  };
+  std::sort(order.begin(), order.end(), before);
+  const auto end = std::unique(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return cloud.positions[a] == cloud.positions[b];
+  });
+  order.erase(end, order.end());
+  std::sort(order.begin(), order.end());
+  return cloud.subset(order);
+}
+
+Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
+  if (options.standing_plane) return *options.standing_plane;
+  if (options.up) return plane_below(cloud.positions, *options.up);
+  return find_standing_plane(cloud.positions);
+}
+
+Result<void> check_options(const AlignmentOptions& options) {
+  const auto is_unit = [](const Eigen::Vector3d& up) { return std::abs(up.norm() - 1.0) < 1e-6; };
+  if ((options.up && !is_unit(*options.up)) ||
+      (options.standing_plane && !(is_unit(options.standing_plane->up) &&
+                                   std::isfinite(options.standing_plane->height_mm)))) {
+    return fail(ErrorCode::kInvalidInput, "the floor's direction is not a unit vector",
+                "give the direction that points up, of length 1");
+  }
+  return {};
+}
+
+std::vector<std::string> doubts(const FootScan& foot, bool is_second_toe_resolved) {
+  std::vector<std::string> warnings;
+  if (foot.side_confidence < kSureSide) {
+    warnings.emplace_back("the shape hardly tells left from right: check the side");
+  }
+  if (!is_second_toe_resolved) {
+    warnings.emplace_back(
+        "the toes cannot be told apart: the second toe's tip is placed by proportion");
+  }
+  return warnings;
+}
+
+}  // namespace
+
+Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
+  if (auto checked = check_cloud(cloud); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
+  FootScan foot;
+  foot.cloud = without_duplicates(cloud);
+  if (foot.cloud.size() < kFewestPoints) {
+    return fail(ErrorCode::kInsufficientData,
+                "the cloud has only " + std::to_string(foot.cloud.size()) + " points",
+                "give at least " + std::to_string(kFewestPoints) + " points of one foot");
+  }
+  const auto plane = standing_plane(foot.cloud, options);
+  if (!plane) return tl::unexpected(plane.error());
+  const RigidTransform standing_from_input = plane->standing_from_input();
+  const auto standing = transformed(standing_from_input, foot.cloud).positions;
+
+  const auto outline = find_outline_axis(standing);
+  if (!outline) return tl::unexpected(outline.error());
+  auto along_outline = standing;
+  for (auto& point : along_outline) point = outline->axis_from_standing() * point;
+  const SideGuess guess = side_from_shape(along_outline, outline->length_mm);
+  foot.side = options.side.value_or(guess.side);
+  foot.side_confidence = options.side ? 1.0 : guess.confidence;
+
+  const FootAxis axis = find_foot_axis(standing, *outline, foot.side);
+  foot.foot_from_input = axis.foot_from_standing * standing_from_input;
+  foot.cloud = transformed(foot.foot_from_input, foot.cloud);
+  foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
+  foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
+                                  "foremost point of the toes along the axis"};
+  foot.landmarks["toe2_tip"] =
+      axis.is_second_toe_resolved
+          ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
+          : Landmark{axis.toe2_tip, 0.4, "front border at 0.35 of the ball's breadth from medial"};
+  foot.warnings = doubts(foot, axis.is_second_toe_resolved);
+  return foot;
+}
+
+}  // namespace instep

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/foot/foot_scan.h"
+#include "core/foot/standing_plane.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// What is known beforehand about a cloud of one foot.
+struct AlignmentOptions {
+  /// Forced side; without it the shape tells.
+  std::optional<Side> side;
+  /// The floor, where the station knows it: the pose is then not searched at all.
+  std::optional<StandingPlane> standing_plane;
+  /// Which way is up, where only that is known: the floor is then under the lowest points.
+  std::optional<Eigen::Vector3d> up;
+};
+
+/// Puts the cloud of one foot into its own frame (see FootScan): standing plane, heel-toe axis,
+/// side. Exact duplicates of points are dropped.
+///
+/// The axis is `pt_toe2` of the Japanese standard: from the pternion to the tip of the second toe,
+/// in floor projection. The landmarks `pternion`, `acropodion` and `toe2_tip` are set; the others
+/// are find_landmarks()'s business.
+///
+/// A leg above the foot, an open sole and a cut at any height above the instep are fine. Fails with
+/// kInsufficientData under 200 points and with kInvalidInput, saying why, for what is no whole
+/// foot. A mirrored cloud gives the mirrored result. O(n log n), some 50 ms for 200,000 points.
+Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
+
+}  // namespace instep

@@ -1,0 +1,62 @@
+#include "core/foot/ball_points.h"
+
+#include <algorithm>
+
+namespace instep {
+namespace {
+
+constexpr double kPriorConfidence = 0.3;
+constexpr double kFaintRiseMm = 0.15;  ///< a summit lower than this is no summit
+constexpr double kClearRiseMm = 2.0;   ///< one as high as this leaves no doubt
+constexpr double kBehindTibialeMm = 15.0;
+
+/// From just better than the prior to nearly sure, by how much the summit stands out.
+double confidence_of(double rise) {
+  return std::clamp(0.5 + 0.45 * rise / kClearRiseMm, 0.5, 0.95);
+}
+
+struct Rule {
+  double from;
+  double to;
+  double prior;
+  double outwards;  ///< +1 medial, -1 lateral
+  const char* found;
+  const char* fallback;
+};
+
+std::optional<Landmark> most_protruding(const FootOutline& outline, const BorderProfile& border,
+                                        const Rule& rule) {
+  const auto landmark = [&](double place, double reach, double confidence, const char* text) {
+    const Eigen::Vector2d flat(place, rule.outwards * reach);
+    return Landmark{{flat.x(), flat.y(), outline.border_height(flat)}, confidence, text};
+  };
+  const auto peak = border.furthest(rule.from, rule.to);
+  if (peak && peak->rise > kFaintRiseMm) {
+    return landmark(peak->place, peak->reach, confidence_of(peak->rise), rule.found);
+  }
+  const auto reach = border.reach(rule.prior);
+  if (!reach) return std::nullopt;
+  return landmark(rule.prior, *reach, kPriorConfidence, rule.fallback);
+}
+
+}  // namespace
+
+std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
+  const double length = outline.length_mm();
+  return most_protruding(outline, outline.medial(),
+                         {0.60 * length, 0.80 * length, 0.69 * length, 1.0,
+                          "most medial point of the outline in 0.60-0.80 of the foot's length",
+                          "no medial summit: outline at 0.69 of the foot's length"});
+}
+
+std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
+                                                  const Landmark& tibiale) {
+  const double length = outline.length_mm();
+  const double foremost = std::min(0.75 * length, tibiale.position_mm.x() - kBehindTibialeMm);
+  return most_protruding(outline, outline.lateral(),
+                         {0.50 * length, foremost, std::min(0.63 * length, foremost), -1.0,
+                          "most lateral point of the outline in 0.50-0.75 of the foot's length",
+                          "no lateral summit: outline at 0.63 of the foot's length"});
+}
+
+}  // namespace instep

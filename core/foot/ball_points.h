@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "core/foot/foot_outline.h"
+#include "core/foot/foot_scan.h"
+
+namespace instep {
+
+/// The head of the first metatarsal: the most medial point of the ball. Right-foot form. Nothing
+/// where the outline has no points there.
+std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline);
+
+/// The head of the fifth metatarsal: the most lateral point of the ball, behind `tibiale`.
+/// Right-foot form.
+std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
+                                                  const Landmark& tibiale);
+
+}  // namespace instep

@@ -1,0 +1,131 @@
+#include "core/foot/measures.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "core/foot/foot_lengths.h"
+#include "core/foot/foot_tapes.h"
+
+namespace instep {
+namespace {
+
+constexpr double kPoorConfidence = 0.35;
+
+struct LengthRule {
+  const char* id;
+  Result<double> (*length)(const FootScan&);
+  std::vector<const char*> landmarks;
+  const char* definition;
+};
+
+struct GirthRule {
+  const char* id;
+  Result<TapePlane> (*tape)(const FootScan&);
+  std::vector<const char*> landmarks;
+  const char* definition;
+};
+
+const std::vector<LengthRule>& length_rules() {
+  static const std::vector<LengthRule> rules{
+      {"foot_length",
+       foot_length,
+       {},
+       "from the pternion to the foremost toe, parallel to the axis from the pternion to the tip "
+       "of the second toe (pt_toe2)"},
+      {"foot_breadth",
+       foot_breadth,
+       {"metatarsale_tibiale", "metatarsale_fibulare"},
+       "from metatarsale tibiale to metatarsale fibulare, in floor projection"},
+      {"foot_breadth_horizontal",
+       foot_breadth_horizontal,
+       {},
+       "extent of the outline up to 25 mm over the floor, at right angles to the axis, in "
+       "0.50-0.85 "
+       "of the foot's length"},
+  };
+  return rules;
+}
+
+const std::vector<GirthRule>& girth_rules() {
+  static const std::vector<GirthRule> rules{
+      {"ball_girth",
+       ball_tape,
+       {"metatarsale_tibiale", "metatarsale_fibulare"},
+       "stretched tape in the upright plane over metatarsale tibiale and fibulare"},
+      {"waist_girth",
+       waist_tape,
+       {"metatarsale_tibiale", "metatarsale_fibulare", "instep_point", "medial_arch"},
+       "stretched tape in the plane midway between those of the ball and the instep girth"},
+      {"instep_girth",
+       instep_tape,
+       {"instep_point", "lateral_midfoot", "medial_arch"},
+       "stretched tape over the instep point at 0.50 of the foot's length, by the lateral midfoot "
+       "and the point of the medial arch that makes it shortest"},
+  };
+  return rules;
+}
+
+std::vector<std::string> doubts(const FootScan& foot, const std::vector<const char*>& landmarks) {
+  std::vector<std::string> warnings;
+  for (const char* name : landmarks) {
+    const auto found = foot.landmarks.find(name);
+    if (found != foot.landmarks.end() && found->second.confidence < kPoorConfidence) {
+      warnings.push_back(std::string(name) + " is placed by proportion");
+    }
+  }
+  return warnings;
+}
+
+Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
+  const auto length = rule.length(foot);
+  if (!length) return tl::unexpected(length.error());
+  Measure measure;
+  measure.id = rule.id;
+  measure.value_mm = *length;
+  measure.definition = rule.definition;
+  measure.warnings = doubts(foot, rule.landmarks);
+  return measure;
+}
+
+Result<Measure> take(const GirthRule& rule, const FootScan& foot, const MeasureOptions& options) {
+  const auto plane = rule.tape(foot);
+  if (!plane) return tl::unexpected(plane.error());
+  auto girth = options.girth(foot.cloud, *plane, options.girth_options);
+  if (!girth) return tl::unexpected(girth.error());
+  Measure measure;
+  measure.id = rule.id;
+  measure.value_mm = girth->stretched_mm;
+  measure.u95_mm = girth->stretched_u95_mm;
+  measure.plane = *plane;
+  measure.definition = rule.definition;
+  measure.warnings = doubts(foot, rule.landmarks);
+  measure.warnings.insert(measure.warnings.end(), girth->warnings.begin(), girth->warnings.end());
+  measure.girth = *std::move(girth);
+  return measure;
+}
+
+void keep(MeasureSet& set, const char* id, Result<Measure> measure) {
+  if (measure) {
+    set.measures.push_back(*std::move(measure));
+  } else {
+    set.withheld.push_back({id, measure.error().line()});
+  }
+}
+
+}  // namespace
+
+Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options) {
+  for (const char* name : {"pternion", "acropodion", "instep_point"}) {
+    if (!foot.landmarks.contains(name)) {
+      return fail(ErrorCode::kInvalidInput, std::string("the foot has no landmark ") + name,
+                  "align it and find its landmarks first, and scan again if one is missing");
+    }
+  }
+  MeasureSet set;
+  for (const auto& rule : length_rules()) keep(set, rule.id, take(rule, foot));
+  for (const auto& rule : girth_rules()) keep(set, rule.id, take(rule, foot, options));
+  return set;
+}
+
+}  // namespace instep

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+
+#include "core/foot/foot_scan.h"
+#include "core/foot/measure_set.h"
+#include "core/girth/girth.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// How a girth is taken in a plane.
+using GirthMethod =
+    std::function<Result<Girth>(const PointCloud&, const TapePlane&, const GirthOptions&)>;
+
+struct MeasureOptions {
+  GirthMethod girth = girth_by_rbf;
+  GirthOptions girth_options;
+};
+
+/// All measures of an aligned foot with its landmarks, in a fixed order: `foot_length`,
+/// `foot_breadth`, `foot_breadth_horizontal`, `ball_girth`, `waist_girth`, `instep_girth`. Each
+/// carries the sentence that defines it; a girth its plane, its section and its interval.
+///
+/// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
+/// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no
+/// landmarks, and with kInsufficientData if not even its length can be told. A left foot has the
+/// measures of its mirror image. The cost is that of the girths.
+Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {});
+
+}  // namespace instep

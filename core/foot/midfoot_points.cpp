@@ -1,0 +1,158 @@
+#include "core/foot/midfoot_points.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/foot/robust_extreme.h"
+#include "core/geometry/polygon.h"
+#include "core/girth/tape_plane.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kInstepShare = 0.50;
+constexpr double kRidgeHalfWidthMm = 8.0;
+constexpr double kRidgeSlabMm = 3.0;
+constexpr std::size_t kFewestRidgePoints = 12;
+
+constexpr double kArchFrom = 0.35;
+constexpr double kArchTo = 0.60;
+constexpr double kArchPrior = 0.48;
+constexpr double kArchStep = 0.01;
+constexpr double kTapeBandMm = 2.5;
+
+std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double place, double width) {
+  std::vector<Vector3d> slab;
+  for (const auto& point : points) {
+    if (std::abs(point.x() - place) <= width) slab.push_back(point);
+  }
+  return slab;
+}
+
+/// Height of the back at (place, y), by a plane in x and a quadratic in y through points near by.
+std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place, double y) {
+  std::vector<Vector3d> close;
+  double highest = -1e300;
+  for (const auto& point : near_place(points, place, kRidgeHalfWidthMm)) {
+    if (std::abs(point.y() - y) > 2.0 * kRidgeHalfWidthMm) continue;
+    close.push_back(point);
+    highest = std::max(highest, point.z());
+  }
+  // The sole lies under the same place.
+  std::erase_if(close, [&](const Vector3d& point) { return point.z() < 0.6 * highest; });
+  if (close.size() < kFewestRidgePoints) return std::nullopt;
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(close.size()), 5);
+  Eigen::VectorXd height(static_cast<Eigen::Index>(close.size()));
+  for (std::size_t i = 0; i < close.size(); ++i) {
+    const double a = close[i].x() - place;
+    const double b = close[i].y() - y;
+    const auto row = static_cast<Eigen::Index>(i);
+    matrix.row(row) << 1.0, a, b, a * b, b * b;
+    height(row) = close[i].z();
+  }
+  const Eigen::VectorXd fitted = matrix.colPivHouseholderQr().solve(height);
+  const double aside = fitted(4) < 0.0 ? -fitted(2) / (2.0 * fitted(4)) : 0.0;
+  const double step = std::clamp(aside, -kRidgeHalfWidthMm, kRidgeHalfWidthMm);
+  return Vector3d(place, y + step, fitted(0) + step * (fitted(2) + step * fitted(4)));
+}
+
+/// Length of a tape in a plane, by the hull of the points beside it: good enough to compare planes.
+std::optional<double> rough_tape(const std::vector<Vector3d>& points, const TapePlane& plane) {
+  std::vector<Vector2d> section;
+  for (const auto& point : points) {
+    if (std::abs(plane.distance(point)) < kTapeBandMm) section.push_back(plane.project(point));
+  }
+  if (section.size() < 10) return std::nullopt;
+  return perimeter(convex_hull(std::move(section)));
+}
+
+/// Where the parabola through (place, length) pairs is lowest, if it is so inside their range.
+std::optional<double> lowest_place(const std::vector<Vector2d>& lengths) {
+  if (lengths.size() < 8) return std::nullopt;
+  const double middle = (lengths.front().x() + lengths.back().x()) / 2.0;
+  const double half = (lengths.back().x() - lengths.front().x()) / 2.0;
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(lengths.size()), 3);
+  Eigen::VectorXd right(static_cast<Eigen::Index>(lengths.size()));
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double t = (lengths[i].x() - middle) / half;
+    matrix.row(static_cast<Eigen::Index>(i)) << 1.0, t, t * t;
+    right(static_cast<Eigen::Index>(i)) = lengths[i].y();
+  }
+  const Eigen::VectorXd fitted = matrix.colPivHouseholderQr().solve(right);
+  if (!(fitted(2) > 0.0)) return std::nullopt;
+  const double t = -fitted(1) / (2.0 * fitted(2));
+  if (std::abs(t) >= 1.0) return std::nullopt;
+  return middle + t * half;
+}
+
+Landmark border_landmark(const FootOutline& outline, const Vector2d& flat, double confidence,
+                         const char* rule) {
+  return {{flat.x(), flat.y(), outline.border_height(flat)}, confidence, rule};
+}
+
+}  // namespace
+
+Vector3d on_floor(const Vector3d& point) {
+  return {point.x(), point.y(), 0.0};
+}
+
+std::optional<Landmark> find_instep_point(const FootOutline& outline) {
+  const double place = kInstepShare * outline.length_mm();
+  const auto slab = near_place(outline.points(), place, kRidgeSlabMm);
+  if (slab.empty()) return std::nullopt;
+  const Vector3d top = robust_extreme(slab, Vector3d::UnitZ());
+  if (const auto fitted = ridge(outline.points(), place, top.y())) {
+    return Landmark{*fitted, 0.8, "ridge of the foot's back at 0.50 of the foot's length"};
+  }
+  return Landmark{{place, top.y(), top.z()}, 0.5, "highest point at 0.50 of the foot's length"};
+}
+
+std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const Landmark& instep) {
+  const Vector2d target = instep.position_mm.head<2>();
+  std::optional<Vector2d> nearest;
+  for (double share = 0.25; share <= 0.45 + 1e-9; share += 0.005) {
+    const double place = share * outline.length_mm();
+    const auto reach = outline.lateral().reach(place);
+    if (!reach) continue;
+    const Vector2d point(place, -*reach);
+    if (!nearest || (point - target).norm() < (*nearest - target).norm()) nearest = point;
+  }
+  if (!nearest) return std::nullopt;
+  return border_landmark(outline, *nearest, 0.8,
+                         "lateral outline in 0.25-0.45 of the foot's length nearest the instep");
+}
+
+std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
+                                         const Landmark& lateral) {
+  const auto on_border = [&](double place) -> std::optional<Vector2d> {
+    const auto reach = outline.medial().reach(place);
+    return reach ? std::optional<Vector2d>({place, *reach}) : std::nullopt;
+  };
+  std::vector<Vector2d> lengths;
+  for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
+    const auto point = on_border(share * outline.length_mm());
+    if (!point) continue;
+    const auto plane = TapePlane::through(instep.position_mm, on_floor(lateral.position_mm),
+                                          {point->x(), point->y(), 0.0});
+    if (!plane) continue;
+    if (const auto tape = rough_tape(outline.points(), *plane)) {
+      lengths.emplace_back(point->x(), *tape);
+    }
+  }
+  const auto lowest = lowest_place(lengths);
+  const auto point = on_border(lowest.value_or(kArchPrior * outline.length_mm()));
+  if (!point) return std::nullopt;
+  return lowest ? border_landmark(outline, *point, 0.7,
+                                  "medial outline in 0.35-0.60 of the foot's length where the "
+                                  "instep tape is shortest")
+                : border_landmark(outline, *point, 0.3,
+                                  "no shortest tape: outline at 0.48 of the foot's length");
+}
+
+}  // namespace instep

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace instep {
+
+/// Tip of the second toe in the floor plane.
+struct SecondToe {
+  Eigen::Vector2d tip = Eigen::Vector2d::Zero();
+  bool is_resolved = false;  ///< seen as a toe of its own, not placed by proportion
+};
+
+/// Share of the ball's breadth from the medial border at which the second toe's tip is taken to be
+/// where the toes cannot be told apart (in a sock, or in a coarse cloud).
+inline constexpr double kSecondToeShare = 0.35;
+
+/// Finds the second toe's tip on the front border: the summit nearest to kSecondToeShare of the
+/// breadth, if at least two toes show as summits of 1 mm or more and one of them lies within 0.12
+/// of that share; else the front border at that share.
+///
+/// `outline`: the outline's points from above, x to the toes, medial side on +y, rear end near
+/// x = 0. Nothing where there is no border in front.
+std::optional<SecondToe> find_second_toe(const std::vector<Eigen::Vector2d>& outline,
+                                         double length_mm);
+
+}  // namespace instep

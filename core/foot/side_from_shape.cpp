@@ -1,0 +1,90 @@
+#include "core/foot/side_from_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/foot/border_profile.h"
+#include "core/foot/outline_axis.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kBorderSmoothingMm = 9.0;
+
+// How far, as a share of the foot's length, each sign has to go to be worth one unit of evidence.
+constexpr double kClearToeOffset = 0.03;
+constexpr double kClearArchDepth = 0.02;
+constexpr double kClearBallOffset = 0.05;
+
+/// The two borders of the outline, both counted outwards from the axis.
+struct Borders {
+  BorderProfile left;   ///< towards +y
+  BorderProfile right;  ///< towards -y
+};
+
+double middle(const Borders& borders, double place) {
+  return (borders.left.reach(place).value_or(0.0) - borders.right.reach(place).value_or(0.0)) / 2.0;
+}
+
+/// How far the toes end to the left of the line through the middles of heel and ball.
+double toe_offset(const std::vector<Vector2d>& outline, const Borders& borders, double length) {
+  const double heel = middle(borders, 0.17 * length);
+  const double ball = middle(borders, 0.65 * length);
+  double most = -1e300;
+  double least = 1e300;
+  for (const auto& point : outline) {
+    if (point.x() < 0.965 * length) continue;
+    most = std::max(most, point.y());
+    least = std::min(least, point.y());
+  }
+  if (most < least) return 0.0;
+  const double line_at_toes = heel + (ball - heel) * (0.98 - 0.17) / (0.65 - 0.17);
+  return (most + least) / 2.0 - line_at_toes;
+}
+
+/// How deep a border dips under the straight line from heel to ball.
+double hollow(const BorderProfile& border, double length) {
+  const auto heel = border.reach(0.17 * length);
+  const auto ball = border.reach(0.66 * length);
+  if (!heel || !ball) return 0.0;
+  double deepest = 0.0;
+  for (double share = 0.25; share < 0.6; share += 0.01) {
+    const double line = *heel + (*ball - *heel) * (share - 0.17) / (0.66 - 0.17);
+    if (const auto reach = border.reach(share * length)) deepest = std::max(deepest, line - *reach);
+  }
+  return deepest;
+}
+
+/// How much further forward the left border protrudes at the ball than the right one.
+double ball_offset(const Borders& borders, double length) {
+  const auto left = borders.left.furthest(0.5 * length, 0.8 * length);
+  const auto right = borders.right.furthest(0.5 * length, 0.8 * length);
+  return left && right ? left->place - right->place : 0.0;
+}
+
+double unit_evidence(double value, double clear) {
+  return std::clamp(value / clear, -3.0, 3.0);
+}
+
+}  // namespace
+
+SideGuess side_from_shape(const std::vector<Eigen::Vector3d>& points, double length_mm) {
+  std::vector<Vector2d> outline;
+  for (const auto& point : points) {
+    if (point.z() <= kOutlineHeightShare * length_mm) outline.push_back(point.head<2>());
+  }
+  const Borders borders{{outline, Vector2d::UnitX(), Vector2d::UnitY(), kBorderSmoothingMm},
+                        {outline, Vector2d::UnitX(), -Vector2d::UnitY(), kBorderSmoothingMm}};
+
+  const double for_right =
+      unit_evidence(toe_offset(outline, borders, length_mm), kClearToeOffset * length_mm) +
+      unit_evidence(hollow(borders.left, length_mm) - hollow(borders.right, length_mm),
+                    kClearArchDepth * length_mm) +
+      unit_evidence(ball_offset(borders, length_mm), kClearBallOffset * length_mm);
+  return {for_right >= 0.0 ? Side::kRight : Side::kLeft,
+          1.0 / (1.0 + std::exp(-std::abs(for_right)))};
+}
+
+}  // namespace instep

@@ -1,0 +1,49 @@
+#include "core/girth/section_gaps.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "core/geometry/polygon.h"
+
+namespace instep {
+namespace {
+
+/// Way along the contour to the place nearest to a point.
+double station(const std::vector<Eigen::Vector2d>& contour, const Eigen::Vector2d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double best = 0.0;
+  double way = 0.0;
+  for (std::size_t i = 0; i < contour.size(); ++i) {
+    const Eigen::Vector2d edge = contour[(i + 1) % contour.size()] - contour[i];
+    const double length = edge.norm();
+    const Eigen::Vector2d along = edge / (length > 0.0 ? length : 1.0);
+    const double part = std::clamp(along.dot(point - contour[i]), 0.0, length);
+    const double distance = (contour[i] + part * along - point).squaredNorm();
+    if (distance < nearest) {
+      nearest = distance;
+      best = way + part;
+    }
+    way += length;
+  }
+  return best;
+}
+
+}  // namespace
+
+double largest_gap(const std::vector<Eigen::Vector2d>& contour,
+                   const std::vector<Eigen::Vector2d>& points) {
+  const double length = perimeter(contour);
+  if (points.empty()) return length;
+  std::vector<double> stations;
+  stations.reserve(points.size());
+  for (const auto& point : points) stations.push_back(station(contour, point));
+  std::sort(stations.begin(), stations.end());
+  double gap = stations.front() + length - stations.back();
+  for (std::size_t i = 1; i < stations.size(); ++i) {
+    gap = std::max(gap, stations[i] - stations[i - 1]);
+  }
+  return gap;
+}
+
+}  // namespace instep

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/point_index.h"
+#include "core/surface/hermite_patch.h"
+
+namespace instep {
+
+/// The local RBF implicit surface: overlapping patches, blended by a partition of unity (Wendland
+/// weights), so that nothing jumps where the paper's octree cells meet. The field is zero on the
+/// surface, positive outside.
+///
+/// Patches are fitted where they are asked for, around the places that were visited; so only those
+/// that a plane crosses are ever solved. The field changes a little when a patch is added: visit
+/// all places first, then read. Not for use from several threads at once.
+class BlendedSurface {
+ public:
+  /// `roughness`: see HermitePatch. At least four points.
+  BlendedSurface(std::vector<OrientedPoint> points, double roughness);
+
+  /// Makes sure that a patch is centred nearby. False if none can be fitted there.
+  bool visit(const Eigen::Vector3d& place);
+
+  /// Nothing outside all patches.
+  std::optional<FieldValue> at(const Eigen::Vector3d& place) const;
+
+  /// Distance from the place to the nearest point.
+  double distance_to_data(const Eigen::Vector3d& place) const;
+
+  std::size_t patches() const { return patches_.size(); }
+
+ private:
+  std::vector<OrientedPoint> points_;
+  std::vector<Eigen::Vector3d> positions_;
+  PointIndex index_;
+  double roughness_;
+  std::vector<HermitePatch> patches_;
+};
+
+}  // namespace instep

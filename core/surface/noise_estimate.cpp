@@ -1,0 +1,141 @@
+#include "core/surface/noise_estimate.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kNeighbourhoods = 24;
+constexpr std::size_t kPoints = 60;
+/// A neighbourhood is widened until its thickness is at most this part of its width, so that noise
+/// thicker than the spacing does not hide the tangent plane.
+constexpr double kFlatEnough = 0.25;
+constexpr std::size_t kMostPoints = 960;
+
+/// A neighbourhood in the basis where kernel and noise are both diagonal.
+struct Spectrum {
+  Eigen::VectorXd kernel;  ///< eigenvalues of the kernel on the null space of the linear polynomial
+  Eigen::VectorXd squared_heights;
+};
+
+/// Heights over the tangent plane: columns are points, the third row is the height.
+Eigen::Matrix3Xd tangent_coordinates(const std::vector<Eigen::Vector3d>& points,
+                                     const PointIndex& index, const Eigen::Vector3d& centre) {
+  Eigen::Matrix3Xd local;
+  for (std::size_t count = kPoints; count <= kMostPoints; count *= 2) {
+    const auto nearest = index.nearest(centre, count);
+    const std::size_t stride = std::max<std::size_t>(1, nearest.size() / kPoints);
+    local.resize(3, static_cast<Eigen::Index>((nearest.size() + stride - 1) / stride));
+    for (std::size_t i = 0; i * stride < nearest.size(); ++i) {
+      local.col(static_cast<Eigen::Index>(i)) = points[nearest[i * stride].index];
+    }
+    local.colwise() -= local.rowwise().mean().eval();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(local * local.transpose());
+    local = axes.eigenvectors().rowwise().reverse().transpose() * local;
+    const Eigen::Vector3d spread = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+    if (spread[0] <= kFlatEnough * spread[1] || nearest.size() < count) break;
+  }
+  return local;
+}
+
+std::optional<Spectrum> spectrum_of(const Eigen::Matrix3Xd& local) {
+  const Eigen::Index count = local.cols();
+  if (count < 8) return std::nullopt;
+  Eigen::MatrixXd linear(count, 3);
+  linear << Eigen::VectorXd::Ones(count), local.topRows<2>().transpose();
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(linear);
+  Eigen::MatrixXd kernel(count, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const double r = (local.col(i) - local.col(j)).head<2>().norm();
+      kernel(i, j) = r * r * r;
+    }
+  }
+  kernel.applyOnTheLeft(qr.householderQ().adjoint());
+  kernel.applyOnTheRight(qr.householderQ());
+  Eigen::VectorXd heights = local.row(2).transpose();
+  heights.applyOnTheLeft(qr.householderQ().adjoint());
+  const Eigen::Index free = count - 3;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(kernel.bottomRightCorner(free, free));
+  return Spectrum{solver.eigenvalues().cwiseMax(0.0),
+                  (solver.eigenvectors().transpose() * heights.tail(free)).cwiseAbs2()};
+}
+
+/// Twice the negative log likelihood of the heights.
+double misfit(const Spectrum& spectrum, double roughness, double variance) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < spectrum.kernel.size(); ++i) {
+    const double total = roughness * spectrum.kernel[i] + variance;
+    sum += std::log(total) + spectrum.squared_heights[i] / total;
+  }
+  return sum;
+}
+
+/// The noise variance that fits best if the roughness may be anything.
+double own_variance(const Spectrum& spectrum) {
+  const double largest = std::max(spectrum.kernel.maxCoeff(), std::numeric_limits<double>::min());
+  const auto count = static_cast<double>(spectrum.kernel.size());
+  double best = std::numeric_limits<double>::infinity();
+  double variance = 0.0;
+  for (double ratio = 1e-12; ratio < 2e3; ratio *= 2.0) {
+    const Eigen::ArrayXd total = spectrum.kernel.array() + ratio * largest;
+    const double scale = (spectrum.squared_heights.array() / total).sum() / count;
+    if (!(scale > 0.0)) return 0.0;
+    const double fit = total.log().sum() + count * std::log(scale);
+    if (fit < best) {
+      best = fit;
+      variance = scale * ratio * largest;
+    }
+  }
+  return variance;
+}
+
+/// The roughness that fits all neighbourhoods best at a given noise.
+double common_roughness(const std::vector<Spectrum>& spectra, double variance) {
+  double level = 0.0;
+  for (const auto& spectrum : spectra) {
+    level =
+        std::max(level, spectrum.squared_heights.sum() / std::max(spectrum.kernel.sum(), 1e-300));
+  }
+  double best = std::numeric_limits<double>::infinity();
+  double roughness = level;
+  for (double trial = 16.0 * level; trial > 1e-9 * level; trial *= 0.7) {
+    double fit = 0.0;
+    for (const auto& spectrum : spectra) fit += misfit(spectrum, trial, variance);
+    if (fit < best) {
+      best = fit;
+      roughness = trial;
+    }
+  }
+  return roughness;
+}
+
+double middle(std::vector<double> values) {
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
+}  // namespace
+
+NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
+                             std::optional<double> sigma) {
+  std::vector<Spectrum> spectra;
+  std::vector<double> variances;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kNeighbourhoods);
+  for (std::size_t i = stride / 2; i < points.size(); i += stride) {
+    auto spectrum = spectrum_of(tangent_coordinates(points, index, points[i]));
+    if (!spectrum) continue;
+    variances.push_back(own_variance(*spectrum));
+    spectra.push_back(std::move(*spectrum));
+  }
+  if (spectra.empty()) return {sigma.value_or(0.0), 0.0};
+  const double variance = sigma ? *sigma * *sigma : middle(std::move(variances));
+  return {std::sqrt(variance), common_roughness(spectra, std::max(variance, 1e-24))};
+}
+
+}  // namespace instep

@@ -1,0 +1,175 @@
+#include "daemon/cloud_files/cloud_file.h"
+
+#include <fmt/core.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cctype>
+
+#include "core/geometry/mesh_sampling.h"
+#include "daemon/cloud_files/mesh_reader.h"
+#include "daemon/cloud_files/pcd_reader.h"
+#include "daemon/cloud_files/ply_reader.h"
+#include "daemon/cloud_files/raw_cloud.h"
+#include "daemon/cloud_files/text_cloud_reader.h"
+#include "daemon/cloud_files/text_tokens.h"
+#include "drivers/files/file_bytes.h"
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kMostFileBytes = std::size_t{4} << 30;
+
+/// The widest stretch of a mesh's surface without a point.
+constexpr double kPointSpacing_mm = 3.0;
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+bool looks_like_pcd(std::string_view bytes) {
+  TextLines lines(bytes);
+  while (auto line = lines.next()) {
+    const auto word = take_word(*line);
+    if (!word.empty() && word[0] != '#') return word == "VERSION" || word == "FIELDS";
+    if (line->find(".PCD") != line->npos) return true;
+  }
+  return false;
+}
+
+/// The content decides where it can be told; STL and OBJ have no sure mark, so their names do.
+Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::path& path) {
+  const std::string file = path.string();
+  const std::string extension = lower_extension(path);
+  const std::string_view start = bytes.substr(0, 4096);
+  if (start.substr(0, 3) == "ply" && start.size() > 3 && std::isspace(start[3]) != 0) {
+    return read_ply(bytes, file);
+  }
+  if (extension == ".ply") {
+    return damaged_file(file, "it does not begin with \"ply\"");
+  }
+  if (looks_like_pcd(start)) return read_pcd(bytes, file);
+  if (extension == ".obj") return read_obj(bytes, file);
+  if (extension == ".stl") return read_stl(bytes, file);
+  if (looks_like_text_cloud(start)) return read_text_cloud(bytes, file);
+  if (start.substr(0, 5) == "solid") return read_stl(bytes, file);
+  return fail(ErrorCode::kUnsupported, file + " is no cloud or mesh that can be read",
+              "give PLY, XYZ or CSV text, PCD, OBJ or STL");
+}
+
+/// The longest side of the box round the points. Fails on what is no number or absurd in any unit.
+Result<double> extent_of(const std::vector<Eigen::Vector3d>& positions, const std::string& file) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto& position = positions[i];
+    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
+      return fail(ErrorCode::kInvalidInput,
+                  fmt::format("point {} of {} has a coordinate that is no number or absurdly large",
+                              i, file),
+                  "repair or export it again");
+    }
+    box.extend(position);
+  }
+  return box.sizes().maxCoeff();
+}
+
+/// Brings normals to unit length; drops them all, with a note, if one is none.
+void settle_normals(CloudFile& read) {
+  for (auto& normal : read.cloud.normals) {
+    const double length = normal.norm();
+    if (!(length > 0.0 && std::isfinite(length))) {
+      read.notes.emplace_back("some of the file's normals are no directions, so none was used");
+      read.cloud.normals.clear();
+      return;
+    }
+    normal /= length;
+  }
+}
+
+/// Adds to the corners of a mesh the points on its large faces, and normals where it has none.
+void cover_faces(CloudFile& read) {
+  PointCloud& cloud = read.cloud;
+  TriangleMesh used = welded(read.mesh);
+  const std::size_t corners = used.positions.size();
+  if (corners < cloud.size()) {
+    read.notes.push_back(fmt::format("{} of the file's {} points are repeated or belong to no face",
+                                     cloud.size() - corners, cloud.size()));
+  }
+  const TriangleMesh fine = refined(used, kPointSpacing_mm);
+  if (!is_refined(fine, kPointSpacing_mm)) {
+    read.notes.push_back(
+        fmt::format("the faces are so large that some points on them lie further "
+                    "apart than {} mm",
+                    kPointSpacing_mm));
+  }
+  if (cloud.has_normals() || cloud.has_sigma()) {
+    // What the file says of its points outweighs the faces; only new points are added to it.
+    PointCloud on_faces = corners_with_normals(fine);
+    std::vector<std::size_t> added(on_faces.size() - corners);
+    for (std::size_t i = 0; i < added.size(); ++i) added[i] = corners + i;
+    PointCloud extra = on_faces.subset(added);
+    if (cloud.has_sigma()) {
+      std::vector<double> sorted = cloud.sigma_mm;
+      const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+      std::nth_element(sorted.begin(), middle, sorted.end());
+      extra.sigma_mm.assign(extra.size(), *middle);
+    }
+    if (cloud.has_normals() == extra.has_normals() || extra.empty()) cloud.append(extra);
+    return;
+  }
+  cloud = corners_with_normals(fine);
+  if (!cloud.has_normals()) {
+    read.notes.emplace_back("the faces are wound against each other, so they give no normals");
+  }
+}
+
+}  // namespace
+
+tl::unexpected<Error> damaged_file(const std::string& file, const std::string& what) {
+  return fail(ErrorCode::kCorruptData, fmt::format("{} is damaged ({})", file, what),
+              "export or copy it again");
+}
+
+Result<CloudFile> read_cloud_file(const std::filesystem::path& path, LengthUnit unit) {
+  const std::string file = path.string();
+  const auto bytes = read_file_bytes(path, kMostFileBytes);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  if (bytes->empty()) {
+    return fail(ErrorCode::kCorruptData, file + " is empty", "export or copy it again");
+  }
+  auto raw = read_by_content(*bytes, path);
+  if (!raw) return tl::make_unexpected(raw.error());
+  if (raw->cloud.empty()) {
+    return fail(ErrorCode::kInsufficientData, file + " has no points", "scan or export it again");
+  }
+  const auto extent = extent_of(raw->cloud.positions, file);
+  if (!extent) return tl::make_unexpected(extent.error());
+  const auto settled = settle_unit(unit, *extent, file);
+  if (!settled) return tl::make_unexpected(settled.error());
+
+  CloudFile read;
+  read.cloud = std::move(raw->cloud);
+  read.format = raw->format;
+  read.unit = *settled;
+  const double scale = millimetres_in(*settled);
+  if (scale != 1.0) {
+    for (auto& position : read.cloud.positions) position *= scale;
+  }
+  if (unit == LengthUnit::kAuto) {
+    read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
+                                     to_string(*settled), *extent * scale));
+  }
+  settle_normals(read);
+  if (!raw->triangles.empty()) {
+    read.mesh = {read.cloud.positions, std::move(raw->triangles)};
+    cover_faces(read);
+  }
+  if (auto good = check_cloud(read.cloud); !good) {
+    return fail(good.error().code, file + ": " + good.error().message, good.error().advice);
+  }
+  return read;
+}
+
+}  // namespace instep

@@ -1,0 +1,67 @@
+#include "daemon/cloud_files/cloud_ply_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "drivers/files/file_bytes.h"
+
+namespace instep {
+namespace {
+
+template <typename T>
+void put(std::string& bytes, T value) {
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), &value, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
+  bytes.append(raw.data(), raw.size());
+}
+
+std::string header_of(const PointCloud& cloud) {
+  std::string header = "ply\nformat binary_little_endian 1.0\ncomment unit mm\nelement vertex " +
+                       std::to_string(cloud.size()) +
+                       "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (cloud.has_normals()) {
+    header += "property float nx\nproperty float ny\nproperty float nz\n";
+  }
+  if (cloud.has_sigma()) header += "property float sigma_mm\n";
+  if (!cloud.origins.empty()) header += "property uchar origin\n";
+  return header + "end_header\n";
+}
+
+}  // namespace
+
+Result<std::string> cloud_to_ply(const PointCloud& cloud) {
+  if (!cloud.is_consistent()) {
+    return fail(ErrorCode::kInvalidInput, "the lists of a cloud differ in length", "report this");
+  }
+  std::string bytes = header_of(cloud);
+  bytes.reserve(bytes.size() + cloud.size() * 41);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) put(bytes, cloud.positions[i][axis]);
+    for (int axis = 0; axis < 3 && cloud.has_normals(); ++axis) {
+      put(bytes, static_cast<float>(cloud.normals[i][axis]));
+    }
+    if (cloud.has_sigma()) put(bytes, static_cast<float>(cloud.sigma_mm[i]));
+    if (!cloud.origins.empty()) put(bytes, static_cast<std::uint8_t>(cloud.was_seen(i) ? 0 : 1));
+  }
+  return bytes;
+}
+
+Result<void> write_cloud_ply(const PointCloud& cloud, std::ostream& stream) {
+  const auto bytes = cloud_to_ply(cloud);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  stream.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
+  stream.flush();
+  if (!stream) return fail(ErrorCode::kIo, "the cloud could not be written", "check the disk");
+  return {};
+}
+
+Result<void> write_cloud_ply(const PointCloud& cloud, const std::filesystem::path& path) {
+  const auto bytes = cloud_to_ply(cloud);
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  return write_file_bytes(path, *bytes);
+}
+
+}  // namespace instep

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+
+#include "core/geometry/point_cloud.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// A cloud as a binary little-endian PLY: x y z and nx ny nz as float64 and float32, sigma_mm as
+/// float32, origin as uchar (0 seen, 1 platform), each of the last three only if the cloud knows
+/// it. Coordinates come back bit by bit. The cloud must be consistent (kInvalidInput).
+Result<std::string> cloud_to_ply(const PointCloud& cloud);
+
+/// The same to a stream (kIo if it fails) or, whole or not at all, to a file.
+Result<void> write_cloud_ply(const PointCloud& cloud, std::ostream& stream);
+Result<void> write_cloud_ply(const PointCloud& cloud, const std::filesystem::path& path);
+
+}  // namespace instep

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace instep {
+
+/// The unit of the coordinates in a file. Files rarely say; kAuto decides by the body's size.
+enum class LengthUnit { kMillimetre, kCentimetre, kMetre, kAuto };
+
+/// "mm", "cm", "m", "auto".
+const char* to_string(LengthUnit unit);
+std::optional<LengthUnit> length_unit_from_string(std::string_view text);
+
+/// Millimetres in one of `unit` (not kAuto).
+double millimetres_in(LengthUnit unit);
+
+/// The unit in which a body of this extent (its longest side, in file units, finite and not
+/// negative) is to be read. A given unit is kept unless it makes the body smaller than 2 mm or
+/// larger than 20 m: then it fails with kInvalidInput and names the unit to ask for. kAuto takes
+/// the unit in which the body is foot-like, 100 to 1000 mm, and fails if there is none.
+Result<LengthUnit> settle_unit(LengthUnit unit, double extent, const std::string& file);
+
+}  // namespace instep

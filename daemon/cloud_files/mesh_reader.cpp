@@ -1,0 +1,133 @@
+#include "daemon/cloud_files/mesh_reader.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cstring>
+#include <exception>
+
+#include "core/geometry/mesh_sampling.h"
+#include "daemon/cloud_files/text_tokens.h"
+
+namespace instep {
+namespace {
+
+/// The parts of a scene after each other. Triangles that name corners that are not there are told
+/// by `false`.
+bool append_part(const aiMesh& part, TriangleMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const auto& corner = part.mVertices[i];
+    mesh.positions.emplace_back(corner.x, corner.y, corner.z);
+  }
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const auto& face = part.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // a point or a line
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      if (face.mIndices[corner] >= part.mNumVertices) return false;
+    }
+    mesh.triangles.push_back(
+        {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+  }
+  return true;
+}
+
+Result<RawCloud> import(std::string_view bytes, const char* kind, const std::string& file) {
+  TriangleMesh mesh;
+  try {
+    Assimp::Importer importer;
+    const aiScene* scene =
+        importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, kind);
+    if (scene == nullptr) return damaged_file(file, "it is no sound mesh file");
+    for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+      if (!append_part(*scene->mMeshes[i], mesh)) {
+        return damaged_file(file, "a face names a point that is not there");
+      }
+    }
+  } catch (const std::exception&) {
+    return damaged_file(file, "it is no sound mesh file");
+  }
+  for (const auto& position : mesh.positions) {
+    // Ordering the corners, for welding, needs numbers; the message is that of check_cloud().
+    if (!position.allFinite()) {
+      return fail(ErrorCode::kInvalidInput, file + " has a coordinate that is no number",
+                  "repair or export it again");
+    }
+  }
+  mesh = welded(mesh);
+  RawCloud raw;
+  raw.cloud.positions = std::move(mesh.positions);
+  raw.triangles = std::move(mesh.triangles);
+  return raw;
+}
+
+/// A binary STL says how many triangles follow: assimp believes it, so it is compared with the
+/// file's size first. Fails on text as well, which is another matter.
+Result<void> check_binary_stl(std::string_view bytes, const std::string& file) {
+  constexpr std::size_t kHeader_bytes = 84;
+  constexpr std::size_t kTriangle_bytes = 50;
+  if (bytes.size() < kHeader_bytes) return damaged_file(file, "it ends within its STL header");
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof(count));
+  if ((bytes.size() - kHeader_bytes) / kTriangle_bytes < count) {
+    return damaged_file(file, "it is too short for the triangles that its STL header promises");
+  }
+  return {};
+}
+
+/// Text STL begins with "solid"; some binary ones do too, but have zeros or other bytes no text
+/// has.
+bool is_text_stl(std::string_view bytes) {
+  return bytes.substr(0, 5) == "solid" && bytes.substr(0, 512).find("facet") != bytes.npos &&
+         bytes.substr(0, 512).find('\0') == bytes.npos;
+}
+
+/// assimp takes a text that ends anywhere; a whole one has its last word.
+Result<void> check_text_stl(std::string_view bytes, const std::string& file) {
+  if (bytes.rfind("endsolid") == bytes.npos) return damaged_file(file, "it has no endsolid");
+  return {};
+}
+
+/// The corners of an OBJ file without faces, which assimp refuses.
+Result<RawCloud> read_obj_points(std::string_view bytes, const std::string& file) {
+  RawCloud raw;
+  TextLines lines(bytes);
+  while (auto line = lines.next()) {
+    if (take_word(*line) != "v") continue;
+    const auto x = number_in(take_word(*line));
+    const auto y = number_in(take_word(*line));
+    const auto z = number_in(take_word(*line));
+    if (!x || !y || !z) return damaged_file(file, "a corner (v) of it is no point");
+    raw.cloud.positions.emplace_back(*x, *y, *z);
+  }
+  return raw;
+}
+
+/// True if one of its lines begins with "f".
+bool has_faces(std::string_view obj) {
+  TextLines lines(obj);
+  while (auto line = lines.next()) {
+    if (take_word(*line) == "f") return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<RawCloud> read_obj(std::string_view bytes, const std::string& file) {
+  auto raw = has_faces(bytes) ? import(bytes, "obj", file) : read_obj_points(bytes, file);
+  if (raw) raw->format = "OBJ";
+  return raw;
+}
+
+Result<RawCloud> read_stl(std::string_view bytes, const std::string& file) {
+  const bool text = is_text_stl(bytes);
+  const auto good = text ? check_text_stl(bytes, file) : check_binary_stl(bytes, file);
+  if (!good) return tl::make_unexpected(good.error());
+  auto raw = import(bytes, "stl", file);
+  if (raw) raw->format = text ? "STL, text" : "STL, binary";
+  return raw;
+}
+
+}  // namespace instep

@@ -1,0 +1,130 @@
+#include "daemon/cloud_files/ply_reader.h"
+
+#include <fmt/core.h>
+
+#include "daemon/cloud_files/ply_body.h"
+#include "daemon/cloud_files/ply_header.h"
+
+namespace instep {
+namespace {
+
+/// Columns that go to the three coordinates of each vector, if the element has all three.
+bool want_vectors(const PlyElement& element, const std::array<const char*, 3>& names,
+                  std::vector<Eigen::Vector3d>& vectors, std::vector<PlyColumn>& columns) {
+  std::array<std::size_t, 3> places{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto place = element.find(names[i]);
+    if (!place || element.properties[*place].count_type) return false;
+    places[i] = *place;
+  }
+  vectors.resize(element.count);
+  if (vectors.empty()) return true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    columns.push_back({places[i], {vectors.front().data() + i, 3}});
+  }
+  return true;
+}
+
+void want_numbers(const PlyElement& element, const char* name, std::vector<double>& numbers,
+                  std::vector<PlyColumn>& columns) {
+  const auto place = element.find(name);
+  if (!place || element.properties[*place].count_type || element.count == 0) return;
+  numbers.resize(element.count);
+  columns.push_back({*place, {numbers.data(), 1}});
+}
+
+Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::string& file,
+                           PointCloud& cloud) {
+  std::vector<PlyColumn> columns;
+  std::vector<double> origins;
+  if (!want_vectors(element, {"x", "y", "z"}, cloud.positions, columns)) {
+    return damaged_file(file, "its vertices lack x, y or z");
+  }
+  want_vectors(element, {"nx", "ny", "nz"}, cloud.normals, columns);
+  want_numbers(element, "sigma_mm", cloud.sigma_mm, columns);
+  want_numbers(element, "origin", origins, columns);
+  if (auto good = body.read(element, columns, nullptr); !good) return good;
+  for (const double origin : origins) {
+    cloud.origins.push_back(origin == 1.0 ? PointOrigin::kPlatform : PointOrigin::kSeen);
+  }
+  return {};
+}
+
+/// Polygons as fans of triangles round their first corner.
+Result<void> read_faces(PlyBody& body, const PlyElement& element, const std::string& file,
+                        RawCloud& raw) {
+  const auto place = element.find("vertex_indices") ? element.find("vertex_indices")
+                                                    : element.find("vertex_index");
+  if (!place || !element.properties[*place].count_type) return body.read(element, {}, nullptr);
+  PlyLists polygons;
+  polygons.property = *place;
+  if (auto good = body.read(element, {}, &polygons); !good) return good;
+
+  const auto points = static_cast<double>(raw.cloud.size());
+  std::size_t first = 0;
+  for (const std::uint32_t length : polygons.lengths) {
+    const double* corner = polygons.items.data() + first;
+    for (std::uint32_t i = 0; i < length; ++i) {
+      if (!(corner[i] >= 0 && corner[i] < points)) {
+        return damaged_file(file, fmt::format("a face names point {} of {}", corner[i], points));
+      }
+    }
+    for (std::uint32_t i = 2; i < length; ++i) {
+      raw.triangles.push_back({static_cast<std::uint32_t>(corner[0]),
+                               static_cast<std::uint32_t>(corner[i - 1]),
+                               static_cast<std::uint32_t>(corner[i])});
+    }
+    first += length;
+  }
+  return {};
+}
+
+const char* format_name(PlyFormat format) {
+  switch (format) {
+    case PlyFormat::kAscii:
+      return "PLY, ASCII";
+    case PlyFormat::kLittleEndian:
+      return "PLY, binary little endian";
+    case PlyFormat::kBigEndian:
+      return "PLY, binary big endian";
+  }
+  return "PLY";
+}
+
+}  // namespace
+
+Result<RawCloud> read_ply(std::string_view bytes, const std::string& file) {
+  const auto header = read_ply_header(bytes, file);
+  if (!header) return tl::make_unexpected(header.error());
+  const auto body = open_ply_body(*header, bytes, file);
+  RawCloud raw;
+  raw.format = format_name(header->format);
+  bool has_vertices = false;
+  for (const auto& element : header->elements) {
+    if (!body->can_hold(element)) {
+      return damaged_file(file,
+                          fmt::format("it is too short for the {} records \"{}\" of its header",
+                                      element.count, element.name));
+    }
+    const bool wanted = element.name == "vertex" || element.name == "face";
+    if (wanted && element.count > kMostFilePoints) {
+      return fail(ErrorCode::kUnsupported,
+                  fmt::format("{} has {} records \"{}\"", file, element.count, element.name),
+                  fmt::format("thin it out to at most {}", kMostFilePoints));
+    }
+    Result<void> good;
+    if (element.name == "vertex" && !has_vertices) {
+      has_vertices = true;
+      good = read_vertices(*body, element, file, raw.cloud);
+    } else if (element.name == "face" && has_vertices) {
+      good = read_faces(*body, element, file, raw);
+    } else {
+      good = body->read(element, {}, nullptr);
+    }
+    if (!good) return tl::make_unexpected(good.error());
+  }
+  if (!has_vertices) return damaged_file(file, "it has no vertices");
+  return raw;
+}
+
+}  // namespace instep

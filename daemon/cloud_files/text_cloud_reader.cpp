@@ -1,0 +1,99 @@
+#include "daemon/cloud_files/text_cloud_reader.h"
+
+#include <fmt/core.h>
+
+#include <array>
+
+#include "daemon/cloud_files/text_tokens.h"
+
+namespace instep {
+namespace {
+
+constexpr std::string_view kSeparators = " \t,;\v\f";
+constexpr std::size_t kMostColumns = 6;
+
+/// The numbers of one line.
+struct Row {
+  std::array<double, kMostColumns> values{};
+  std::size_t words = 0;
+  bool all_numbers = true;
+};
+
+bool is_empty_or_comment(std::string_view line) {
+  const auto start = line.find_first_not_of(" \t");
+  return start == line.npos || line[start] == '#' || line.substr(start, 2) == "//";
+}
+
+Row parse_row(std::string_view line) {
+  Row row;
+  for (auto word = take_word(line, kSeparators); !word.empty();
+       word = take_word(line, kSeparators)) {
+    const auto value = number_in(word);
+    row.all_numbers = row.all_numbers && value.has_value();
+    if (value && row.words < kMostColumns) row.values[row.words] = *value;
+    ++row.words;
+  }
+  return row;
+}
+
+bool is_point(const Row& row) {
+  return row.all_numbers && (row.words == 3 || row.words == 6);
+}
+
+tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
+                               const std::string& what) {
+  return fail(ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
+              "give 3 or 6 numbers with decimal points in each line");
+}
+
+}  // namespace
+
+Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file) {
+  RawCloud raw;
+  raw.format = "text";
+  TextLines lines(text);
+  std::size_t number = 0;
+  std::size_t columns = 0;
+  bool heading_seen = false;
+  while (const auto line = lines.next()) {
+    ++number;
+    if (is_empty_or_comment(*line)) continue;
+    const Row row = parse_row(*line);
+    const bool may_be_heading = columns == 0 && !heading_seen;
+    if (may_be_heading && (!row.all_numbers || row.words == 1)) {
+      heading_seen = true;
+      continue;
+    }
+    if (!is_point(row)) return bad_line(file, number, "is no point");
+    if (line->find(';') != line->npos && line->find(',') != line->npos) {
+      return bad_line(file, number, "has commas and semicolons, so the numbers cannot be told");
+    }
+    if (columns == 0) columns = row.words;
+    if (row.words != columns) {
+      return bad_line(file, number,
+                      fmt::format("has {} numbers, the first {}", row.words, columns));
+    }
+    if (raw.cloud.size() >= kMostFilePoints) {
+      return fail(ErrorCode::kUnsupported,
+                  fmt::format("{} has more than {} points", file, kMostFilePoints), "thin it out");
+    }
+    const auto& v = row.values;
+    raw.cloud.positions.emplace_back(v[0], v[1], v[2]);
+    if (columns == 6) raw.cloud.normals.emplace_back(v[3], v[4], v[5]);
+  }
+  return raw;
+}
+
+bool looks_like_text_cloud(std::string_view text) {
+  TextLines lines(text);
+  int looked_at = 0;
+  while (const auto line = lines.next()) {
+    if (is_empty_or_comment(*line)) continue;
+    const Row row = parse_row(*line);
+    if (row.all_numbers && row.words >= 3) return true;
+    if (++looked_at >= 2) return false;
+  }
+  return false;
+}
+
+}  // namespace instep

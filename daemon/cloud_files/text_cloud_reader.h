@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+#include "daemon/cloud_files/raw_cloud.h"
+
+namespace instep {
+
+/// Reads points from lines of text: x y z, or x y z nx ny nz, parted by spaces, tabs, commas or
+/// semicolons, with decimal points. Empty lines, comments (# or //) and one heading line before the
+/// first point are passed over; so is a lone count of points there.
+///
+/// Fails with kCorruptData and the number of the line where another line is no point or has another
+/// number of columns than the first, and where commas may be decimal commas.
+Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file);
+
+/// True if the first line that is not a comment or a heading begins with numbers: to tell a cloud
+/// from other text.
+bool looks_like_text_cloud(std::string_view text);
+
+}  // namespace instep

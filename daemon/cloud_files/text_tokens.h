@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace instep {
+
+/// Walks through text line by line; "\n", "\r\n" and "\r" end a line.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : rest_(text) {}
+
+  /// The next line without its end, or nothing at the end of the text.
+  std::optional<std::string_view> next();
+
+  std::string_view rest() const { return rest_; }
+
+ private:
+  std::string_view rest_;
+};
+
+/// Takes the next word off the front of `text`; words are parted by any of `separators`. Empty at
+/// the end.
+std::string_view take_word(std::string_view& text, std::string_view separators = " \t\r\n\v\f");
+
+/// The number that the whole word is, or nothing. Independent of the locale; knows "nan" and "inf".
+std::optional<double> number_in(std::string_view word);
+
+}  // namespace instep

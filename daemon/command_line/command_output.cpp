@@ -1,0 +1,61 @@
+#include "daemon/command_line/command_output.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+namespace instep {
+
+const char* program_version() { return INSTEP_VERSION; }
+
+void print_error(const Error& error) {
+  std::string line = error.line();
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  const std::string text = "instep: " + line + "\n";
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+Result<void> print_text(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return {};
+  return fail(errno == ENOSPC ? ErrorCode::kNoSpace : ErrorCode::kIo,
+              fmt::format("cannot write the result ({})", std::generic_category().message(errno)),
+              "check where the output goes");
+}
+
+Result<void> print_json(const nlohmann::json& object) {
+  return print_text(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+int finish_command(const Result<void>& outcome) {
+  if (outcome) return kDone;
+  print_error(outcome.error());
+  return kNotDone;
+}
+
+bool stdout_is_terminal() {
+  return ::isatty(STDOUT_FILENO) == 1;
+}
+
+bool stderr_is_terminal() {
+  return ::isatty(STDERR_FILENO) == 1;
+}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+void ProgressLine::show(std::string_view stage, double done) {
+  if (!stderr_is_terminal()) return;
+  fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100.0 * done, stage);
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+}  // namespace instep

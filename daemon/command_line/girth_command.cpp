@@ -1,0 +1,166 @@
+#include "daemon/command_line/girth_command.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/girth/girth.h"
+#include "core/girth/tape_plane.h"
+#include "daemon/cloud_files/text_tokens.h"
+#include "daemon/command_line/cloud_options.h"
+#include "daemon/command_line/command_output.h"
+
+namespace instep {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+constexpr const char* kExamples =
+    R"(The plane is given by three points, in millimetres. Examples:
+  instep girth foot.ply --plane 160,-5,22,160,-5,62,170,-44,22
+  instep girth foot.stl --unit m --plane 0,0,50,1,0,50,0,1,50 --method section
+  instep girth points.xyz --plane 0,0,50,1,0,50,0,1,50 --sigma-mm 0.5 --format text)";
+
+struct GirthCommand {
+  CloudOptions cloud;
+  std::string plane;
+  std::string method = "rbf";
+  std::optional<double> sigma_mm;
+  std::string format;
+};
+
+struct Timing {
+  double read_ms = 0.0;
+  double measure_ms = 0.0;
+  double total_ms = 0.0;
+};
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Nine finite numbers parted by commas, or nothing.
+std::optional<std::array<double, 9>> nine_numbers(std::string_view text) {
+  std::array<double, 9> numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const auto end = std::min(text.find(','), text.size());
+    const auto number = number_in(text.substr(0, end));
+    const bool is_last = i + 1 == numbers.size();
+    if (!number || !std::isfinite(*number) || (end == text.size()) != is_last) return {};
+    numbers[i] = *number;
+    text.remove_prefix(is_last ? end : end + 1);
+  }
+  return numbers;
+}
+
+std::string check_plane(const std::string& text) {
+  return nine_numbers(text) ? "" : "needs nine finite numbers X1,Y1,Z1,X2,Y2,Z2,X3,Y3,Z3";
+}
+
+std::string check_sigma(const std::string& text) {
+  const auto sigma = number_in(text);
+  return sigma && *sigma > 0.0 && *sigma <= 100.0 ? "" : "needs a number above 0, at most 100";
+}
+
+Result<TapePlane> plane_of(const GirthCommand& command) {
+  const auto n = nine_numbers(command.plane).value_or(std::array<double, 9>{});
+  return TapePlane::through({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]});
+}
+
+Result<Girth> measure(const GirthCommand& command, const CloudFile& file, const TapePlane& plane) {
+  const GirthOptions options{command.sigma_mm};
+  if (command.method == "hull") return girth_by_hull(file.cloud, plane, options);
+  if (command.method == "rbf") return girth_by_rbf(file.cloud, plane, options);
+  if (file.mesh.empty()) {
+    return fail(ErrorCode::kInvalidInput, command.cloud.file + " has no faces to cut",
+                "use --method rbf, or give a mesh");
+  }
+  return girth_by_section(file.mesh, plane);
+}
+
+json or_null(const std::optional<double>& value) {
+  return value ? json(*value) : json();
+}
+
+json to_json(const GirthCommand& command, const Girth& girth, const Timing& timing) {
+  return {{"method", command.method},
+          {"stretched_mm", girth.stretched_mm},
+          {"contact_mm", girth.contact_mm},
+          {"stretched_u95_mm", or_null(girth.stretched_u95_mm)},
+          {"contact_u95_mm", or_null(girth.contact_u95_mm)},
+          {"points", girth.points},
+          {"band_points", girth.band_points},
+          {"sigma_mm", girth.sigma_mm},
+          {"largest_gap_mm", girth.largest_gap_mm},
+          {"warnings", girth.warnings},
+          {"elapsed_ms",
+           {{"read", timing.read_ms}, {"measure", timing.measure_ms}, {"total", timing.total_ms}}}};
+}
+
+std::string length_line(const char* name, double value_mm, const std::optional<double>& u95_mm) {
+  return u95_mm ? fmt::format("{:<10} {:8.2f} mm  +- {:.2f} mm (95 %)\n", name, value_mm, *u95_mm)
+                : fmt::format("{:<10} {:8.2f} mm\n", name, value_mm);
+}
+
+std::string to_text(const GirthCommand& command, const Girth& girth, const Timing& timing) {
+  std::string text = length_line("stretched", girth.stretched_mm, girth.stretched_u95_mm) +
+                     length_line("contact", girth.contact_mm, girth.contact_u95_mm);
+  text += fmt::format("{} of {} points near the plane, noise {:.2f} mm, largest gap {:.1f} mm\n",
+                      girth.band_points, girth.points, girth.sigma_mm, girth.largest_gap_mm);
+  text += fmt::format("method {}, {:.0f} ms\n", command.method, timing.total_ms);
+  for (const auto& warning : girth.warnings) text += "note: " + warning + "\n";
+  return text;
+}
+
+Result<void> run(const GirthCommand& command) {
+  const auto start = Clock::now();
+  Timing timing;
+  const auto plane = plane_of(command);
+  if (!plane) return tl::make_unexpected(plane.error());
+  const auto file = read_cloud(command.cloud);
+  if (!file) return tl::make_unexpected(file.error());
+  timing.read_ms = milliseconds_since(start);
+
+  const auto measuring = Clock::now();
+  auto girth = measure(command, *file, *plane);
+  if (!girth) return tl::make_unexpected(girth.error());
+  timing.measure_ms = milliseconds_since(measuring);
+  timing.total_ms = milliseconds_since(start);
+
+  girth->warnings.insert(girth->warnings.begin(), file->notes.begin(), file->notes.end());
+  const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
+  return as_text ? print_text(to_text(command, *girth, timing))
+                 : print_json(to_json(command, *girth, timing));
+}
+
+}  // namespace
+
+void add_girth_command(CLI::App& app, int& exit_code) {
+  auto* girth = app.add_subcommand("girth", "The girth of a cloud or mesh in one tape plane");
+  girth->footer(kExamples);
+  const auto command = std::make_shared<GirthCommand>();
+  add_cloud_options(*girth, command->cloud);
+  girth->add_option("--plane", command->plane, "X1,Y1,Z1,X2,Y2,Z2,X3,Y3,Z3")
+      ->required()
+      ->check(check_plane);
+  girth
+      ->add_option("--method", command->method,
+                   "rbf (the best), hull (of the points near the plane), section (of the faces)")
+      ->check(CLI::IsMember({"rbf", "hull", "section"}))
+      ->capture_default_str();
+  girth
+      ->add_option("--sigma-mm", command->sigma_mm,
+                   "noise of a point along its normal, if the file does not say; else estimated")
+      ->check(check_sigma);
+  girth->add_option("--format", command->format, "json (if stdout is no terminal) or text")
+      ->check(CLI::IsMember({"json", "text"}));
+  girth->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
+}
+
+}  // namespace instep

@@ -1,0 +1,77 @@
+#include "daemon/command_line/record_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "config/settings.h"
+#include "config/settings_file.h"
+#include "daemon/command_line/capture_recording.h"
+#include "daemon/command_line/command_output.h"
+#include "daemon/station/devices.h"
+
+namespace instep {
+namespace {
+
+constexpr const char* kExamples = R"(Stop the daemon first: a camera has one reader. Examples:
+  instep record --out visit --config /etc/instep/instep.toml --frames 15
+  instep record --out visit --config /etc/instep/instep.toml --seconds 3)";
+
+struct RecordCommand {
+  std::string folder;
+  std::string config;
+  std::optional<std::size_t> frames;
+  std::optional<double> seconds;
+};
+
+RecordingLength length_of(const RecordCommand& command) {
+  constexpr std::size_t kUsualFrames = 15;
+  RecordingLength length;
+  length.frames_per_camera = command.frames;
+  if (command.seconds) {
+    length.time = std::chrono::milliseconds(static_cast<long>(*command.seconds * 1000.0));
+  } else if (!command.frames) {
+    length.frames_per_camera = kUsualFrames;
+  }
+  return length;
+}
+
+Result<void> run(const RecordCommand& command) {
+  const auto settings = load_settings(command.config);
+  if (!settings) return tl::make_unexpected(settings.error());
+  const auto devices = open_devices(*settings);
+  if (!devices) return tl::make_unexpected(devices.error());
+  Recording header;
+  header.platform_height_mm = settings->station.platform_height_mm
+                                  ? settings->station.platform_height_mm
+                                  : devices->platform_height_mm;
+  header.simulated = devices->simulated;
+  if (devices->simulated) header.truth = devices->truth;
+  ProgressLine line;
+  const auto recording =
+      capture_recording(devices->cameras, header, length_of(command), command.folder,
+                        [&](double done) { line.show("recording", done); });
+  if (!recording) return tl::make_unexpected(recording.error());
+  return print_json({{"folder", command.folder},
+                     {"simulated", recording->simulated},
+                     {"cameras", recording->cameras.size()},
+                     {"frames", recording->frames.size()}});
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, int& exit_code) {
+  auto* record = app.add_subcommand("record", "Record what the cameras of a station see");
+  record->footer(kExamples);
+  const auto command = std::make_shared<RecordCommand>();
+  record->add_option("--out", command->folder, "folder to make")->required();
+  record->add_option("--config", command->config, "settings file of the station, with its cameras")
+      ->required();
+  record->add_option("--frames", command->frames, "of each camera (15 if nothing is said)")
+      ->check(CLI::Range(1, 10000));
+  record->add_option("--seconds", command->seconds, "of the cameras' time")
+      ->check(CLI::Range(0.001, 600.0));
+  record->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
+}
+
+}  // namespace instep

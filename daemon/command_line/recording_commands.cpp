@@ -1,0 +1,14 @@
+#include "daemon/command_line/commands.h"
+#include "daemon/command_line/record_command.h"
+#include "daemon/command_line/replay_command.h"
+#include "daemon/command_line/simulate_command.h"
+
+namespace instep {
+
+void add_recording_commands(CLI::App& app, int& exit_code) {
+  add_replay_command(app, exit_code);
+  add_simulate_command(app, exit_code);
+  add_record_command(app, exit_code);
+}
+
+}  // namespace instep

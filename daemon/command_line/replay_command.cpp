@@ -1,0 +1,102 @@
+#include "daemon/command_line/replay_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "daemon/command_line/command_output.h"
+#include "daemon/scan/scan_pipeline.h"
+#include "daemon/store/posix_storage.h"
+#include "daemon/store/result_content.h"
+#include "daemon/store/result_store.h"
+#include "drivers/recording/recording_reader.h"
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kExamples = R"(Prints {"results": [...]}, one object for each foot. Examples:
+  instep replay visit
+  instep replay visit --out results --side left)";
+
+struct ReplayCommand {
+  std::string recording;
+  std::string out;
+  std::string side = "auto";
+};
+
+Result<Capture> read_capture(const std::string& folder) {
+  auto recording = read_recording(folder);
+  if (!recording) return tl::make_unexpected(recording.error());
+  auto frames = read_recorded_frames(*recording);
+  if (!frames) return tl::make_unexpected(frames.error());
+  Capture capture;
+  capture.cameras = recording->cameras;
+  capture.frames = std::move(*frames);
+  capture.platform_height_mm = recording->platform_height_mm;
+  capture.simulated = recording->simulated;
+  capture.calibration = "recording";
+  return capture;
+}
+
+/// The object of a result; with its folder if it is to be kept.
+Result<json> result_of(const ScanRecord& record, ResultStore* store) {
+  const ResultContent content = content_of(record);
+  json result = json::parse(content.result_json, nullptr, /*allow_exceptions=*/false);
+  if (!result.is_object()) {
+    return fail(ErrorCode::kInternal, "a result is no JSON object", "report this");
+  }
+  result["folder"] = nullptr;
+  if (store != nullptr) {
+    const auto folder = store->put(record.id, content);
+    if (!folder) return tl::make_unexpected(folder.error());
+    result["folder"] = folder->string();
+  }
+  return result;
+}
+
+Result<void> run(const ReplayCommand& command) {
+  const auto capture = read_capture(command.recording);
+  if (!capture) return tl::make_unexpected(capture.error());
+
+  PipelineSettings settings;
+  settings.station = "replay";
+  settings.side = side_from_string(command.side);
+  ProgressLine line;
+  const auto records =
+      measure_capture(*capture, settings, [&](std::string_view stage, double done) {
+        line.show(stage, done);
+        return true;
+      });
+  if (!records) return tl::make_unexpected(records.error());
+
+  PosixStorage storage;
+  ResultStore store(storage, command.out);
+  if (!command.out.empty()) {
+    if (auto ready = store.prepare(); !ready) return tl::make_unexpected(ready.error());
+  }
+  json results = json::array();
+  for (const auto& record : *records) {
+    auto result = result_of(record, command.out.empty() ? nullptr : &store);
+    if (!result) return tl::make_unexpected(result.error());
+    results.push_back(std::move(*result));
+  }
+  return print_json({{"results", results}});
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, int& exit_code) {
+  auto* replay = app.add_subcommand("replay", "Measure the feet of a recording, without a daemon");
+  replay->footer(kExamples);
+  const auto command = std::make_shared<ReplayCommand>();
+  replay->add_option("RECORDING", command->recording, "folder of a recording")->required();
+  replay->add_option("--out", command->out, "folder to keep the results in");
+  replay->add_option("--side", command->side, "of the foot, if the shape is not to decide")
+      ->check(CLI::IsMember({"left", "right", "auto"}))
+      ->capture_default_str();
+  replay->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
+}
+
+}  // namespace instep

@@ -1,0 +1,97 @@
+#include "daemon/command_line/simulate_command.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "daemon/command_line/capture_recording.h"
+#include "daemon/command_line/command_output.h"
+#include "sim/simulated_station.h"
+
+namespace instep {
+namespace {
+
+constexpr const char* kExamples = R"(The same seed gives the same bytes. Examples:
+  instep simulate --out visit --seed 7
+  instep simulate --out cylinder --subject cylinder --noise none --frames 1)";
+
+struct SimulateCommand {
+  std::string folder;
+  std::uint64_t seed = 1;
+  std::string subject = "foot";
+  std::string side = "right";
+  std::string noise = "typical";
+  int cameras = 4;
+  std::size_t frames = 15;
+};
+
+Result<SimulatedStation> build(const SimulateCommand& command) {
+  SimulationSettings settings;
+  settings.seed = command.seed;
+  settings.subject = subject_from_string(command.subject).value_or(settings.subject);
+  settings.side = side_from_string(command.side).value_or(settings.side);
+  settings.noise = noise_law_from_string(command.noise).value_or(settings.noise);
+  settings.cameras = command.cameras;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  return build_station(settings);
+}
+
+/// The truth of a single body by its measures' ids; of two feet with "left_" or "right_" before.
+std::map<std::string, double> truth_of(const SimulatedStation& station) {
+  std::map<std::string, double> truth;
+  for (const auto& body : station.truth) {
+    const bool several = station.truth.size() > 1 && body.side.has_value();
+    const std::string prefix = several ? std::string(to_string(*body.side)) + "_" : "";
+    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
+  }
+  return truth;
+}
+
+Result<void> run(const SimulateCommand& command) {
+  const auto station = build(command);
+  if (!station) return tl::make_unexpected(station.error());
+  Recording header;
+  header.platform_height_mm = station->platform_height_mm;
+  header.truth = truth_of(*station);
+  header.simulated = true;
+  ProgressLine line;
+  const auto recording =
+      capture_recording(station->cameras, header, {command.frames, {}}, command.folder,
+                        [&](double done) { line.show("simulating", done); });
+  if (!recording) return tl::make_unexpected(recording.error());
+  return print_json({{"folder", command.folder},
+                     {"seed", command.seed},
+                     {"simulated", true},
+                     {"cameras", recording->cameras.size()},
+                     {"frames", recording->frames.size()},
+                     {"truth", recording->truth}});
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& exit_code) {
+  auto* simulate = app.add_subcommand("simulate", "Write a synthetic recording with its truth");
+  simulate->footer(kExamples);
+  const auto command = std::make_shared<SimulateCommand>();
+  simulate->add_option("--out", command->folder, "folder to make")->required();
+  simulate->add_option("--seed", command->seed, "of shape, stance and noise")
+      ->capture_default_str();
+  simulate->add_option("--subject", command->subject, "what stands on the platform")
+      ->check(CLI::IsMember({"foot", "feet", "cylinder", "last"}))
+      ->capture_default_str();
+  simulate->add_option("--side", command->side, "of a single foot")
+      ->check(CLI::IsMember({"left", "right"}))
+      ->capture_default_str();
+  simulate->add_option("--noise", command->noise, "of the sensor")
+      ->check(CLI::IsMember({"none", "typical", "pessimistic"}))
+      ->capture_default_str();
+  simulate->add_option("--cameras", command->cameras, "round the platform")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str();
+  simulate->add_option("--frames", command->frames, "of each camera")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  simulate->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
+}
+
+}  // namespace instep

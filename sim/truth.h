@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+
+#include "core/foot/side.h"
+#include "core/geometry/rigid_transform.h"
+#include "core/result.h"
+#include "sim/solids/foot_solid.h"
+
+namespace instep {
+
+/// What is true of a simulated foot, from the solid itself: no cloud, no mesh, no camera.
+///
+/// Frame: that of core/foot/foot_scan.h, its x axis from the pternion to the second toe. FL is
+/// foot_length; the outline is the shadow on the floor of the body up to z = 25 mm.
+///
+/// Landmarks:
+///   pternion         rearmost point of the outline
+///   toe2             where the axis leaves the outline in front: the axis runs from the pternion
+///                    over the middle of the second toe's tip, which the solid knows
+///   acropodion       foremost point of the outline
+///   mt               most medial point of the outline in 0.60-0.80 FL
+///   mf               most lateral point of the outline in 0.50-0.75 FL
+///   instep           highest point of the back of the foot at 0.50 FL
+///   ball_top         highest point of the ball section
+///   lateral_midfoot  P2, the lateral outline point in 0.25-0.45 FL nearest to `instep` seen from
+///                    above
+///   medial_arch      P3, the medial outline point in 0.35-0.60 FL that makes the girth of the
+///   plane
+///                    (instep, P2, P3) least
+/// An outline point has the height at which the body reaches furthest.
+///
+/// Measures (stretched girths, all of closed sections, the sole included):
+///   foot_length              pternion to acropodion along x
+///   foot_breadth             mt to mf, seen from above
+///   foot_breadth_horizontal  mt to mf along y
+///   ball_girth               vertical plane through mt and mf
+///   instep_girth             plane (instep, P2, P3)
+///   waist_girth              plane through the means of both planes' points: (mt, P3), (mf, P2),
+///                            (ball_top, instep)
+struct FootTruth {
+  Side side = Side::kRight;
+  RigidTransform foot_from_solid = RigidTransform::Identity();
+  std::map<std::string, Eigen::Vector3d> landmarks;              ///< foot frame
+  std::map<std::string, std::array<Eigen::Vector3d, 3>> planes;  ///< girth id -> points, foot frame
+  std::map<std::string, double> measures;                        ///< id -> mm
+  std::map<std::string, double> contact_mm;  ///< girth id -> length along the skin
+};
+
+/// Good to about 1e-3 mm. Fails with kInternal if the foot has no such section, which no drawn foot
+/// does. Cost: about a second.
+Result<FootTruth> foot_truth(const FootSolid& foot);
+
+}  // namespace instep
