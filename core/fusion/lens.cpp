@@ -39,6 +39,7 @@ Eigen::Matrix2d distortion_jacobian(const CameraIntrinsics& intrinsics,
 std::optional<Eigen::Vector2d> undistorted(const CameraIntrinsics& intrinsics,
                                            const Eigen::Vector2d& target,
                                            const Eigen::Vector2d& start) {
+  if (intrinsics.distortion == std::array<double, 5>{}) return target;
   Eigen::Vector2d ideal = start;
   for (int i = 0; i < kMostIterations; ++i) {
     const Eigen::Vector2d miss = target - distorted(intrinsics, ideal);

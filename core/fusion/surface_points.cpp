@@ -1,6 +1,5 @@
 #include "core/fusion/surface_points.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,7 +10,9 @@ namespace {
 
 constexpr int kSmallestWindow = 2;
 constexpr int kLargestWindow = 6;
-constexpr int kFewestNeighbours = 6;
+constexpr double kFewestNeighbours = 6;
+constexpr int kHalfWindow = 3;  // of the window that tells a rim from a surface
+constexpr int kWindow = 2 * kHalfWindow + 1;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Marks the pixels round every marked one.
@@ -30,7 +31,37 @@ std::vector<std::uint8_t> dilated(const std::vector<std::uint8_t>& marked, int w
   return grown;
 }
 
-/// 1/Z = c + a dx + b dy about a pixel, dx and dy being differences of ray coordinates.
+/// Marks the pixels that lack so many neighbours in a window of 7 x 7 that they must lie on the
+/// rim of what was seen. Single holes in a surface do not make a rim.
+std::vector<std::uint8_t> rim_pixels(const FusedDepth& depth, const SurfaceSettings& settings) {
+  const int width = depth.width;
+  const int height = depth.height;
+  std::vector<std::uint8_t> marked(depth.depth_mm.size(), 0);
+  std::vector<int> columns(static_cast<std::size_t>(width), 0);  // pixels with data in 7 rows
+  const auto count_row = [&](int v, int sign) {
+    if (v < 0 || v >= height) return;
+    const float* row = depth.depth_mm.data() + static_cast<std::ptrdiff_t>(v) * width;
+    for (int u = 0; u < width; ++u)
+      columns[static_cast<std::size_t>(u)] += row[u] > 0.0F ? sign : 0;
+  };
+  const auto column = [&](int u) {
+    return u < 0 || u >= width ? 0 : columns[static_cast<std::size_t>(u)];
+  };
+  const int least = static_cast<int>(std::ceil(settings.least_filled_window * kWindow * kWindow));
+  for (int v = -kHalfWindow; v < height; ++v) {
+    count_row(v + kHalfWindow, 1);
+    count_row(v - kHalfWindow - 1, -1);
+    if (v < 0) continue;
+    int filled = 0;
+    for (int u = -kHalfWindow; u < width; ++u) {
+      filled += column(u + kHalfWindow) - column(u - kHalfWindow - 1);
+      if (u >= 0) marked[static_cast<std::size_t>(v * width + u)] = filled < least ? 1 : 0;
+    }
+  }
+  return marked;
+}
+
+/// 1/Z = c + a x + b y about a pixel, x and y being differences of ray coordinates in pixels.
 struct InversePlane {
   double a;
   double b;
@@ -52,21 +83,23 @@ class NormalFitter {
     const int radius = window(sigma, pitch);
     // First a loose gate: what a steep surface may show at this distance.
     const double steep = std::tan(settings_.steepest_deg * kDegree) * pitch;
-    const auto near = [&](double reach, double, double, double other) {
-      return std::abs(other - z) <= 4.0 * sigma + 0.5 * steep * reach;
+    const auto near = [&](double x, double y, double other) {
+      return std::abs(other - z) <= 4.0 * sigma + 0.5 * steep * std::max(std::abs(x), std::abs(y));
     };
     const auto first = fit(pixel, radius, near);
     if (!first) return std::nullopt;
-    const auto on_plane = [&](double, double dx, double dy, double other) {
-      const double expected = 1.0 / (first->c + first->a * dx + first->b * dy);
-      return std::abs(other - expected) <= 3.0 * sigma + 0.5 * pitch;
+    const double reach = (3.0 * sigma + 0.5 * pitch) / (z * z);  // of inverse depth
+    const auto on_plane = [&](double x, double y, double other) {
+      return std::abs(1.0 / other - (first->c + first->a * x + first->b * y)) <= reach;
     };
     const auto second = fit(pixel, radius, on_plane);
     if (!second) return std::nullopt;
+    const double focal = deprojector_.intrinsics().fx;
     const Eigen::Vector3f ray = deprojector_.ray(pixel);
     // The plane is a X + b Y + (c - a x0 - b y0) Z = 1, which is positive away from the camera.
-    const Eigen::Vector3d away(second->a, second->b,
-                               second->c - second->a * ray.x() - second->b * ray.y());
+    const double a = focal * second->a;
+    const double b = focal * second->b;
+    const Eigen::Vector3d away(a, b, second->c - a * ray.x() - b * ray.y());
     if (!(away.norm() > 0.0)) return std::nullopt;
     return -away.normalized();
   }
@@ -88,34 +121,42 @@ class NormalFitter {
     const int u = static_cast<int>(pixel) % width;
     const int v = static_cast<int>(pixel) / width;
     const Eigen::Vector3f centre = deprojector_.ray(pixel);
-    Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    int count = 0;
-    for (int y = std::max(0, v - radius); y <= std::min(depth_.height - 1, v + radius); ++y) {
-      for (int x = std::max(0, u - radius); x <= std::min(width - 1, u + radius); ++x) {
-        const auto other = static_cast<std::size_t>(y * width + x);
+    // Ray coordinates are counted in pixels, which keeps the sums of one order.
+    const double focal = deprojector_.intrinsics().fx;
+    double n = 0, x1 = 0, y1 = 0, xx = 0, xy = 0, yy = 0, w1 = 0, xw = 0, yw = 0;
+    for (int row = std::max(0, v - radius); row <= std::min(depth_.height - 1, v + radius); ++row) {
+      for (int column = std::max(0, u - radius); column <= std::min(width - 1, u + radius);
+           ++column) {
+        const auto other = static_cast<std::size_t>(row * width + column);
         const double z = depth_.depth_mm[other];
         if (!(z > 0.0)) continue;
         const Eigen::Vector3f ray = deprojector_.ray(other);
-        const double dx = ray.x() - centre.x();
-        const double dy = ray.y() - centre.y();
-        if (!gate(std::max(std::abs(x - u), std::abs(y - v)), dx, dy, z)) continue;
-        const Eigen::Vector3d row(dx, dy, 1.0);
-        normal_matrix += row * row.transpose();
-        right += row / z;
-        ++count;
+        const double x = focal * (ray.x() - centre.x());
+        const double y = focal * (ray.y() - centre.y());
+        if (!gate(x, y, z)) continue;
+        const double w = 1.0 / z;
+        n += 1.0;
+        x1 += x;
+        y1 += y;
+        xx += x * x;
+        xy += x * y;
+        yy += y * y;
+        w1 += w;
+        xw += x * w;
+        yw += y * w;
       }
     }
-    if (count < kFewestNeighbours) return std::nullopt;
-    // Ray coordinates are about a pixel over the focal length: bring them to order one.
-    const double focal = deprojector_.intrinsics().fx;
-    const Eigen::Vector3d scale(focal, focal, 1.0);
-    normal_matrix = scale.asDiagonal() * normal_matrix * scale.asDiagonal();
-    const Eigen::Matrix2d spread = normal_matrix.topLeftCorner<2, 2>();
-    if (spread.determinant() < 1.0) return std::nullopt;  // all neighbours in one line
-    const Eigen::Vector3d solved = normal_matrix.ldlt().solve(scale.cwiseProduct(right));
-    if (!solved.allFinite()) return std::nullopt;
-    return InversePlane{solved.x() * focal, solved.y() * focal, solved.z()};
+    if (n < kFewestNeighbours) return std::nullopt;
+    const double sxx = xx - x1 * x1 / n;
+    const double sxy = xy - x1 * y1 / n;
+    const double syy = yy - y1 * y1 / n;
+    const double determinant = sxx * syy - sxy * sxy;
+    if (determinant < 1.0) return std::nullopt;  // all neighbours in one line
+    const double sxw = xw - x1 * w1 / n;
+    const double syw = yw - y1 * w1 / n;
+    const double a = (syy * sxw - sxy * syw) / determinant;
+    const double b = (sxx * syw - sxy * sxw) / determinant;
+    return InversePlane{a, b, (w1 - a * x1 - b * y1) / n};
   }
 
   const Deprojector& deprojector_;
@@ -128,6 +169,7 @@ class NormalFitter {
 std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
                                FusedDepth& depth) {
   const int width = depth.width;
+  const auto rims = rim_pixels(depth, settings);
   const auto steep = static_cast<float>(std::tan(settings.steepest_deg * kDegree) / intrinsics.fx);
   const auto sigmas = static_cast<float>(settings.jump_sigmas * std::numbers::sqrt2);
   std::vector<std::uint8_t> marked(depth.depth_mm.size(), 0);
@@ -148,7 +190,7 @@ std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const Surface
   for (int i = 0; i < settings.erosion_px; ++i) marked = dilated(marked, width, depth.height);
   std::size_t dropped = 0;
   for (std::size_t pixel = 0; pixel < marked.size(); ++pixel) {
-    if (!marked[pixel] || depth.depth_mm[pixel] == 0.0F) continue;
+    if (!(marked[pixel] || rims[pixel]) || depth.depth_mm[pixel] == 0.0F) continue;
     depth.depth_mm[pixel] = 0.0F;
     depth.sigma_mm[pixel] = 0.0F;
     ++dropped;

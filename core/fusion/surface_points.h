@@ -16,13 +16,17 @@ struct SurfaceSettings {
   /// of sight and larger than `jump_sigmas` of its noise.
   double steepest_deg = 80.0;
   double jump_sigmas = 5.0;
-  int erosion_px = 1;                ///< further pixels dropped on both sides of a jump
+  int erosion_px = 1;  ///< further pixels dropped on both sides of a jump
+  /// Share of the 7 x 7 pixels round one that must hold data: where a silhouette has nothing
+  /// behind it, the outermost pixels are as doubtful. The default takes two off a straight rim.
+  double least_filled_window = 0.74;
   double most_incidence_deg = 75.0;  ///< between normal and line of sight
   double normal_error_deg = 4.0;     ///< wanted; sets the size of the window a normal is fitted in
 };
 
-/// Takes away the pixels on both sides of a silhouette: there a camera mixes foreground and
-/// background into points that float between them. Returns how many went.
+/// Takes away the pixels on both sides of a silhouette, where a camera mixes foreground and
+/// background into points that float between them, and those on the rim of what it saw. Returns how
+/// many went.
 std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
                                FusedDepth& depth);
 

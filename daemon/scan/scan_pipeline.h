@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +21,9 @@ struct Capture {
   std::optional<double> platform_height_mm;
   bool simulated = false;
   std::string calibration;
+  /// What a simulation knows to be true: measure id -> value, with "left_" or "right_" before it
+  /// where two feet stand there. Empty for a real capture.
+  std::map<std::string, double> truth;
 };
 
 /// Told at each step; returning false cancels the scan (the pipeline then fails with kCancelled).

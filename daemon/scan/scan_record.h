@@ -22,6 +22,7 @@ struct ScanRecord {
   std::map<std::string, double> timings_ms;  ///< stage -> milliseconds
   std::map<std::string, double> quality;     ///< figure -> value, names carry their unit
   std::vector<std::string> warnings;         ///< of the scan as a whole
+  std::map<std::string, double> truth;       ///< of a simulated foot: measure id -> value
 
   FootScan foot;
   MeasureSet measures;

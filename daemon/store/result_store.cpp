@@ -22,18 +22,18 @@ bool is_number(const std::string& name, std::size_t digits) {
 
 }  // namespace
 
-ResultStore::ResultStore(Storage& storage, std::filesystem::path root)
-    : storage_(storage), root_(std::move(root)) {}
+ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root)
+    : storage_(std::move(storage)), root_(std::move(root)) {}
 
 Result<std::size_t> ResultStore::prepare() {
-  if (const auto made = storage_.make_folder(root_); !made) {
+  if (const auto made = storage_->make_folder(root_); !made) {
     return tl::make_unexpected(made.error());
   }
   const auto all_days = days();
   if (!all_days) return tl::make_unexpected(all_days.error());
   std::size_t cleared = 0;
   for (const auto& day : *all_days) {
-    const auto entries = storage_.list(day);
+    const auto entries = storage_->list(day);
     if (!entries) return tl::make_unexpected(entries.error());
     for (const auto& entry : *entries) {
       if (!entry.is_folder || !is_leftover(entry.name)) continue;
@@ -54,11 +54,11 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
   const auto day = root_ / day_folder(id);
   const auto writing = day / (kWriting + id);
   const auto stored = make_day_folder(id)
-                          .and_then([&] { return storage_.make_folder(writing); })
+                          .and_then([&] { return storage_->make_folder(writing); })
                           .and_then([&] { return write_files(writing, content); })
-                          .and_then([&] { return storage_.sync_folder(writing); })
-                          .and_then([&] { return storage_.rename(writing, day / id); })
-                          .and_then([&] { return storage_.sync_folder(day); });
+                          .and_then([&] { return storage_->sync_folder(writing); })
+                          .and_then([&] { return storage_->rename(writing, day / id); })
+                          .and_then([&] { return storage_->sync_folder(day); });
   if (!stored) {
     // The failure to report is the first one, not that of clearing up after it.
     (void)empty_and_remove(writing);
@@ -68,14 +68,14 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
 }
 
 Result<void> ResultStore::make_day_folder(const std::string& id) {
-  if (const auto made = storage_.make_folder(root_); !made) return made;
+  if (const auto made = storage_->make_folder(root_); !made) return made;
   std::filesystem::path folder = root_;
   for (const auto& part : day_folder(id)) {
     const auto parent = folder;
     folder /= part;
     // The parent is flushed even if the folder was there: whoever made it may not have come to it.
     const auto made =
-        storage_.make_folder(folder).and_then([&] { return storage_.sync_folder(parent); });
+        storage_->make_folder(folder).and_then([&] { return storage_->sync_folder(parent); });
     if (!made) return made;
   }
   return {};
@@ -89,11 +89,11 @@ Result<void> ResultStore::write_files(const std::filesystem::path& folder,
 }
 
 Result<void> ResultStore::write_file(const std::filesystem::path& path, std::string_view bytes) {
-  const auto file = storage_.create_file(path);
+  const auto file = storage_->create_file(path);
   if (!file) return tl::make_unexpected(file.error());
   Result<void> outcome;
   while (!bytes.empty() && outcome) {
-    const auto written = storage_.write(*file, bytes);
+    const auto written = storage_->write(*file, bytes);
     if (written && *written > 0) {
       bytes.remove_prefix(std::min(*written, bytes.size()));
     } else {
@@ -102,18 +102,18 @@ Result<void> ResultStore::write_file(const std::filesystem::path& path, std::str
                         : tl::make_unexpected(written.error());
     }
   }
-  if (outcome) outcome = storage_.sync(*file);
-  storage_.close(*file);
+  if (outcome) outcome = storage_->sync(*file);
+  storage_->close(*file);
   return outcome;
 }
 
 Result<void> ResultStore::empty_and_remove(const std::filesystem::path& folder) {
-  const auto entries = storage_.list(folder);
+  const auto entries = storage_->list(folder);
   if (!entries) return tl::make_unexpected(entries.error());
   for (const auto& entry : *entries) {
-    if (const auto gone = storage_.remove_file(folder / entry.name); !gone) return gone;
+    if (const auto gone = storage_->remove_file(folder / entry.name); !gone) return gone;
   }
-  return storage_.remove_folder(folder);
+  return storage_->remove_folder(folder);
 }
 
 Result<std::vector<std::filesystem::path>> ResultStore::days() const {
@@ -121,7 +121,7 @@ Result<std::vector<std::filesystem::path>> ResultStore::days() const {
   for (const std::size_t digits : {4U, 2U, 2U}) {
     std::vector<std::filesystem::path> below;
     for (const auto& folder : level) {
-      const auto entries = storage_.list(folder);
+      const auto entries = storage_->list(folder);
       if (!entries) return tl::make_unexpected(entries.error());
       for (const auto& entry : *entries) {
         if (entry.is_folder && is_number(entry.name, digits)) below.push_back(folder / entry.name);
@@ -137,7 +137,7 @@ Result<std::vector<std::string>> ResultStore::list() const {
   if (!all_days) return tl::make_unexpected(all_days.error());
   std::vector<std::string> ids;
   for (const auto& day : *all_days) {
-    const auto entries = storage_.list(day);
+    const auto entries = storage_->list(day);
     if (!entries) return tl::make_unexpected(entries.error());
     for (const auto& entry : *entries) {
       if (entry.is_folder && is_scan_id(entry.name)) ids.push_back(entry.name);
@@ -167,7 +167,7 @@ std::filesystem::path ResultStore::folder_of(const std::string& id) const {
 }
 
 Result<std::string> ResultStore::read_result_json(const std::string& id) const {
-  return storage_.read(folder_of(id) / "result.json", kLargestResultJson);
+  return storage_->read(folder_of(id) / "result.json", kLargestResultJson);
 }
 
 Result<void> ResultStore::remove(const std::string& id) {
@@ -175,8 +175,8 @@ Result<void> ResultStore::remove(const std::string& id) {
   if (!found) return tl::make_unexpected(found.error());
   const auto day = root_ / day_folder(*found);
   const auto deleting = day / (kDeleting + *found);
-  return storage_.rename(day / *found, deleting)
-      .and_then([&] { return storage_.sync_folder(day); })
+  return storage_->rename(day / *found, deleting)
+      .and_then([&] { return storage_->sync_folder(day); })
       .and_then([&] { return empty_and_remove(deleting); });
 }
 

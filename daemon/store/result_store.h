@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Retention {
 /// Holds no state but the disk's. Safe from many threads.
 class ResultStore {
  public:
-  ResultStore(Storage& storage, std::filesystem::path root);
+  ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root);
 
   const std::filesystem::path& root() const { return root_; }
 
@@ -64,7 +65,7 @@ class ResultStore {
   /// The folders of all days, oldest first.
   Result<std::vector<std::filesystem::path>> days() const;
 
-  Storage& storage_;
+  std::shared_ptr<Storage> storage_;
   std::filesystem::path root_;
 };
 

@@ -1,0 +1,73 @@
+#include "core/foot/align_feet.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace instep {
+namespace {
+
+/// Cosine of the angle between two feet up to which "left of" has a meaning for both.
+constexpr double kSameWay = 0.5;
+/// From here on a shape is trusted enough to speak against the foot's place.
+constexpr double kClearShape = 0.85;
+
+Eigen::Vector3d centre(const FootScan& foot) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& position : foot.cloud.positions) sum += position;
+  return sum / static_cast<double>(foot.cloud.size());
+}
+
+/// Aligns again if the place of the foot overrules its shape.
+Result<FootScan> with_side(FootScan foot, const PointCloud& cloud, Side side,
+                           AlignmentOptions options) {
+  if (foot.side == side) {
+    foot.side_confidence = std::max(foot.side_confidence, kClearShape);
+    return foot;
+  }
+  const bool clear_shape = foot.side_confidence >= kClearShape;
+  options.side = side;
+  auto again = align_foot(cloud, options);
+  if (again && clear_shape) {
+    again->warnings.push_back(std::string("it stands as the ") + to_string(side) +
+                              " foot but is shaped as the other: check that the feet are not "
+                              "crossed");
+  }
+  return again;
+}
+
+}  // namespace
+
+Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
+                                         const AlignmentOptions& options) {
+  AlignmentOptions each = options;
+  if (clouds.size() > 1) each.side.reset();
+  std::vector<FootScan> feet;
+  for (const auto& cloud : clouds) {
+    auto foot = align_foot(cloud, each);
+    if (!foot) return tl::make_unexpected(foot.error());
+    feet.push_back(std::move(*foot));
+  }
+  if (feet.size() != 2) return feet;
+
+  const RigidTransform first_from_second =
+      feet[0].foot_from_input * feet[1].foot_from_input.inverse();
+  if (first_from_second.linear()(0, 0) >= kSameWay) {
+    const bool second_is_left = (first_from_second * centre(feet[1])).y() > centre(feet[0]).y();
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Side side = (i == 1) == second_is_left ? Side::kLeft : Side::kRight;
+      auto settled = with_side(std::move(feet[i]), clouds[i], side, each);
+      if (!settled) return tl::make_unexpected(settled.error());
+      feet[i] = std::move(*settled);
+    }
+  } else if (feet[0].side == feet[1].side) {
+    for (auto& foot : feet) {
+      foot.warnings.emplace_back("both feet look like the same side: check the sides");
+    }
+  }
+  std::stable_sort(feet.begin(), feet.end(), [](const FootScan& a, const FootScan& b) {
+    return a.side == Side::kLeft && b.side == Side::kRight;
+  });
+  return feet;
+}
+
+}  // namespace instep

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/foot/alignment.h"
+#include "core/foot/foot_scan.h"
+#include "core/geometry/point_cloud.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// Aligns the feet that stand on a platform together (one or two clouds in one frame), each as
+/// align_foot() does, and returns the left one first.
+///
+/// Two feet that point roughly the same way are told left from right by where they stand, which is
+/// surer than the shape of either; where the shape clearly says otherwise (crossed feet) that is a
+/// warning. Two feet of one side, pointing different ways, keep what their shapes say, with a
+/// warning. A forced side applies to a single foot only. Fails as align_foot() does, for the first
+/// cloud that fails.
+Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
+                                         const AlignmentOptions& options = {});
+
+}  // namespace instep

@@ -1,0 +1,63 @@
+#include "daemon/command_line/result_text.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+
+std::string text(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
+}
+
+std::optional<double> number(const json& object, const char* key) {
+  if (!object.is_object() || !object.contains(key) || !object[key].is_number()) return {};
+  return object[key].get<double>();
+}
+
+std::string measure_line(const json& measure, const json& truth) {
+  const std::string id = text(measure, "id");
+  const bool is_angle = measure.contains("value_deg");
+  const auto value = number(measure, is_angle ? "value_deg" : "value_mm");
+  if (!value) return fmt::format("  {:<26}         -\n", id);
+  const auto interval = number(measure, "u95_mm");
+  std::string line = fmt::format("  {:<26}{:>8.1f} {}{:>8}", id, *value, is_angle ? "deg" : "mm ",
+                                 interval ? fmt::format("+-{:.1f}", *interval) : "");
+  if (const auto known = number(truth, id.c_str())) {
+    line += fmt::format("   truth{:>8.1f}   error{:>6.2f}", *known, *value - *known);
+  }
+  return line + "\n";
+}
+
+std::string warning_lines(const json& owner, const std::string& of) {
+  std::string lines;
+  if (!owner.contains("warnings") || !owner["warnings"].is_array()) return lines;
+  for (const auto& warning : owner["warnings"]) {
+    if (warning.is_string()) lines += fmt::format("  note: {}{}\n", of, warning.get<std::string>());
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string result_text(const json& result) {
+  if (!result.is_object()) return {};
+  const json measures = result.value("measures", json::array());
+  const json truth = result.value("truth", json::object());
+  std::string report =
+      fmt::format("scan {}\n{} foot{}\n", text(result, "id"), text(result, "side"),
+                  result.value("simulated", json(false)) == json(true) ? ", simulated" : "");
+  std::string notes = warning_lines(result, "");
+  for (const auto& measure : measures) {
+    if (!measure.is_object()) continue;
+    report += measure_line(measure, truth);
+    notes += warning_lines(measure, text(measure, "id") + ": ");
+  }
+  return report + notes;
+}
+
+}  // namespace instep

@@ -1,0 +1,27 @@
+#include "daemon/command_line/station_settings.h"
+
+#include <optional>
+
+#include "config/settings_file.h"
+#include "config/settings_search.h"
+
+namespace instep {
+
+Result<FoundSettings> find_station_settings() {
+  const SettingsPlaces places{std::nullopt, running_program_folder(), INSTEP_SOURCE_DIR};
+  const auto file = find_settings(places, process_environment);
+  if (!file) return tl::make_unexpected(file.error());
+  auto settings = load_settings(*file);
+  if (!settings) return tl::make_unexpected(settings.error());
+  override_paths(*settings, process_environment);
+  return FoundSettings{*file, std::move(*settings)};
+}
+
+Settings station_settings() {
+  if (auto found = find_station_settings()) return std::move(found->settings);
+  Settings settings;
+  override_paths(settings, process_environment);
+  return settings;
+}
+
+}  // namespace instep

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "config/settings.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// The settings that the daemon of this machine has, as far as the command line can tell: the same
+/// search, the same environment.
+struct FoundSettings {
+  std::filesystem::path file;
+  Settings settings;
+};
+Result<FoundSettings> find_station_settings();
+
+/// The same, but with the defaults (and the environment) where there is no sound file: enough to
+/// reach a daemon.
+Settings station_settings();
+
+}  // namespace instep

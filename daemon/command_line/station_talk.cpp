@@ -1,0 +1,246 @@
+#include "daemon/command_line/station_talk.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "daemon/command_line/result_text.h"
+#include "daemon/command_line/station_settings.h"
+#include "daemon/control/control_client.h"
+#include "daemon/control/protocol.h"
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+
+/// Far longer than a scan with its deadlines can take.
+constexpr seconds kLongestScan{300};
+
+std::string text(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
+}
+
+Result<ControlClient> reach_daemon() {
+  return ControlClient::connect(station_settings().control.socket);
+}
+
+/// One request on a connection of its own.
+Result<json> ask_daemon(const std::string& verb, const std::string& id = {}) {
+  auto client = reach_daemon();
+  if (!client) return tl::make_unexpected(client.error());
+  return client->ask(verb, id);
+}
+
+void print_json(const json& value) {
+  fmt::print("{}\n", value.dump(2, ' ', false, json::error_handler_t::replace));
+}
+
+Result<void> print_scan(ControlClient& client, const std::string& id, bool as_json) {
+  const auto shown = client.ask("show", id);
+  if (!shown) return tl::make_unexpected(shown.error());
+  const json& result = shown->at("result");
+  if (as_json) {
+    print_json(result);
+  } else {
+    fmt::print("{}", result_text(result));
+  }
+  return {};
+}
+
+/// The result or failure that the next scan ends with.
+Result<json> wait_for_end(ControlClient& client, milliseconds limit) {
+  const auto deadline = steady_clock::now() + limit;
+  while (true) {
+    auto line = client.next(std::chrono::ceil<milliseconds>(deadline - steady_clock::now()));
+    if (!line) return line;
+    const auto event = text(*line, "event");
+    if (event == "result") return line;
+    if (event == "failure") {
+      (*line)["ok"] = false;
+      return tl::make_unexpected(answer_outcome(*line).error());
+    }
+  }
+}
+
+std::string status_line(const json& status) {
+  std::string line = text(status, "state");
+  if (const auto stage = text(status, "stage"); !stage.empty()) {
+    line += fmt::format(": {} {:.0f} %", stage, 100 * status.value("done", 0.0));
+  }
+  if (const auto trouble = text(status, "trouble"); !trouble.empty()) line += ": " + trouble;
+  return line;
+}
+
+void print_status(const json& status) {
+  fmt::print("{}\n", status_line(status));
+  for (const auto& camera : status.value("cameras", json::array())) {
+    fmt::print("  camera {:<12} {}\n", text(camera, "id"),
+               camera.value("ok", false) ? "ok" : text(camera, "trouble"));
+  }
+  fmt::print("  scans {}, ignored presses {}\n", status.value("scans", 0),
+             status.value("ignored_presses", 0));
+}
+
+/// The live line of a terminal: a bar while a scan runs.
+void draw(const json& event) {
+  constexpr int kBarWidth = 30;
+  std::string line = text(event, "state");
+  if (const auto stage = text(event, "stage"); !stage.empty()) {
+    const double done = event.value("done", 0.0);
+    const auto filled = static_cast<std::size_t>(done * kBarWidth);
+    line = fmt::format("[{:<{}}] {:>3.0f} % {}", std::string(filled, '#'), kBarWidth, 100 * done,
+                       stage);
+  } else if (const auto trouble = text(event, "trouble"); !trouble.empty()) {
+    line += ": " + trouble;
+  }
+  fmt::print("\r\033[K{}", line);
+  std::fflush(stdout);
+}
+
+void tell(const json& line, bool in_terminal) {
+  const auto event = text(line, "event");
+  if (!in_terminal) {
+    fmt::print("{}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
+    std::fflush(stdout);
+  } else if (event == "result") {
+    for (const auto& scan : line.value("scans", json::array())) {
+      fmt::print("\r\033[Kscan {} ({} foot)\n", text(scan, "id"), text(scan, "side"));
+    }
+  } else if (event == "failure") {
+    const json error = line.value("error", json::object());
+    fmt::print("\r\033[Kno scan: {}: {}\n", text(error, "message"), text(error, "advice"));
+  } else if (event == "status" || event.empty()) {
+    draw(line);
+  }
+}
+
+}  // namespace
+
+Result<void> scan_on_station(bool wait, bool as_json) {
+  auto client = reach_daemon();
+  if (!client) return tl::make_unexpected(client.error());
+  // Watching before scanning, so that not even the quickest scan is missed.
+  if (wait) {
+    if (const auto watching = client->ask("watch"); !watching) {
+      return tl::make_unexpected(watching.error());
+    }
+  }
+  if (const auto begun = client->ask("scan"); !begun) return tl::make_unexpected(begun.error());
+  if (!wait) return {};
+  const auto end = wait_for_end(*client, kLongestScan);
+  if (!end) return tl::make_unexpected(end.error());
+  auto asking = reach_daemon();
+  if (!asking) return tl::make_unexpected(asking.error());
+  for (const auto& scan : end->value("scans", json::array())) {
+    const auto printed = print_scan(*asking, text(scan, "id"), as_json);
+    if (!printed) return printed;
+  }
+  return {};
+}
+
+Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json) {
+  const auto deadline = steady_clock::now() + wait_ready.value_or(seconds(0));
+  while (true) {
+    const auto status = ask_daemon("status");
+    const bool ready = status && text(*status, "state") == "ready";
+    if (!wait_ready || ready) {
+      if (!status) return tl::make_unexpected(status.error());
+      as_json ? print_json(*status) : print_status(*status);
+      return {};
+    }
+    if (steady_clock::now() >= deadline) {
+      if (!status) return tl::make_unexpected(status.error());
+      return fail(ErrorCode::kTimeout, "the station is not ready but " + status_line(*status), "");
+    }
+    ::usleep(50 * 1000);
+  }
+}
+
+Result<void> watch_station(std::optional<seconds> until_result) {
+  auto client = reach_daemon();
+  if (!client) return tl::make_unexpected(client.error());
+  const bool in_terminal = ::isatty(STDOUT_FILENO) == 1;
+  const auto first = client->ask("watch");
+  if (!first) return tl::make_unexpected(first.error());
+  tell(*first, in_terminal);
+  const auto deadline = steady_clock::now() + until_result.value_or(seconds(0));
+  while (true) {
+    const auto left = until_result ? std::chrono::ceil<milliseconds>(deadline - steady_clock::now())
+                                   : milliseconds(std::chrono::hours(24));
+    const auto line = client->next(left);
+    if (!line && line.error().code == ErrorCode::kTimeout && !until_result) continue;
+    if (!line && line.error().code == ErrorCode::kTimeout) {
+      return fail(ErrorCode::kTimeout, "there was no result in time", "see why: instep status");
+    }
+    if (!line) return tl::make_unexpected(line.error());
+    tell(*line, in_terminal);
+    if (until_result && text(*line, "event") == "result") return {};
+  }
+}
+
+Result<void> list_scans(bool as_json) {
+  const auto answer = ask_daemon("list");
+  if (!answer) return tl::make_unexpected(answer.error());
+  const json scans = answer->value("scans", json::array());
+  if (as_json) {
+    print_json({{"scans", scans}});
+  } else {
+    for (const auto& scan : scans) fmt::print("{}\n", text(scan, "id"));
+  }
+  return {};
+}
+
+Result<void> show_scan(const std::string& id, bool as_json) {
+  auto client = reach_daemon();
+  if (!client) return tl::make_unexpected(client.error());
+  return print_scan(*client, id, as_json);
+}
+
+Result<void> export_scan(const std::string& id, const std::filesystem::path& out) {
+  const auto answer = ask_daemon("export", id);
+  if (!answer) return tl::make_unexpected(answer.error());
+  const std::filesystem::path from = text(*answer, "folder");
+  const auto to = out / text(*answer, "id");
+  std::error_code failed;
+  std::filesystem::create_directories(out, failed);
+  if (!failed && !std::filesystem::create_directory(to, failed) && !failed) {
+    return fail(ErrorCode::kBusy, to.string() + " is there already",
+                "move it away, or choose another --out");
+  }
+  for (const auto& file : answer->value("files", json::array())) {
+    if (failed) break;
+    std::filesystem::copy_file(from / file.get<std::string>(), to / file.get<std::string>(),
+                               failed);
+  }
+  if (failed) {
+    std::error_code ignored;
+    std::filesystem::remove_all(to, ignored);
+    return fail(ErrorCode::kIo,
+                "the scan could not be copied to " + to.string() + ": " + failed.message(),
+                "check that you may read " + from.string() + " and write there");
+  }
+  fmt::print("{}\n", to.string());
+  return {};
+}
+
+Result<void> delete_scan(const std::string& id) {
+  const auto answer = ask_daemon("delete", id);
+  if (!answer) return tl::make_unexpected(answer.error());
+  fmt::print(stderr, "deleted scan {}\n", id);
+  return {};
+}
+
+Result<void> cancel_scan() {
+  const auto answer = ask_daemon("cancel");
+  if (!answer) return tl::make_unexpected(answer.error());
+  return {};
+}
+
+}  // namespace instep

@@ -1,0 +1,105 @@
+#include "daemon/control/control_client.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "daemon/control/protocol.h"
+#include "daemon/control/unix_socket.h"
+
+namespace instep {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+tl::unexpected<Error> ended() {
+  return fail(ErrorCode::kDeviceGone, "the daemon ended the connection",
+              "see its log: journalctl -u instepd");
+}
+
+}  // namespace
+
+Result<ControlClient> ControlClient::connect(const std::filesystem::path& socket) {
+  const auto descriptor = connect_unix_socket(socket);
+  if (descriptor) return ControlClient(*descriptor);
+  if (descriptor.error().code == ErrorCode::kNotFound) {
+    return fail(ErrorCode::kNotFound, "no daemon answers on " + socket.string(),
+                "start it with: systemctl start instepd (or run instepd)");
+  }
+  if (descriptor.error().code == ErrorCode::kPermissionDenied) {
+    return fail(ErrorCode::kPermissionDenied,
+                "you may not talk to the daemon on " + socket.string(),
+                "join its group: sudo usermod -aG instep $USER, then log in again");
+  }
+  return tl::make_unexpected(descriptor.error());
+}
+
+ControlClient::~ControlClient() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+ControlClient::ControlClient(ControlClient&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), input_(std::move(other.input_)) {}
+
+Result<nlohmann::json> ControlClient::ask(const std::string& verb, const std::string& id,
+                                          milliseconds limit) {
+  nlohmann::json request = {{"verb", verb}};
+  if (!id.empty()) request["id"] = id;
+  std::string line = request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  while (!line.empty()) {
+    const auto sent = ::send(descriptor_, line.data(), line.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) return ended();
+    line.erase(0, static_cast<std::size_t>(sent));
+  }
+  const auto deadline = steady_clock::now() + limit;
+  while (true) {
+    auto answer = next(std::chrono::ceil<milliseconds>(deadline - steady_clock::now()));
+    if (!answer) return answer;
+    if (answer->contains("event")) continue;
+    if (const auto outcome = answer_outcome(*answer); !outcome) {
+      return tl::make_unexpected(outcome.error());
+    }
+    return answer;
+  }
+}
+
+Result<nlohmann::json> ControlClient::next(milliseconds limit) {
+  const auto deadline = steady_clock::now() + limit;
+  std::size_t looked_at = 0;
+  while (true) {
+    const auto end = input_.find('\n', looked_at);
+    if (end != std::string::npos) {
+      auto line = nlohmann::json::parse(
+          input_.begin(), input_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+      input_.erase(0, end + 1);
+      if (line.is_object()) return line;
+      return fail(ErrorCode::kCorruptData, "the daemon's answer cannot be understood",
+                  "check that instep and instepd are of the same version");
+    }
+    looked_at = input_.size();
+    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
+    pollfd waiting{descriptor_, POLLIN, 0};
+    const int ready =
+        ::poll(&waiting, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30)));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) {
+      return fail(ErrorCode::kTimeout, "the daemon did not answer in time",
+                  "see what it does: instep status");
+    }
+    std::array<char, 65536> block;
+    const auto got = ::recv(descriptor_, block.data(), block.size(), 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return ended();
+    input_.append(block.data(), static_cast<std::size_t>(got));
+  }
+}
+
+}  // namespace instep

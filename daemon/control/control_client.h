@@ -1,0 +1,37 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "core/result.h"
+
+namespace instep {
+
+/// The asking end of the local protocol (protocol.h). One thread owns it; every call has a limit.
+class ControlClient {
+ public:
+  /// Fails with kNotFound, saying how to start it, if no daemon answers on the socket.
+  static Result<ControlClient> connect(const std::filesystem::path& socket);
+  ~ControlClient();
+  ControlClient(ControlClient&& other) noexcept;
+  ControlClient& operator=(ControlClient&&) = delete;
+
+  /// Sends {"verb", "id"} and returns the answer; events that come before it are passed over. An
+  /// answer that is an error is returned as that error.
+  Result<nlohmann::json> ask(const std::string& verb, const std::string& id = {},
+                             std::chrono::milliseconds limit = std::chrono::seconds(10));
+
+  /// The next line the daemon sends. Fails with kTimeout if none comes within the limit,
+  /// kDeviceGone if the daemon ended.
+  Result<nlohmann::json> next(std::chrono::milliseconds limit);
+
+ private:
+  explicit ControlClient(int descriptor) : descriptor_(descriptor) {}
+
+  int descriptor_ = -1;
+  std::string input_;
+};
+
+}  // namespace instep

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/control/protocol.h"
+#include "daemon/store/result_store.h"
+
+namespace instep {
+
+/// Answers list, show, export and delete of the local protocol. Reads the disk, so not on the event
+/// loop.
+std::string answer_from_store(ResultStore& store, const Request& request);
+
+}  // namespace instep

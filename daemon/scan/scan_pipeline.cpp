@@ -1,0 +1,168 @@
+#include "daemon/scan/scan_pipeline.h"
+
+#include <algorithm>
+#include <future>
+#include <utility>
+
+#include "core/foot/align_feet.h"
+#include "core/foot/landmarks.h"
+#include "core/foot/measures.h"
+#include "core/fusion/fuse_views.h"
+#include "core/fusion/temporal_fusion.h"
+#include "daemon/scan/stage_clock.h"
+
+namespace instep {
+namespace {
+
+tl::unexpected<Error> cancelled() {
+  return fail(ErrorCode::kCancelled, "the scan was cancelled", "press the pedal to scan again");
+}
+
+/// The frames of one camera as one depth image. A camera without a good frame fails the scan: a set
+/// that is not whole is never measured as if it were.
+Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& camera) {
+  TemporalFusion fusion;
+  for (const auto& frame : capture.frames) {
+    if (frame.camera != camera.geometry.id) continue;
+    // A rejected frame is counted, and the count is part of the result's quality.
+    static_cast<void>(fusion.add(frame));
+  }
+  if (fusion.frames_used() == 0) {
+    return fail(ErrorCode::kInsufficientData,
+                "camera " + camera.geometry.id + " gave no usable frame",
+                "check that nothing covers it and that it is plugged in, then scan again");
+  }
+  return fusion.result();
+}
+
+/// Cameras are independent of each other, so each is fused on a thread of its own.
+Result<std::vector<FusedDepth>> fuse_frames_of_each_camera(const Capture& capture) {
+  std::vector<std::future<Result<FusedDepth>>> running;
+  for (const auto& camera : capture.cameras) {
+    running.push_back(std::async(std::launch::async,
+                                 [&capture, &camera] { return fuse_camera(capture, camera); }));
+  }
+  std::vector<Result<FusedDepth>> fused;
+  for (auto& one : running) fused.push_back(one.get());
+  std::vector<FusedDepth> images;
+  for (auto& image : fused) {
+    if (!image) return tl::make_unexpected(image.error());
+    images.push_back(std::move(*image));
+  }
+  return images;
+}
+
+std::map<std::string, double> frame_quality(const std::vector<FusedDepth>& images) {
+  std::map<std::string, double> quality;
+  for (const auto& image : images) {
+    quality["frames_used"] += image.frames_used;
+    quality["frames_rejected"] += image.frames_rejected;
+    quality["movement_mm"] = std::max(quality["movement_mm"], image.movement_mm);
+  }
+  return quality;
+}
+
+std::vector<std::string> movement_warnings(const std::vector<FusedDepth>& images) {
+  const bool moved =
+      std::any_of(images.begin(), images.end(), [](const auto& image) { return image.moved; });
+  if (!moved) return {};
+  return {"the foot moved during the scan: ask the customer to stand still and scan again"};
+}
+
+Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> images,
+                              const PipelineSettings& settings) {
+  std::vector<View> views;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    views.push_back({capture.cameras[i].geometry, std::move(images[i]), nullptr});
+  }
+  FusionSettings fusion;
+  fusion.point_spacing_mm = settings.point_spacing_mm;
+  fusion.platform_height_mm = capture.platform_height_mm;
+  fusion.refine_views = settings.refine_views;
+  return fuse_views(views, fusion);
+}
+
+/// The part of the truth that is about one foot: see Capture::truth.
+std::map<std::string, double> truth_of(const Capture& capture, Side side) {
+  const std::string prefix = std::string(to_string(side)) + "_";
+  std::map<std::string, double> own;
+  for (const auto& [id, value] : capture.truth) {
+    const bool is_sided = id.rfind("left_", 0) == 0 || id.rfind("right_", 0) == 0;
+    if (!is_sided) own[id] = value;
+    if (id.rfind(prefix, 0) == 0) own[id.substr(prefix.size())] = value;
+  }
+  return own;
+}
+
+ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, FootScan foot,
+                     MeasureSet measures) {
+  ScanRecord record;
+  record.time = std::chrono::system_clock::now();
+  record.id = new_scan_id(record.time);
+  record.station = settings.station;
+  record.devices = capture.cameras;
+  record.calibration = capture.calibration;
+  record.simulated = capture.simulated;
+  record.truth = truth_of(capture, foot.side);
+  record.foot = std::move(foot);
+  record.measures = std::move(measures);
+  return record;
+}
+
+void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& quality) {
+  const auto& figures = scene.diagnostics;
+  quality["views_used"] = static_cast<double>(figures.views_used);
+  quality["platform_found"] = figures.platform_found ? 1.0 : 0.0;
+  quality["platform_tilt_deg"] = figures.platform_tilt_deg;
+  quality["registration_before_mm"] = figures.registration_before_mm;
+  quality["registration_after_mm"] = figures.registration_after_mm;
+}
+
+}  // namespace
+
+Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
+                                                const PipelineSettings& settings,
+                                                const ScanProgress& progress) {
+  StageClock clock(progress);
+
+  if (!clock.begin("fuse frames", 0.0)) return cancelled();
+  auto images = fuse_frames_of_each_camera(capture);
+  if (!images) return tl::make_unexpected(images.error());
+  auto quality = frame_quality(*images);
+  auto warnings = movement_warnings(*images);
+
+  if (!clock.begin("fuse views", 0.2)) return cancelled();
+  const auto scene = fuse_scene(capture, std::move(*images), settings);
+  if (!scene) return tl::make_unexpected(scene.error());
+  add_scene_quality(*scene, quality);
+  warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());
+
+  if (!clock.begin("align", 0.6)) return cancelled();
+  AlignmentOptions alignment;
+  alignment.side = settings.side;
+  alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
+  auto feet = align_feet(scene->feet, alignment);
+  if (!feet) return tl::make_unexpected(feet.error());
+
+  std::vector<ScanRecord> records;
+  for (auto& aligned : *feet) {
+    if (!clock.begin("landmarks", 0.7)) return cancelled();
+    auto foot = find_landmarks(std::move(aligned));
+    if (!foot) return tl::make_unexpected(foot.error());
+
+    if (!clock.begin("girths", 0.7)) return cancelled();
+    auto measures = measure_foot(*foot);
+    if (!measures) return tl::make_unexpected(measures.error());
+    records.push_back(record_of(capture, settings, std::move(*foot), std::move(*measures)));
+  }
+  clock.end();
+
+  for (auto& record : records) {
+    record.quality = quality;
+    record.warnings = warnings;
+    record.timings_ms = clock.timings_ms();
+  }
+  return records;
+}
+
+}  // namespace instep

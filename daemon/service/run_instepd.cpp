@@ -1,0 +1,91 @@
+#include "daemon/service/run_instepd.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "config/settings_file.h"
+#include "config/settings_search.h"
+#include "daemon/scan/scan_pipeline.h"
+#include "daemon/service/log.h"
+#include "daemon/service/station_service.h"
+
+namespace instep {
+namespace {
+
+Result<Settings> read_settings(const std::filesystem::path& file) {
+  auto settings = load_settings(file);
+  if (settings) override_paths(*settings, process_environment);
+  return settings;
+}
+
+int complain(const Error& error) {
+  fmt::print(stderr, "instepd: {}\n", error.line());
+  return 1;
+}
+
+/// The event loop takes signals from a descriptor, so no thread may take them otherwise.
+void keep_signals_for_the_loop() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  ::signal(SIGPIPE, SIG_IGN);
+}
+
+int check(const std::filesystem::path& file, const Settings& settings) {
+  fmt::print("settings {}\n{}", file.string(), describe(settings));
+  return 0;
+}
+
+int serve(const std::filesystem::path& file, const Settings& settings) {
+  ::umask(0027);
+  keep_signals_for_the_loop();
+  set_up_log(settings.log.level);
+  log_info(fmt::format("instepd {} with {}", INSTEP_VERSION, file.string()));
+  auto service = StationService::create(
+      settings, [file] { return read_settings(file); }, measure_capture);
+  if (!service) return complain(service.error());
+  const auto left_cleanly = (*service)->run();
+  if (!left_cleanly) return complain(left_cleanly.error());
+  // A thread that hangs cannot be waited for, and what it uses must not be torn down under it.
+  if (!*left_cleanly) ::_exit(0);
+  return 0;
+}
+
+}  // namespace
+
+int run_instepd(int argc, char** argv) {
+  CLI::App app(
+      "The daemon of an Instep scanning station: waits for the pedal, reads the cameras, "
+      "measures, stores.");
+  app.set_version_flag("--version", INSTEP_VERSION);
+  app.footer(std::string(kEnvironmentHelp) +
+             "\nSignals: TERM ends it within a second, HUP reads the settings again.");
+  std::string asked;
+  bool only_check = false;
+  app.add_option("--config", asked, "Settings file (TOML)")->type_name("FILE");
+  app.add_flag("--check", only_check, "Say what the settings mean, or every error, and end");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  SettingsPlaces places{std::nullopt, running_program_folder(), INSTEP_SOURCE_DIR};
+  if (!asked.empty()) places.asked = asked;
+  const auto file = find_settings(places, process_environment);
+  if (!file) return complain(file.error());
+  const auto settings = read_settings(*file);
+  if (!settings) return complain(settings.error());
+  return only_check ? check(*file, *settings) : serve(*file, *settings);
+}
+
+}  // namespace instep

@@ -1,0 +1,196 @@
+#include "daemon/service/station_service.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "daemon/control/store_requests.h"
+#include "daemon/store/posix_storage.h"
+
+namespace instep {
+namespace {
+
+/// A scan that is not over by then is left behind: a second is what SIGTERM promises.
+constexpr std::chrono::milliseconds kShutdownLimit{800};
+constexpr std::chrono::microseconds kWatchdogTick{1000000};
+
+}  // namespace
+
+Result<std::unique_ptr<StationService>> StationService::create(Settings settings,
+                                                               ReadSettings read_settings,
+                                                               MeasureCapture measure) {
+  std::unique_ptr<StationService> service(
+      new StationService(std::move(settings), std::move(read_settings)));
+  if (const auto opened = service->open(std::move(measure)); !opened) {
+    return tl::make_unexpected(opened.error());
+  }
+  return service;
+}
+
+StationService::StationService(Settings settings, ReadSettings read_settings)
+    : settings_(std::move(settings)), read_settings_(std::move(read_settings)) {}
+
+StationService::~StationService() = default;
+
+Result<void> StationService::open(MeasureCapture measure) {
+  auto loop = EventLoop::create();
+  if (!loop) return tl::make_unexpected(loop.error());
+  loop_ = std::move(*loop);
+  auto server = ControlServer::listen(
+      *loop_, settings_.control.socket,
+      [this](ControlServer::Client client, const Request& request) { serve(client, request); });
+  if (!server) return tl::make_unexpected(server.error());
+  server_ = std::move(*server);
+
+  store_ = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), settings_.store.root);
+  archive_ = std::make_unique<TaskThread>("archive");
+  StationListener listener;
+  listener.on_change = [this] { station_changed(); };
+  listener.on_result = [this](const auto& results) { scan_succeeded(results); };
+  listener.on_failure = [this](const Error& error) { scan_failed(error); };
+  listener.on_ignored_press = [this](std::uint64_t presses) {
+    log_info(fmt::format("a press during a scan was ignored, the {}. so far", presses));
+    server_->broadcast(event_line("ignored", {{"presses", presses}}));
+  };
+  listener.on_left = [this] { loop_->leave(); };
+  station_ = std::make_unique<Station>(*loop_, settings_, std::move(measure), store_, listener);
+
+  watchdog_timer_ = loop_->timer([this] { feed_watchdog(); });
+  shutdown_timer_ = loop_->timer([this] {
+    left_cleanly_ = false;
+    loop_->leave();
+  });
+  return loop_->on_signal(SIGTERM, [this] { shut_down(); })
+      .and_then([&] { return loop_->on_signal(SIGINT, [this] { shut_down(); }); })
+      .and_then([&] { return loop_->on_signal(SIGHUP, [this] { reload(); }); });
+}
+
+Result<bool> StationService::run() {
+  prepare_store();
+  station_->begin();
+  manager_.ready(status_text());
+  if (ServiceManager::watchdog_limit()) feed_watchdog();
+  const auto ended = loop_->run();
+  if (!ended) return tl::make_unexpected(ended.error());
+  server_.reset();
+  if (!left_cleanly_) log_warning("a scan did not end in time and was abandoned");
+  return left_cleanly_;
+}
+
+void StationService::prepare_store() {
+  const auto cleared = store_->prepare();
+  if (!cleared) return station_->store_failed(cleared.error());
+  if (*cleared > 0) log_info(fmt::format("cleared {} unfinished results", *cleared));
+  sweep_store();
+}
+
+void StationService::sweep_store() {
+  const Retention retention{settings_.store.keep_days, settings_.store.keep_count};
+  archive_->post([store = store_, retention](TaskProgress&) {
+    const auto removed = store->sweep(retention, std::chrono::system_clock::now());
+    if (!removed) log_warning("old results cannot be removed: " + removed.error().line());
+    if (removed && *removed > 0) log_info(fmt::format("removed {} old results", *removed));
+  });
+}
+
+std::string StationService::status_text() const {
+  const auto status = station_->status();
+  std::string text = to_string(status.state);
+  if (!status.stage.empty()) text += ": " + status.stage;
+  if (!status.trouble.empty()) text += ": " + status.trouble;
+  return text;
+}
+
+void StationService::station_changed() {
+  if (!station_) return;
+  const auto status = station_->status();
+  const std::string state = to_string(status.state);
+  if (said_.is_news("state", state)) log_info("station is " + state);
+  if (said_.is_news("trouble", status.trouble)) {
+    status.trouble.empty() ? log_info("all is well again") : log_warning(status.trouble);
+  }
+  manager_.status(status_text());
+  if (server_ && server_->has_watchers()) {
+    server_->broadcast(event_line("status", to_json(status)));
+  }
+}
+
+void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
+  for (const auto& result : results) log_info("stored scan " + result.id);
+  last_result_event_ = event_line("result", to_json(results));
+  last_result_time_ = EventLoop::monotonic_now();
+  server_->broadcast(last_result_event_);
+  sweep_store();
+}
+
+void StationService::scan_failed(const Error& error) {
+  log_warning("no scan: " + error.line());
+  server_->broadcast(event_line("failure", {{"error", to_json(error)}}));
+}
+
+void StationService::serve(ControlServer::Client client, const Request& request) {
+  const auto reply = [&](const Result<void>& outcome) {
+    server_->answer(client, outcome ? ok_answer({}) : error_answer(outcome.error()));
+  };
+  if (request.verb == "scan") return reply(station_->request_scan());
+  if (request.verb == "cancel") return reply(station_->request_cancel());
+  if (request.verb == "status" || request.verb == "watch") {
+    server_->answer(client, ok_answer(to_json(station_->status())));
+    if (request.verb == "status") return;
+    server_->add_watcher(client);
+    const bool recent = EventLoop::monotonic_now() - last_result_time_ < kRecentResult;
+    if (recent && !last_result_event_.empty()) server_->send_event(client, last_result_event_);
+    return;
+  }
+  serve_from_store(client, request);
+}
+
+void StationService::serve_from_store(ControlServer::Client client, const Request& request) {
+  archive_->post([this, client, request, store = store_, post = loop_->poster()](TaskProgress&) {
+    post([this, client, line = answer_from_store(*store, request)] {
+      if (server_) server_->answer(client, line);
+    });
+  });
+}
+
+void StationService::reload() {
+  manager_.reloading();
+  const auto settings = read_settings_();
+  if (!settings) {
+    log_error("the new settings are faulty and the old ones stay: " + settings.error().line());
+  } else {
+    station_->reload(*settings);
+    set_up_log(settings->log.level);
+    settings_.store.keep_days = settings->store.keep_days;
+    settings_.store.keep_count = settings->store.keep_count;
+    log_info(
+        "read the settings again; cameras, kind of pedal, simulation, store and socket change "
+        "with a restart");
+    sweep_store();
+  }
+  manager_.ready(status_text());
+}
+
+void StationService::shut_down() {
+  manager_.stopping();
+  log_info("stopping");
+  shutdown_timer_.set(kShutdownLimit);
+  station_->shut_down();
+}
+
+void StationService::feed_watchdog() {
+  const auto limit = ServiceManager::watchdog_limit().value_or(kWatchdogTick * 4);
+  station_->note_progress(progress_);
+  progress_.note("archive", archive_->is_busy(), archive_->progress());
+  if (progress_.all_moved()) {
+    manager_.feed_watchdog();
+  } else if (said_.is_news("hung", progress_.hung())) {
+    log_warning(progress_.hung() + " has made no step for a while");
+  }
+  watchdog_timer_.set(std::min(kWatchdogTick, limit / 4));
+}
+
+}  // namespace instep

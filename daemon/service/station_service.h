@@ -1,0 +1,75 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/settings.h"
+#include "core/result.h"
+#include "daemon/control/control_server.h"
+#include "daemon/loop/event_loop.h"
+#include "daemon/loop/progress_watch.h"
+#include "daemon/loop/task_thread.h"
+#include "daemon/service/log.h"
+#include "daemon/service/service_manager.h"
+#include "daemon/station/station.h"
+#include "daemon/store/result_store.h"
+
+namespace instep {
+
+/// The daemon: the station, its store and its socket on one event loop, under systemd's eyes.
+/// SIGTERM and SIGINT end it within a second, SIGHUP reads the settings again; these signals must
+/// be blocked before.
+class StationService {
+ public:
+  /// Reads the settings anew, for SIGHUP.
+  using ReadSettings = std::function<Result<Settings>()>;
+
+  /// Fails if the socket or the event loop cannot be had; a store or a camera that is not there is
+  /// the station's trouble and no failure.
+  static Result<std::unique_ptr<StationService>> create(Settings settings,
+                                                        ReadSettings read_settings,
+                                                        MeasureCapture measure);
+  ~StationService();
+
+  /// Until it is told to end. False if something had to be left behind in the middle; the process
+  /// should then end without waiting for anything (its threads may hang).
+  Result<bool> run();
+
+ private:
+  StationService(Settings settings, ReadSettings read_settings);
+  Result<void> open(MeasureCapture measure);
+  void prepare_store();
+  void station_changed();
+  void scan_succeeded(const std::vector<StoredResult>& results);
+  void scan_failed(const Error& error);
+  void serve(ControlServer::Client client, const Request& request);
+  void serve_from_store(ControlServer::Client client, const Request& request);
+  void sweep_store();
+  void reload();
+  void shut_down();
+  void feed_watchdog();
+  std::string status_text() const;
+
+  Settings settings_;
+  ReadSettings read_settings_;
+  std::unique_ptr<EventLoop> loop_;
+  ServiceManager manager_;
+  ChangeLog said_;
+  std::shared_ptr<ResultStore> store_;
+  std::unique_ptr<TaskThread> archive_;
+  std::unique_ptr<ControlServer> server_;
+  std::unique_ptr<Station> station_;
+  std::string last_result_event_;
+  std::chrono::nanoseconds last_result_time_{0};
+  ProgressWatch progress_;
+  EventLoop::Timer watchdog_timer_;
+  EventLoop::Timer shutdown_timer_;
+  bool left_cleanly_ = true;
+};
+
+}  // namespace instep
