@@ -1,0 +1,134 @@
+#include "daemon/command_line/doctor_checks.h"
+
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+#include <Eigen/Core>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "daemon/command_line/station_settings.h"
+#include "daemon/control/control_client.h"
+#include "daemon/station/devices.h"
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+
+DoctorCheck good(const char* name, std::string finding) {
+  return {name, true, std::move(finding), ""};
+}
+
+DoctorCheck bad(const char* name, std::string finding, std::string remedy) {
+  return {name, false, std::move(finding), std::move(remedy)};
+}
+
+DoctorCheck check_settings(const Result<FoundSettings>& found) {
+  if (found) return good("settings", found->file.string() + " is sound");
+  std::string finding = found.error().line();
+  for (auto& letter : finding) letter = letter == '\n' ? ';' : letter;
+  return bad("settings", finding, "correct the file, then: instepd --check");
+}
+
+DoctorCheck check_store(const std::filesystem::path& root) {
+  std::error_code failed;
+  const bool there = std::filesystem::is_directory(root, failed);
+  const auto folder = there ? root : root.parent_path();
+  if (!std::filesystem::is_directory(folder, failed)) {
+    return bad("store", folder.string() + " is not there",
+               "sudo install -d -o instep -g instep -m 0750 " + folder.string());
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    return bad("store", "you may not write in " + folder.string() + ": " + std::strerror(errno),
+               "sudo usermod -aG instep $USER; the daemon's own user needs: sudo chown instep " +
+                   folder.string());
+  }
+  return good("store", (there ? "" : "will be made in ") + folder.string() + ", writable");
+}
+
+DoctorCheck check_free_space(const std::filesystem::path& root) {
+  constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+  struct statvfs disk {};
+  const auto folder = root.parent_path();
+  if (::statvfs(root.c_str(), &disk) != 0 && ::statvfs(folder.c_str(), &disk) != 0) {
+    return bad("disk", folder.string() + " cannot be looked at", "check store.root");
+  }
+  const double free_gib =
+      static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) / kGibibyte;
+  const std::string finding = fmt::format("{:.1f} GiB free for results", free_gib);
+  return free_gib >= 1.0 ? good("disk", finding)
+                         : bad("disk", finding, "make room, or set store.keep_days");
+}
+
+std::string text(const json& object, const char* key) {
+  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
+}
+
+DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
+  if (!status) {
+    const bool denied = status.error().code == ErrorCode::kPermissionDenied;
+    return bad("daemon", status.error().message,
+               denied ? "sudo usermod -aG instep $USER" : "sudo systemctl start instepd");
+  }
+  const auto trouble = text(*status, "trouble");
+  if (!trouble.empty())
+    return bad("daemon", text(*status, "state") + ": " + trouble, "instep status");
+  return good("daemon", text(*status, "state") + ", answers on " + socket.string());
+}
+
+/// Asks the daemon, who has the cameras, or opens them if there is none.
+DoctorCheck check_cameras(const Result<json>& status, const Settings& settings) {
+  if (status && status->contains("cameras") && (*status)["cameras"].is_array()) {
+    const auto& cameras = (*status)["cameras"];
+    for (const auto& camera : cameras) {
+      if (!camera.value("ok", false)) {
+        return bad("cameras", text(camera, "trouble"), "plug it in again, then: instep status");
+      }
+    }
+    return good("cameras", fmt::format("all {} answer", cameras.size()));
+  }
+  const auto devices = open_devices(settings);
+  if (!devices) {
+    return bad("cameras", devices.error().message,
+               devices.error().advice.empty() ? "instepd --check" : devices.error().advice);
+  }
+  return good("cameras", fmt::format("{} can be opened", devices->cameras.size()));
+}
+
+DoctorCheck library_versions() {
+  return good("software",
+              fmt::format("instep {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
+                          INSTEP_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                          FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
+                          NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH,
+                          EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
+}
+
+Result<json> ask_status(const std::filesystem::path& socket) {
+  auto client = ControlClient::connect(socket);
+  if (!client) return tl::make_unexpected(client.error());
+  return client->ask("status");
+}
+
+}  // namespace
+
+std::vector<DoctorCheck> examine_machine() {
+  const auto found = find_station_settings();
+  const Settings settings = station_settings();
+  const auto status = ask_status(settings.control.socket);
+  std::vector<DoctorCheck> checks;
+  checks.push_back(library_versions());
+  checks.push_back(check_settings(found));
+  checks.push_back(check_store(settings.store.root));
+  checks.push_back(check_free_space(settings.store.root));
+  checks.push_back(check_daemon(status, settings.control.socket));
+  if (found) checks.push_back(check_cameras(status, settings));
+  return checks;
+}
+
+}  // namespace instep
