@@ -99,13 +99,13 @@ Result<std::vector<PedalEdge>> SimulatedPedal::read_edges() {
   const std::lock_guard lock(mutex_);
   read_fifo();
   if (gone_) return fail(ErrorCode::kDeviceGone, "the pedal left", "plug it in again");
-  std::uint64_t wakes = 0;
-  if (read(event_descriptor_, &wakes, sizeof wakes) < 0) wakes = 0;  // nothing waits: no fault
+  drain_wakes();
   return std::exchange(edges_, {});
 }
 
 Result<bool> SimulatedPedal::is_pressed() {
   const std::lock_guard lock(mutex_);
+  read_fifo();
   if (gone_) return fail(ErrorCode::kDeviceGone, "the pedal left", "plug it in again");
   return pressed_;
 }
@@ -115,9 +115,9 @@ Result<void> SimulatedPedal::reopen() {
   if (!gone_) return {};
   if (!is_back()) return fail(ErrorCode::kNotFound, "the pedal is not there", "plug it in again");
   gone_ = false;
+  pressed_ = settings_.faults.stuck;
   edges_.clear();
-  std::uint64_t wakes = 0;
-  if (read(event_descriptor_, &wakes, sizeof wakes) < 0) return {};
+  drain_wakes();
   return {};
 }
 
@@ -214,7 +214,13 @@ void SimulatedPedal::wake() const {
   if (write(event_descriptor_, &one, sizeof one) < 0) return;
 }
 
-bool SimulatedPedal::is_back() {
+void SimulatedPedal::drain_wakes() const {
+  std::uint64_t wakes = 0;
+  // Fails only when none wait.
+  if (read(event_descriptor_, &wakes, sizeof wakes) < 0) return;
+}
+
+bool SimulatedPedal::is_back() const {
   return return_time_ && now() >= *return_time_;
 }
 

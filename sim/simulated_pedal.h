@@ -61,7 +61,8 @@ class SimulatedPedal final : public Pedal {
   void chatter(bool pressed, std::chrono::nanoseconds until, const PedalFaults& faults);
   void tap_with(const PedalFaults& faults);
   void wake() const;
-  bool is_back();
+  void drain_wakes() const;
+  bool is_back() const;
 
   Settings settings_;
   int poll_descriptor_ = -1;  ///< readable when either of the two below is

@@ -24,6 +24,14 @@ RigidTransform frame_at(const Vector3d& origin, const Vector3d& along) {
   return frame;
 }
 
+Vector3d on_floor(const Vector3d& point) {
+  return {point.x(), point.y(), 0.0};
+}
+
+Vector3d mean(const PlanePoints& points) {
+  return (points[0] + points[1] + points[2]) / 3.0;
+}
+
 /// Builds the truth in the order in which its parts rest on each other.
 class Measurer {
  public:
@@ -36,9 +44,12 @@ class Measurer {
     find_axis();
     find_length();
     find_ball_points();
-    if (auto done = measure_ball(); !done) return tl::make_unexpected(done.error());
-    if (auto done = measure_instep(); !done) return tl::make_unexpected(done.error());
-    if (auto done = measure_waist(); !done) return tl::make_unexpected(done.error());
+    find_midfoot_points();
+    for (const auto& [id, points] : {std::pair("ball_girth", ball_points()),
+                                     {"instep_girth", instep_points(landmark("medial_arch"))},
+                                     {"waist_girth", waist_points()}}) {
+      if (auto stored = store(id, points); !stored) return tl::make_unexpected(stored.error());
+    }
     return truth_;
   }
 
@@ -79,16 +90,19 @@ class Measurer {
 
   Vector3d most_protruding(double sign, double from, double to) const {
     const OutlineProbe felt = probe();
-    const double x = place_of_maximum([&](double at) { return sign * felt.side(at, sign).y(); },
-                                      from * length_, to * length_, 1.0);
+    const double x =
+        place_of_maximum([&](double at) { return sign * felt.side(at, sign).y(); }, from, to, 1.5);
     return felt.side(x, sign);
   }
 
   void find_ball_points() {
-    const Vector3d mt = landmark("mt") = most_protruding(medial_, 0.60, 0.80);
-    const Vector3d mf = landmark("mf") = most_protruding(-medial_, 0.50, 0.75);
+    const Vector3d mt = landmark("mt") = most_protruding(medial_, 0.60 * length_, 0.80 * length_);
+    const Vector3d mf = landmark("mf") =
+        most_protruding(-medial_, 0.50 * length_, std::min(0.75 * length_, mt.x() - 15.0));
     truth_.measures["foot_breadth"] = (mt - mf).head<2>().norm();
-    truth_.measures["foot_breadth_horizontal"] = std::abs(mt.y() - mf.y());
+    const double from = 0.50 * length_, to = 0.85 * length_;
+    truth_.measures["foot_breadth_horizontal"] =
+        std::abs(most_protruding(medial_, from, to).y() - most_protruding(-medial_, from, to).y());
   }
 
   /// The section of a plane given in the foot frame, round the mean of its points.
@@ -98,11 +112,10 @@ class Measurer {
                          step_mm);
   }
 
-  Result<SectionContour> store(const std::string& id, const PlanePoints& points,
-                               const Vector3d& inside) {
+  Result<void> store(const std::string& id, const PlanePoints& points) {
     const auto plane = TapePlane::through(points[0], points[1], points[2]);
     if (!plane) return tl::make_unexpected(plane.error());
-    auto contour = section(*plane, inside, kFineStepMm);
+    const auto contour = section(*plane, mean(points), kFineStepMm);
     if (!contour) {
       return fail(ErrorCode::kInternal,
                   fmt::format("the foot has no {}: {}", id, contour.error().message),
@@ -111,34 +124,36 @@ class Measurer {
     truth_.planes[id] = points;
     truth_.measures[id] = contour->stretched_mm;
     truth_.contact_mm[id] = contour->contact_mm;
-    return contour;
-  }
-
-  Result<void> measure_ball() {
-    const Vector3d mt = landmark("mt"), mf = landmark("mf");
-    const PlanePoints points{mt, mf, mt + Vector3d(0.0, 0.0, 40.0)};
-    const auto contour = store("ball_girth", points, 0.5 * (mt + mf));
-    if (!contour) return tl::make_unexpected(contour.error());
-    const TapePlane plane = TapePlane::through(points[0], points[1], points[2]).value();
-    Vector3d& top = landmark("ball_top") = mt;
-    for (const Eigen::Vector2d& corner : contour->polygon) {
-      const Vector3d in_foot = plane.lift(corner);
-      if (in_foot.z() > top.z()) top = in_foot;
-    }
     return {};
   }
 
-  /// The girth of the plane (instep, P2, P3) with P3 at the station x; infinite if there is none.
+  /// Medial, lateral and dorsal control points, as in instep_points().
+  PlanePoints ball_points() {
+    const Vector3d medial = on_floor(landmark("mt")), lateral = on_floor(landmark("mf"));
+    return {medial, lateral, 0.5 * (medial + lateral) + landmark("instep").z() * Vector3d::UnitZ()};
+  }
+
+  PlanePoints instep_points(const Vector3d& arch) {
+    return {on_floor(arch), on_floor(landmark("lateral_midfoot")), landmark("instep")};
+  }
+
+  PlanePoints waist_points() {
+    PlanePoints middle = ball_points();
+    const PlanePoints instep = instep_points(landmark("medial_arch"));
+    for (std::size_t i = 0; i < middle.size(); ++i) middle[i] = 0.5 * (middle[i] + instep[i]);
+    return middle;
+  }
+
+  /// The girth of the instep plane with P3 at the station x; infinite if there is none.
   double girth_over(double x) {
-    const Vector3d instep = landmark("instep"), lateral = landmark("lateral_midfoot");
-    const Vector3d medial = probe().side(x, medial_);
-    const auto plane = TapePlane::through(instep, lateral, medial);
+    const PlanePoints points = instep_points(probe().side(x, medial_));
+    const auto plane = TapePlane::through(points[0], points[1], points[2]);
     if (!plane) return INFINITY;
-    const auto contour = section(*plane, (instep + lateral + medial) / 3.0, kSearchStepMm);
+    const auto contour = section(*plane, mean(points), kSearchStepMm);
     return contour ? contour->stretched_mm : INFINITY;
   }
 
-  Result<void> measure_instep() {
+  void find_midfoot_points() {
     const OutlineProbe felt = probe();
     const double middle = 0.5 * length_;
     const double inside = 0.05 * length_;
@@ -149,26 +164,12 @@ class Measurer {
     const auto nearness = [&](double x) {
       return -(felt.side(x, -medial_) - instep).head<2>().norm();
     };
-    const double lateral = place_of_maximum(nearness, 0.25 * length_, 0.45 * length_, 1.0);
+    const double lateral = place_of_maximum(nearness, 0.25 * length_, 0.45 * length_, 2.0);
     landmark("lateral_midfoot") = felt.side(lateral, -medial_);
 
     const double medial = place_of_maximum([&](double x) { return -girth_over(x); }, 0.35 * length_,
-                                           0.60 * length_, 2.5);
+                                           0.60 * length_, 4.0);
     landmark("medial_arch") = felt.side(medial, medial_);
-
-    const PlanePoints points{instep, landmark("lateral_midfoot"), landmark("medial_arch")};
-    const auto contour = store("instep_girth", points, (points[0] + points[1] + points[2]) / 3.0);
-    if (!contour) return tl::make_unexpected(contour.error());
-    return {};
-  }
-
-  Result<void> measure_waist() {
-    const PlanePoints points{0.5 * (landmark("mt") + landmark("medial_arch")),
-                             0.5 * (landmark("mf") + landmark("lateral_midfoot")),
-                             0.5 * (landmark("ball_top") + landmark("instep"))};
-    const auto contour = store("waist_girth", points, (points[0] + points[1] + points[2]) / 3.0);
-    if (!contour) return tl::make_unexpected(contour.error());
-    return {};
   }
 
   const FootSolid& foot_;

@@ -22,24 +22,22 @@ namespace instep {
 ///                    over the middle of the second toe's tip, which the solid knows
 ///   acropodion       foremost point of the outline
 ///   mt               most medial point of the outline in 0.60-0.80 FL
-///   mf               most lateral point of the outline in 0.50-0.75 FL
+///   mf               most lateral point of the outline in 0.50-0.75 FL, 15 mm or more behind mt
 ///   instep           highest point of the back of the foot at 0.50 FL
-///   ball_top         highest point of the ball section
 ///   lateral_midfoot  P2, the lateral outline point in 0.25-0.45 FL nearest to `instep` seen from
 ///                    above
-///   medial_arch      P3, the medial outline point in 0.35-0.60 FL that makes the girth of the
-///   plane
-///                    (instep, P2, P3) least
+///   medial_arch      P3, the medial outline point in 0.35-0.60 FL that makes instep_girth least
 /// An outline point has the height at which the body reaches furthest.
 ///
 /// Measures (stretched girths, all of closed sections, the sole included):
 ///   foot_length              pternion to acropodion along x
 ///   foot_breadth             mt to mf, seen from above
-///   foot_breadth_horizontal  mt to mf along y
+///   foot_breadth_horizontal  extent of the outline along y in 0.50-0.85 FL
 ///   ball_girth               vertical plane through mt and mf
-///   instep_girth             plane (instep, P2, P3)
-///   waist_girth              plane through the means of both planes' points: (mt, P3), (mf, P2),
-///                            (ball_top, instep)
+///   instep_girth             plane through `instep` and the floor below P2 and P3
+///   waist_girth              midway: plane through the means of the two planes' medial points (the
+///                            floor below mt and P3), lateral points (below mf and P2) and dorsal
+///                            points (`instep`, and the same height above the middle of mt and mf)
 struct FootTruth {
   Side side = Side::kRight;
   RigidTransform foot_from_solid = RigidTransform::Identity();

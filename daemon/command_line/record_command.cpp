@@ -46,7 +46,6 @@ Result<void> run(const RecordCommand& command) {
                                   ? settings->station.platform_height_mm
                                   : devices->platform_height_mm;
   header.simulated = devices->simulated;
-  if (devices->simulated) header.truth = devices->truth;
   ProgressLine line;
   const auto recording =
       capture_recording(devices->cameras, header, length_of(command), command.folder,

@@ -37,10 +37,10 @@ Result<SimulatedStation> build(const SimulateCommand& command) {
 }
 
 /// The truth of a single body by its measures' ids; of two feet with "left_" or "right_" before.
-std::map<std::string, double> truth_of(const SimulatedStation& station) {
+std::map<std::string, double> by_id(const std::vector<SubjectTruth>& bodies) {
   std::map<std::string, double> truth;
-  for (const auto& body : station.truth) {
-    const bool several = station.truth.size() > 1 && body.side.has_value();
+  for (const auto& body : bodies) {
+    const bool several = bodies.size() > 1 && body.side.has_value();
     const std::string prefix = several ? std::string(to_string(*body.side)) + "_" : "";
     for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
   }
@@ -50,9 +50,11 @@ std::map<std::string, double> truth_of(const SimulatedStation& station) {
 Result<void> run(const SimulateCommand& command) {
   const auto station = build(command);
   if (!station) return tl::make_unexpected(station.error());
+  const auto truth = station->truth();
+  if (!truth) return tl::make_unexpected(truth.error());
   Recording header;
   header.platform_height_mm = station->platform_height_mm;
-  header.truth = truth_of(*station);
+  header.truth = by_id(*truth);
   header.simulated = true;
   ProgressLine line;
   const auto recording =

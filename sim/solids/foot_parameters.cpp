@@ -19,7 +19,7 @@ FootParameters draw_foot(std::uint64_t seed, Side side) {
   foot.arch_lift_mm = random.uniform(-6.0, 8.0);
   foot.second_toe_mm = random.uniform(-8.0, 5.0);
   foot.toe_separation = random.uniform();
-  foot.hallux_angle_deg = random.uniform(0.0, 20.0);
+  foot.hallux_angle_deg = random.uniform(0.0, 14.0);
   foot.ankle_girth_mm = foot.length_mm * random.uniform(0.80, 1.0);
   foot.lean_forward_deg = random.uniform(-4.0, 8.0);
   foot.lean_medial_deg = random.uniform(-4.0, 4.0);
@@ -49,7 +49,7 @@ Result<void> check_foot_parameters(const FootParameters& foot) {
       {"arch_lift_mm", foot.arch_lift_mm, -10.0, 12.0},
       {"second_toe_mm", foot.second_toe_mm, -15.0, 10.0},
       {"toe_separation", foot.toe_separation, 0.0, 1.0},
-      {"hallux_angle_deg", foot.hallux_angle_deg, 0.0, 30.0},
+      {"hallux_angle_deg", foot.hallux_angle_deg, 0.0, 25.0},
       {"ankle_girth_mm", foot.ankle_girth_mm, 0.7 * length, 1.2 * length},
       {"lean_forward_deg", foot.lean_forward_deg, -10.0, 15.0},
       {"lean_medial_deg", foot.lean_medial_deg, -8.0, 8.0},

@@ -22,7 +22,7 @@ struct FootParameters {
   double arch_lift_mm = 0.0;       ///< -6..8: the medial arch above (below) the usual one
   double second_toe_mm = -3.0;     ///< -8..5: how far the second toe reaches beyond the first
   double toe_separation = 0.5;     ///< 0 (one mitten) .. 1 (clefts between the toes)
-  double hallux_angle_deg = 5.0;   ///< 0..20: the first toe turned towards the others
+  double hallux_angle_deg = 5.0;   ///< 0..14: the first toe turned towards the others
   double ankle_girth_mm = 225.0;   ///< 0.80..1.0 of the length, nominal, above the malleoli
   double lean_forward_deg = 2.0;   ///< -4..8: leg against the vertical
   double lean_medial_deg = 0.0;    ///< -4..4
