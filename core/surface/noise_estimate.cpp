@@ -10,7 +10,10 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbourhoods = 24;
+constexpr std::size_t kNeighbourhoods = 40;
+/// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
+constexpr double kRoughnessSpread = 2.0;
+constexpr double kLeastRoughness = 1e-12;
 constexpr std::size_t kPoints = 60;
 /// Terms of a quadratic in two variables: curvature is shape, not roughness.
 constexpr Eigen::Index kTerms = 6;
@@ -113,18 +116,15 @@ double own_variance(const Spectrum& spectrum) {
   return variance;
 }
 
-/// The roughness that fits all neighbourhoods best at a given noise.
-double common_roughness(const std::vector<Spectrum>& spectra, double variance) {
-  double level = 0.0;
-  for (const auto& spectrum : spectra) {
-    level =
-        std::max(level, spectrum.squared_heights.sum() / std::max(spectrum.kernel.sum(), 1e-300));
-  }
+/// The roughness that fits best at a given noise; the likelihood is flat where noise hides the
+/// shape, so it is held near `usual`, if that is known.
+double likely_roughness(const Spectrum& spectrum, double variance, std::optional<double> usual) {
+  const double level = spectrum.squared_heights.sum() / std::max(spectrum.kernel.sum(), 1e-300);
   double best = std::numeric_limits<double>::infinity();
   double roughness = level;
-  for (double trial = 16.0 * level; trial > 1e-9 * level; trial *= 0.7) {
-    double fit = 0.0;
-    for (const auto& spectrum : spectra) fit += misfit(spectrum, trial, variance);
+  for (double trial = 4.0 * level; trial > 1e-8 * level; trial *= 0.7) {
+    double fit = misfit(spectrum, trial, variance);
+    if (usual) fit += std::pow(std::log(trial / *usual) / kRoughnessSpread, 2);
     if (fit < best) {
       best = fit;
       roughness = trial;
@@ -142,19 +142,42 @@ double middle(std::vector<double> values) {
 }  // namespace
 
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             std::optional<double> sigma) {
+                             const std::vector<std::size_t>& places, std::optional<double> sigma) {
   std::vector<Spectrum> spectra;
   std::vector<double> variances;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kNeighbourhoods);
-  for (std::size_t i = stride / 2; i < points.size(); i += stride) {
-    auto spectrum = spectrum_of(flattest_view(points, index, points[i]).points);
+  NoiseEstimate estimate;
+  const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
+  for (std::size_t i = stride / 2; i < places.size(); i += stride) {
+    const Eigen::Vector3d& place = points[places[i]];
+    auto spectrum = spectrum_of(flattest_view(points, index, place).points);
     if (!spectrum) continue;
     variances.push_back(own_variance(*spectrum));
     spectra.push_back(std::move(*spectrum));
+    estimate.roughness.push_back({place, 0.0});
   }
-  if (spectra.empty()) return {sigma.value_or(0.0), 0.0};
-  const double variance = sigma ? *sigma * *sigma : middle(std::move(variances));
-  return {std::sqrt(variance), common_roughness(spectra, std::max(variance, 1e-24))};
+  if (spectra.empty()) return {sigma.value_or(0.0), {}};
+  estimate.sigma = sigma ? *sigma : std::sqrt(middle(std::move(variances)));
+  const double variance = std::max(estimate.sigma * estimate.sigma, 1e-24);
+  std::vector<double> free;
+  for (const auto& spectrum : spectra) {
+    free.push_back(likely_roughness(spectrum, variance, std::nullopt));
+  }
+  const double usual = std::max(middle(std::move(free)), 1e-300);
+  for (std::size_t i = 0; i < spectra.size(); ++i) {
+    estimate.roughness[i].roughness = likely_roughness(spectra[i], variance, usual);
+  }
+  return estimate;
+}
+
+double roughness_at(const std::vector<LocalRoughness>& known, const Eigen::Vector3d& place) {
+  double weights = 0.0;
+  double sum = 0.0;
+  for (const auto& local : known) {
+    const double weight = 1.0 / (std::pow((local.place - place).squaredNorm(), 2) + 1e-30);
+    weights += weight;
+    sum += weight * std::log(std::max(local.roughness, kLeastRoughness));
+  }
+  return weights > 0.0 ? std::exp(sum / weights) : kLeastRoughness;
 }
 
 }  // namespace instep
