@@ -16,6 +16,10 @@ constexpr double kLeastDetermined = 1e-3;
 /// Standard deviation granted to the unit slope along a normal: the field of a curved or creased
 /// surface cannot have it everywhere.
 constexpr double kSlopeDeviation = 0.05;
+/// Most smoothing of the slopes, against a unit kernel or the smoothing of the values: exact
+/// values whose slopes were free would be met by a field that vanishes.
+constexpr double kMostSlopeSmoothing = 0.1;
+constexpr double kSlopeToValueSmoothing = 10.0;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
 
@@ -87,7 +91,8 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
     patch.positions_.col(i) = (point.position - centre) / radius;
     patch.normals_.col(i) = point.normal;
     smoothing[i] = std::max(point.variance / (radius * radius * unit), kLeastSmoothing);
-    smoothing[count + i] = kSlopeDeviation * kSlopeDeviation / unit;
+    const double most = std::max(kMostSlopeSmoothing, kSlopeToValueSmoothing * smoothing[i]);
+    smoothing[count + i] = std::min(kSlopeDeviation * kSlopeDeviation / unit, most);
   }
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(
