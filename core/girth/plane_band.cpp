@@ -66,15 +66,19 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places, const PointIndex& 
   return middle(std::move(spacings));
 }
 
-double extent(const PointCloud& cloud) {
+/// Size of the cloud as the plane sees it, so that it turns with the two.
+double extent(const PointCloud& cloud, const TapePlane& plane) {
   Eigen::AlignedBox3d box;
-  for (const auto& position : cloud.positions) box.extend(position);
+  for (const auto& position : cloud.positions) {
+    const Eigen::Vector2d place = plane.project(position);
+    box.extend(Eigen::Vector3d(place.x(), place.y(), plane.distance(position)));
+  }
   return box.diagonal().norm();
 }
 
 /// Widens the slab until it holds the neighbourhoods of all points on the plane.
 Result<std::pair<Slab, double>> wide_enough_slab(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = extent(cloud);
+  const double size = extent(cloud, plane);
   for (double half_width = 0.01 * size; half_width < 0.6 * size; half_width *= 1.4) {
     Slab slab = slab_of(cloud, plane, half_width);
     if (slab.indices.size() < kFewestPoints) continue;

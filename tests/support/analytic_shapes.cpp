@@ -63,13 +63,12 @@ AnalyticShape cone(double radius, double slope) {
 }
 
 AnalyticShape ellipsoid(double a, double b, double c) {
-  return {[=](double angle, double height) {
-            const double part = std::sqrt(1.0 - height * height / (c * c));
-            return Vector3d(a * part * std::cos(angle), b * part * std::sin(angle), height);
-          },
-          [=](const Vector3d& p) {
-            return Vector3d(p.x() / a, p.y() / b, p.z() / c).norm() - 1.0;
-          }};
+  return {
+      [=](double angle, double height) {
+        const double part = std::sqrt(1.0 - height * height / (c * c));
+        return Vector3d(a * part * std::cos(angle), b * part * std::sin(angle), height);
+      },
+      [=](const Vector3d& p) { return Vector3d(p.x() / a, p.y() / b, p.z() / c).norm() - 1.0; }};
 }
 
 AnalyticShape superellipse(double a, double b, double power) {
@@ -111,8 +110,7 @@ PointCloud random_points(const AnalyticShape& shape, std::size_t count, double l
 
 double true_girth(const AnalyticShape& shape, const TapePlane& plane) {
   constexpr int kRays = 20000;
-  const double reach = -plane.origin().dot(plane.normal()) / plane.normal().z();
-  const Vector3d middle(0.0, 0.0, -reach);
+  const Vector3d middle(0.0, 0.0, plane.origin().dot(plane.normal()) / plane.normal().z());
   std::vector<Eigen::Vector2d> section;
   for (int i = 0; i < kRays; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kRays;
