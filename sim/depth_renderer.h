@@ -24,8 +24,8 @@ inline constexpr double kDepthJumpMm = 10.0;
 /// Depth is exact to about 1e-3 mm. The camera stands outside all solids. Pixels whose distortion
 /// cannot be inverted see nothing.
 ///
-/// Cost: about a tenth of a second for a foot that fills a third of 640x480 pixels; independent
-/// calls may run on many threads.
+/// Cost: about 0.4 s for a foot that fills a third of 640x480 pixels; independent calls may run on
+/// many threads.
 ExactView render_depth(const Scene& scene, const CameraGeometry& camera);
 
 /// Direction of the line of sight of a pixel in the camera frame, scaled to z = 1. False if the

@@ -54,7 +54,7 @@ struct NoiseSettings {
 double axial_sigma_mm(NoiseLaw law, double depth_mm, double incidence_rad);
 
 /// Turns an exact view into the integers of one frame. The same view, settings and seed give the
-/// same values; use a seed of its own for every camera and frame. Cost: about 5 ms for 640x480.
+/// same values; use a seed of its own for every camera and frame. Cost: about 10 ms for 640x480.
 std::vector<std::uint16_t> noisy_frame(const ExactView& view, const NoiseSettings& settings,
                                        std::uint64_t seed);
 

@@ -25,7 +25,7 @@ enum class Pacing {
 /// A restart ends neither a stall nor an absence. Frame k (DepthFrame::sequence k - 1, counted over
 /// the camera's life) holds the same bytes whenever and however often it is made. While nobody
 /// asks, up to four frames wait; older ones are dropped. DepthFrame::device_time is the camera's
-/// own time, 0 at its making. A frame costs about 5 ms at 640x480, spent in next_frame().
+/// own time, 0 at its making. A frame costs about 10 ms at 640x480, spent in next_frame().
 class SimulatedCamera final : public DepthCamera {
  public:
   struct Settings {

@@ -57,7 +57,7 @@ struct SimulatedStation {
 
 /// Builds it. The same settings give the same feet, frames and truth. Fails with kInvalidInput on
 /// settings out of range or a fault script that cannot be read, and as SimulatedPedal::open().
-/// Cost: about half a second for four cameras and one foot.
+/// Cost: about a second on two cores for four cameras and one foot.
 Result<SimulatedStation> build_station(const SimulationSettings& settings);
 
 }  // namespace instep

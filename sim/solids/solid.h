@@ -7,8 +7,8 @@ namespace instep {
 /// A body described by a function of space: negative inside, zero on the skin, positive outside.
 /// Millimetres, in the solid's own frame, in which it stands on z = 0.
 ///
-/// The value never exceeds the distance to the skin from outside (it changes by at most one
-/// millimetre a millimetre), so that a ray may advance by it without passing through a thin part.
+/// The value changes by at most 1.42 millimetres a millimetre, and so never exceeds 1.42 times the
+/// distance to the skin: a ray that advances by 0.7 of it does not pass through a thin part.
 /// Immutable after construction; safe to read from many threads.
 class Solid {
  public:

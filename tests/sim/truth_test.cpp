@@ -18,18 +18,18 @@ struct Case {
   Side side;
 };
 
-/// Points of the skin up to z = 25 mm in the foot frame, by brute force: a grid of 1 mm over the
-/// whole foot, and the zero between neighbours of different sign by a straight line.
+/// Points of the skin up to z = 25 mm in the foot frame, by brute force: a grid of 1 to
+/// 2 mm over the whole foot, and the zero between neighbours of different sign by a straight line.
 std::vector<Vector3d> skin_near_floor(const FootSolid& foot, const FootTruth& truth) {
   const RigidTransform solid_from_foot = truth.foot_from_solid.inverse();
   std::vector<Vector3d> points;
-  for (double z = 0.5; z <= 25.0; z += 3.5) {
+  for (double z = 0.5; z <= 25.0; z += 1.0) {
     for (double y = -80.0; y <= 80.0; y += 1.0) {
       double last = 1.0;
-      for (double x = -10.0; x <= 330.0; x += 1.0) {
+      for (double x = -10.0; x <= 330.0; x += 2.0) {
         const double value = foot.value(solid_from_foot * Vector3d(x, y, z));
         if ((value < 0) != (last < 0)) {
-          points.emplace_back(x - value / (value - last), y, z);
+          points.emplace_back(x - 2.0 * value / (value - last), y, z);
         }
         last = value;
       }
