@@ -14,7 +14,7 @@
 namespace instep {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr const char* kExamples = R"(Prints {"results": [...]}, one object for each foot. Examples:
   instep replay visit
@@ -71,8 +71,7 @@ Result<void> run(const ReplayCommand& command) {
       });
   if (!records) return tl::make_unexpected(records.error());
 
-  PosixStorage storage;
-  ResultStore store(storage, command.out);
+  ResultStore store(std::make_shared<PosixStorage>(), command.out);
   if (!command.out.empty()) {
     if (auto ready = store.prepare(); !ready) return tl::make_unexpected(ready.error());
   }
