@@ -26,6 +26,11 @@ std::size_t edits(std::string_view a, std::string_view b) {
 std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
   constexpr std::size_t kLongestWord = 64;
   if (word.size() > kLongestWord) return {};
+  // The likeliest slip is a unit left out or put on: debounce for debounce_ms.
+  for (const auto& candidate : known) {
+    const bool begins_alike = candidate.starts_with(word) || word.starts_with(candidate);
+    if (word.size() >= 3 && begins_alike) return candidate;
+  }
   std::string best;
   std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const auto& candidate : known) {

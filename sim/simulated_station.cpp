@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <thread>
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 /// Parts of a simulation that draw on their own; see seed_for().
 enum SeedPart : std::uint64_t { kShape = 1, kStance = 2, kNoise = 100 };
 
-constexpr double kFootSpacingMm = 130.0;  ///< between the middles of two feet
+constexpr double kFootSpacingMm = 140.0;  ///< between the middles of two feet
 constexpr double kLargestTurnDeg = 4.0;
 constexpr double kLargestShiftMm = 8.0;
 
@@ -39,10 +40,12 @@ RigidTransform stance(Random& random, Side side, double middle_y, double length)
   return station_from_solid;
 }
 
-/// Both feet of a person have nearly the same shape.
+/// Both feet of a person have nearly the same shape; between two legs there is room.
 FootParameters person_foot(const SimulationSettings& settings, Side side) {
   FootParameters foot = draw_foot(seed_for(settings.seed, kShape), side);
-  if (settings.subject == Subject::kFeet && side == Side::kLeft) {
+  if (settings.subject != Subject::kFeet) return foot;
+  foot.lean_medial_deg = std::min(foot.lean_medial_deg, 0.0);
+  if (side == Side::kLeft) {
     foot.length_mm += 2.0;
     foot.ball_breadth_mm += 1.0;
   }

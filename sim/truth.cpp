@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/girth/tape_plane.h"
 #include "sim/outline_probe.h"
 #include "sim/section_contour.h"
 

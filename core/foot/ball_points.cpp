@@ -6,6 +6,11 @@ namespace instep {
 namespace {
 
 constexpr double kPriorConfidence = 0.3;
+// Borders are nearly straight beside the ball, so that the furthest place alone jumps by a
+// centimetre with the sampling: a place one spread of feet off the average must be a
+// millimetre further out to win.
+constexpr double kPriorSpreadShare = 0.04;
+constexpr double kPriorHandicapMm = 1.0;
 constexpr double kFaintRiseMm = 0.15;  ///< a summit lower than this is no summit
 constexpr double kClearRiseMm = 2.0;   ///< one as high as this leaves no doubt
 constexpr double kBehindTibialeMm = 15.0;
@@ -30,7 +35,11 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const Border
     const Eigen::Vector2d flat(place, rule.outwards * reach);
     return Landmark{{flat.x(), flat.y(), outline.border_height(flat)}, confidence, text};
   };
-  const auto peak = border.furthest(rule.from, rule.to);
+  const auto handicap = [&](double place) {
+    const double off = (place - rule.prior) / (kPriorSpreadShare * outline.length_mm());
+    return kPriorHandicapMm * off * off;
+  };
+  const auto peak = border.furthest(rule.from, rule.to, handicap);
   if (peak && peak->rise > kFaintRiseMm) {
     return landmark(peak->place, peak->reach, confidence_of(peak->rise), rule.found);
   }
@@ -43,20 +52,24 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const Border
 
 std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
   const double length = outline.length_mm();
-  return most_protruding(outline, outline.medial(),
-                         {0.60 * length, 0.80 * length, 0.69 * length, 1.0,
-                          "most medial point of the outline in 0.60-0.80 of the foot's length",
-                          "no medial summit: outline at 0.69 of the foot's length"});
+  return most_protruding(
+      outline, outline.medial(),
+      {0.60 * length, 0.80 * length, 0.69 * length, 1.0,
+       "most medial point of the outline in 0.60-0.80 of the foot's length, weighed by "
+       "nearness to 0.69",
+       "no medial summit: outline at 0.69 of the foot's length"});
 }
 
 std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
                                                   const Landmark& tibiale) {
   const double length = outline.length_mm();
   const double foremost = std::min(0.75 * length, tibiale.position_mm.x() - kBehindTibialeMm);
-  return most_protruding(outline, outline.lateral(),
-                         {0.50 * length, foremost, std::min(0.63 * length, foremost), -1.0,
-                          "most lateral point of the outline in 0.50-0.75 of the foot's length",
-                          "no lateral summit: outline at 0.63 of the foot's length"});
+  return most_protruding(
+      outline, outline.lateral(),
+      {0.50 * length, foremost, std::min(0.63 * length, foremost), -1.0,
+       "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
+       "nearness to 0.63",
+       "no lateral summit: outline at 0.63 of the foot's length"});
 }
 
 }  // namespace instep

@@ -3,33 +3,52 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace instep {
 namespace {
 
-constexpr double kStripMm = 2.0;
+constexpr double kNarrowestStripMm = 2.0;
+constexpr double kPointsInStrip = 30.0;
+constexpr double kStrayMm = 3.0;
+constexpr double kNarrowestSmoothingInStrips = 3.0;
+constexpr double kShortSampleWeight = 0.15;
+constexpr int kEnvelopeRounds = 4;
 constexpr double kSearchStepMm = 0.5;
 constexpr std::size_t kFewestSamples = 4;
 
-/// Median of the three furthest, which a single stray does not move; the furthest of fewer.
+double strip_width(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along) {
+  if (points.empty()) return kNarrowestStripMm;
+  double from = along.dot(points.front());
+  double to = from;
+  for (const auto& point : points) {
+    from = std::min(from, along.dot(point));
+    to = std::max(to, along.dot(point));
+  }
+  return std::max(kNarrowestStripMm,
+                  kPointsInStrip * (to - from) / static_cast<double>(points.size()));
+}
+
 Eigen::Vector2d furthest_point(std::vector<Eigen::Vector2d>& points) {
-  const std::size_t count = std::min<std::size_t>(3, points.size());
+  const std::size_t count = std::min<std::size_t>(2, points.size());
   std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count),
                     points.end(), [](const auto& a, const auto& b) { return a.y() > b.y(); });
-  return points[count == 3 ? 1 : 0];
+  const bool is_stray = count == 2 && points[0].y() - points[1].y() > kStrayMm;
+  return points[is_stray ? 1 : 0];
 }
 
 }  // namespace
 
 BorderProfile::BorderProfile(const std::vector<Eigen::Vector2d>& points,
                              const Eigen::Vector2d& along, const Eigen::Vector2d& reach,
-                             double smoothing_mm)
-    : smoothing_mm_(smoothing_mm) {
+                             double smoothing_mm) {
+  const double width = strip_width(points, along);
+  smoothing_mm_ = std::max(smoothing_mm, kNarrowestSmoothingInStrips * width);
   std::map<long, std::vector<Eigen::Vector2d>> strips;
   for (const auto& point : points) {
     const double place = along.dot(point);
-    strips[std::lround(place / kStripMm)].emplace_back(place, reach.dot(point));
+    strips[std::lround(place / width)].emplace_back(place, reach.dot(point));
   }
   for (auto& [number, strip] : strips) {
     const Eigen::Vector2d sample = furthest_point(strip);
@@ -43,20 +62,27 @@ std::optional<double> BorderProfile::reach(double place) const {
   const auto begin =
       std::lower_bound(samples_.begin(), samples_.end(), place - smoothing_mm_,
                        [](const Sample& sample, double value) { return sample.place < value; });
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  std::size_t count = 0;
-  for (auto sample = begin; sample != samples_.end() && sample->place < place + smoothing_mm_;
-       ++sample, ++count) {
-    const double offset = (sample->place - place) / smoothing_mm_;
-    const double weight = std::pow(1.0 - offset * offset, 2);
-    const Eigen::Vector3d terms(1.0, offset, offset * offset);
-    normal += weight * terms * terms.transpose();
-    right += weight * sample->reach * terms;
+  const auto end =
+      std::lower_bound(begin, samples_.end(), place + smoothing_mm_,
+                       [](const Sample& sample, double value) { return sample.place < value; });
+  if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
+  Eigen::Vector3d fitted(-1e300, 0.0, 0.0);
+  for (int round = 0; round < kEnvelopeRounds; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (auto sample = begin; sample != end; ++sample) {
+      const double offset = (sample->place - place) / smoothing_mm_;
+      const Eigen::Vector3d terms(1.0, offset, offset * offset);
+      const double nearness = std::pow(1.0 - offset * offset, 2) + 1e-9;
+      const bool falls_short = sample->reach < fitted.dot(terms);
+      const double weight = nearness * (falls_short ? kShortSampleWeight : 1.0);
+      normal += weight * terms * terms.transpose();
+      right += weight * sample->reach * terms;
+    }
+    fitted = normal.ldlt().solve(right);
+    if (!fitted.allFinite()) return std::nullopt;
   }
-  if (count < kFewestSamples) return std::nullopt;
-  const double fitted = normal.ldlt().solve(right)(0);
-  return std::isfinite(fitted) ? std::optional<double>(fitted) : std::nullopt;
+  return fitted(0);
 }
 
 std::vector<BorderProfile::Sample> BorderProfile::curve(double from, double to) const {
@@ -69,14 +95,19 @@ std::vector<BorderProfile::Sample> BorderProfile::curve(double from, double to) 
   return curve;
 }
 
-std::optional<BorderProfile::Peak> BorderProfile::furthest(double from, double to) const {
-  const auto border = curve(from, to);
+std::optional<BorderProfile::Peak> BorderProfile::furthest(
+    double from, double to, const std::function<double(double)>& handicap) const {
+  auto border = curve(from, to);
+  if (handicap) {
+    for (auto& sample : border) sample.reach -= handicap(sample.place);
+  }
   if (border.empty()) return std::nullopt;
   const auto top =
       std::max_element(border.begin(), border.end(),
                        [](const Sample& a, const Sample& b) { return a.reach < b.reach; });
   const double higher_end = std::max(border.front().reach, border.back().reach);
-  return Peak{top->place, top->reach, top->reach - higher_end};
+  const double handicap_there = handicap ? handicap(top->place) : 0.0;
+  return Peak{top->place, top->reach + handicap_there, top->reach - higher_end};
 }
 
 std::vector<BorderProfile::Peak> BorderProfile::summits(double from, double to, double fall) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -8,9 +9,11 @@ namespace instep {
 
 /// One side of an outline as a function: how far the body reaches, at each place along a line.
 ///
-/// Points are sorted into strips of 2 mm along the line; in each the furthest point (the median of
-/// the three furthest where there are as many, against strays) is a sample, and reach() smooths the
-/// samples by a local quadratic. So a peak is found well under the spacing of the points.
+/// Points are sorted into strips along the line, 2 mm wide or as wide as it takes to hold thirty
+/// points; the furthest point of each (the next one, if it stands alone by 3 mm: a stray) is a
+/// sample. reach() fits a local quadratic to the samples, in which those that fall short count
+/// little: a strip may have no point on the very border. So a peak is found well under the spacing
+/// of the points.
 class BorderProfile {
  public:
   /// `along` and `reach` (unit vectors, at right angles) are the axes of the function;
@@ -27,8 +30,10 @@ class BorderProfile {
     double rise = 0.0;  ///< above the higher end of the searched range; 0 at an end
   };
 
-  /// The furthest place in a range; nothing where the range holds no points.
-  std::optional<Peak> furthest(double from, double to) const;
+  /// The furthest place in a range; nothing where the range holds no points. A `handicap` (mm, by
+  /// place) is taken off before comparing, so that among nearly equal places a likely one wins.
+  std::optional<Peak> furthest(double from, double to,
+                               const std::function<double(double)>& handicap = {}) const;
 
   /// All summits in a range, in order of place, from which the border falls by at least `fall` to
   /// either side before it rises higher (or before the range ends).
@@ -43,7 +48,7 @@ class BorderProfile {
   std::vector<Sample> curve(double from, double to) const;
 
   std::vector<Sample> samples_;  ///< by place
-  double smoothing_mm_;
+  double smoothing_mm_ = 0.0;
 };
 
 }  // namespace instep

@@ -21,6 +21,9 @@ namespace instep {
 /// | `medial_arch`           | point of the medial outline in 0.35-0.60 FL whose plane with the |
 /// |                         | two above has the shortest tape; else 0.48 FL                    |
 ///
+/// Where the border beside the ball is nearly straight, the most protruding place is weighed by its
+/// nearness to the average one, so that it does not jump with the sampling.
+///
 /// A landmark for which the cloud has no points at all is left out, with a warning; measures that
 /// need it are then withheld. Fails with kInvalidInput if `foot` lacks the landmarks of
 /// align_foot(). O(n).

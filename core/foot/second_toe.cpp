@@ -12,6 +12,7 @@ using Eigen::Vector2d;
 constexpr double kBorderSmoothingMm = 9.0;
 constexpr double kToeSmoothingMm = 5.0;
 constexpr double kToeSummitMm = 2.0;
+constexpr std::size_t kFewestToes = 3;
 constexpr double kFurthestShareOff = 0.12;
 
 struct BallBorders {
@@ -48,7 +49,7 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
       nearest = &summit;
     }
   }
-  if (summits.size() >= 2 &&
+  if (summits.size() >= kFewestToes &&
       std::abs(nearest->place - expected) < kFurthestShareOff * ball->breadth) {
     return SecondToe{{nearest->reach, nearest->place}, true};
   }

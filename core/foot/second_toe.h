@@ -17,7 +17,7 @@ struct SecondToe {
 inline constexpr double kSecondToeShare = 0.35;
 
 /// Finds the second toe's tip on the front border: the summit nearest to kSecondToeShare of the
-/// breadth, if at least two toes show as summits of 1 mm or more and one of them lies within 0.12
+/// breadth, if at least three toes show as summits of 2 mm or more and one of them lies within 0.12
 /// of that share; else the front border at that share.
 ///
 /// `outline`: the outline's points from above, x to the toes, medial side on +y, rear end near

@@ -1,6 +1,7 @@
 #include "core/fusion/separate_feet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -118,47 +119,66 @@ struct SplitLine {
   double offset;
 };
 
-/// The line with the fewest cells near it that leaves a fair part on both sides.
-std::optional<SplitLine> thinnest_line(const Piece& piece) {
-  std::optional<SplitLine> best;
-  std::size_t fewest = piece.cells.size();
-  const auto share =
-      static_cast<std::size_t>(kLeastSplitShare * static_cast<double>(piece.cells.size()));
-  for (int degree = 0; degree < 180; degree += 5) {
-    const double angle = degree * std::numbers::pi / 180.0;
-    const Vector2d direction(std::cos(angle), std::sin(angle));
-    std::vector<double> offsets;
-    for (const auto& cell : piece.cells) offsets.push_back(direction.dot(cell.head<2>()));
-    std::sort(offsets.begin(), offsets.end());
-    for (std::size_t first = share; first + share < offsets.size(); ++first) {
-      const auto end =
-          std::upper_bound(offsets.begin(), offsets.end(), offsets[first] + kSplitBandMm);
-      const auto past = static_cast<std::size_t>(end - offsets.begin());
-      if (past + share > offsets.size() || past - first >= fewest) continue;
-      fewest = past - first;
-      best = SplitLine{direction, offsets[first] + 0.5 * kSplitBandMm};
-    }
+struct Split {
+  SplitLine line;
+  std::size_t crossed;  ///< cells near the line
+};
+
+/// Of the parallel lines, the one with the fewest cells near it that leaves a fair part on both
+/// sides.
+std::optional<Split> thinnest_line(const Piece& piece, const Vector2d& direction) {
+  std::optional<Split> best;
+  const auto count = piece.cells.size();
+  const auto share = static_cast<std::size_t>(kLeastSplitShare * static_cast<double>(count));
+  std::vector<double> offsets;
+  for (const auto& cell : piece.cells) offsets.push_back(direction.dot(cell.head<2>()));
+  std::sort(offsets.begin(), offsets.end());
+  std::size_t past = 0;
+  for (std::size_t first = share; first + share < count; ++first) {
+    while (past < count && offsets[past] <= offsets[first] + kSplitBandMm) ++past;
+    if (past + share > count || (best && past - first >= best->crossed)) continue;
+    best = Split{{direction, offsets[first] + 0.5 * kSplitBandMm}, past - first};
   }
   return best;
 }
 
-/// Splits a piece that is too large for one foot. Points go by their own position.
-void split_piece(std::vector<Piece>& pieces, std::size_t at,
-                 const std::vector<Vector3d>& positions) {
-  const auto line = thinnest_line(pieces[at]);
-  if (!line) return;
+std::array<Piece, 2> split_along(const Piece& piece, const SplitLine& line,
+                                 const std::vector<Vector3d>& positions) {
   std::array<Piece, 2> sides;
   const auto side_of = [&](const Vector3d& point) -> Piece& {
-    return sides[line->direction.dot(point.head<2>()) < line->offset ? 0 : 1];
+    return sides[line.direction.dot(point.head<2>()) < line.offset ? 0 : 1];
   };
-  for (const auto& cell : pieces[at].cells) side_of(cell).cells.push_back(cell);
-  for (const std::size_t index : pieces[at].points) {
+  for (const auto& cell : piece.cells) side_of(cell).cells.push_back(cell);
+  for (const std::size_t index : piece.points) {
     auto& side = side_of(positions[index]);
     side.points.push_back(index);
     side.lowest_mm = std::min(side.lowest_mm, positions[index].z());
   }
-  pieces[at] = std::move(sides[0]);
-  pieces.push_back(std::move(sides[1]));
+  return sides;
+}
+
+bool looks_like_a_foot(const Piece& piece, const SeparationSettings& settings) {
+  const auto sides = enclosing_rectangle(piece.hull());
+  return fits_a_foot(piece, settings) && sides.width <= kWidestFoot * sides.length;
+}
+
+/// Splits a piece that is too large for one foot where it is thinnest, if that gives two feet.
+void split_piece(std::vector<Piece>& pieces, std::size_t at, const std::vector<Vector3d>& positions,
+                 const SeparationSettings& settings) {
+  std::optional<std::array<Piece, 2>> best;
+  std::size_t fewest = pieces[at].cells.size();
+  for (int degree = 0; degree < 180; degree += 5) {
+    const double angle = degree * std::numbers::pi / 180.0;
+    const auto split = thinnest_line(pieces[at], {std::cos(angle), std::sin(angle)});
+    if (!split || split->crossed >= fewest) continue;
+    auto sides = split_along(pieces[at], split->line, positions);
+    if (!looks_like_a_foot(sides[0], settings) || !looks_like_a_foot(sides[1], settings)) continue;
+    fewest = split->crossed;
+    best = std::move(sides);
+  }
+  if (!best) return;
+  pieces[at] = std::move((*best)[0]);
+  pieces.push_back(std::move((*best)[1]));
 }
 
 bool inside_outline(const std::vector<Vector2d>& hull, const Vector2d& point) {
@@ -203,7 +223,7 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
     (large.size() < kMostPieces && !is_small(piece) ? large : small).push_back(piece);
   }
   for (std::size_t i = 0, count = large.size(); i < count; ++i) {
-    if (!fits_a_foot(large[i], settings)) split_piece(large, i, positions);
+    if (!fits_a_foot(large[i], settings)) split_piece(large, i, positions, settings);
   }
   join_pieces(large, settings);
   std::stable_sort(large.begin(), large.end(), larger);

@@ -61,6 +61,19 @@ std::vector<std::uint8_t> rim_pixels(const FusedDepth& depth, const SurfaceSetti
   return marked;
 }
 
+/// Sigma over the square of the depth that is usual in an image.
+float usual_noise(const FusedDepth& depth) {
+  std::vector<float> ratios;
+  for (std::size_t i = 0; i < depth.depth_mm.size(); i += 7) {
+    const float z = depth.depth_mm[i];
+    if (z > 0.0F) ratios.push_back(depth.sigma_mm[i] / (z * z));
+  }
+  if (ratios.empty()) return 0.0F;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
 /// 1/Z = c + a x + b y about a pixel, x and y being differences of ray coordinates in pixels.
 struct InversePlane {
   double a;
@@ -172,12 +185,14 @@ std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const Surface
   const auto rims = rim_pixels(depth, settings);
   const auto steep = static_cast<float>(std::tan(settings.steepest_deg * kDegree) / intrinsics.fx);
   const auto sigmas = static_cast<float>(settings.jump_sigmas * std::numbers::sqrt2);
+  const auto unsteady = static_cast<float>(settings.unsteady) * usual_noise(depth);
   std::vector<std::uint8_t> marked(depth.depth_mm.size(), 0);
   const auto compare = [&](std::size_t a, std::size_t b) {
     const float nearer = std::min(depth.depth_mm[a], depth.depth_mm[b]);
     if (!(nearer > 0.0F)) return;
     const float jump = std::abs(depth.depth_mm[a] - depth.depth_mm[b]);
-    const float noise = std::max(depth.sigma_mm[a], depth.sigma_mm[b]);
+    const float noise =
+        std::min(std::max(depth.sigma_mm[a], depth.sigma_mm[b]), unsteady * nearer * nearer);
     if (jump > std::max(steep * nearer, sigmas * noise)) marked[a] = marked[b] = 1;
   };
   for (int v = 0; v < depth.height; ++v) {
@@ -190,7 +205,9 @@ std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const Surface
   for (int i = 0; i < settings.erosion_px; ++i) marked = dilated(marked, width, depth.height);
   std::size_t dropped = 0;
   for (std::size_t pixel = 0; pixel < marked.size(); ++pixel) {
-    if (!(marked[pixel] || rims[pixel]) || depth.depth_mm[pixel] == 0.0F) continue;
+    const float z = depth.depth_mm[pixel];
+    const bool steady = depth.sigma_mm[pixel] <= unsteady * z * z;
+    if ((steady && !marked[pixel] && !rims[pixel]) || z == 0.0F) continue;
     depth.depth_mm[pixel] = 0.0F;
     depth.sigma_mm[pixel] = 0.0F;
     ++dropped;

@@ -16,7 +16,8 @@ struct SurfaceSettings {
   /// of sight and larger than `jump_sigmas` of its noise.
   double steepest_deg = 80.0;
   double jump_sigmas = 5.0;
-  int erosion_px = 1;  ///< further pixels dropped on both sides of a jump
+  double unsteady = 4.0;  ///< times the usual noise: a pixel that wavers so from frame to frame
+  int erosion_px = 1;     ///< further pixels dropped on both sides of a jump
   /// Share of the 7 x 7 pixels round one that must hold data: where a silhouette has nothing
   /// behind it, the outermost pixels are as doubtful. The default takes two off a straight rim.
   double least_filled_window = 0.74;
@@ -25,7 +26,8 @@ struct SurfaceSettings {
 };
 
 /// Takes away the pixels on both sides of a silhouette, where a camera mixes foreground and
-/// background into points that float between them, and those on the rim of what it saw. Returns how
+/// background into points that float between them, those on the rim of what it saw, and those
+/// that waver. Returns how
 /// many went.
 std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
                                FusedDepth& depth);

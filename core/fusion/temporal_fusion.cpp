@@ -10,7 +10,7 @@ namespace {
 constexpr int kBlock = 8;                 // pixels a side of a block that is watched for movement
 constexpr double kDeepestBlockMm = 40.0;  // a block with more depth in it lies on a silhouette
 constexpr double kMovingShare = 0.01;     // of the blocks has to move for it to count
-constexpr double kModelFrames = 4.0;      // the sensor model weighs as much as so many frames
+constexpr double kModelFrames = 2.0;      // the sensor model weighs as much as so many frames
 constexpr double kSigmaOfDeviation = 1.4826;
 
 /// The values that a pixel showed, ascending.

@@ -66,15 +66,19 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places, const PointIndex& 
   return middle(std::move(spacings));
 }
 
-double extent(const PointCloud& cloud) {
+/// Size of the cloud as the plane sees it, so that it turns with the two.
+double extent(const PointCloud& cloud, const TapePlane& plane) {
   Eigen::AlignedBox3d box;
-  for (const auto& position : cloud.positions) box.extend(position);
+  for (const auto& position : cloud.positions) {
+    const Eigen::Vector2d place = plane.project(position);
+    box.extend(Eigen::Vector3d(place.x(), place.y(), plane.distance(position)));
+  }
   return box.diagonal().norm();
 }
 
 /// Widens the slab until it holds the neighbourhoods of all points on the plane.
 Result<std::pair<Slab, double>> wide_enough_slab(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = extent(cloud);
+  const double size = extent(cloud, plane);
   for (double half_width = 0.01 * size; half_width < 0.6 * size; half_width *= 1.4) {
     Slab slab = slab_of(cloud, plane, half_width);
     if (slab.indices.size() < kFewestPoints) continue;
@@ -185,7 +189,26 @@ void normalise(PlaneBand& band) {
   }
   band.spacing /= band.unit_mm;
   band.sigma /= band.unit_mm;
-  band.roughness *= band.unit_mm;
+  for (auto& local : band.roughness) {
+    local.place = (local.place - centre) / band.unit_mm;
+    local.roughness *= band.unit_mm;
+  }
+}
+
+/// Points next to the plane, in the order in which they lie round the middle.
+std::vector<std::size_t> along_the_plane(const Slab& slab, double spacing) {
+  Eigen::AlignedBox3d box;
+  for (const auto& place : slab.places) box.extend(place);
+  std::vector<std::pair<double, std::size_t>> angles;
+  for (std::size_t i = 0; i < slab.places.size(); ++i) {
+    if (std::abs(slab.places[i].z()) > 1.5 * spacing) continue;
+    const Eigen::Vector3d arm = slab.places[i] - box.center();
+    angles.emplace_back(std::atan2(arm.y(), arm.x()), i);
+  }
+  std::sort(angles.begin(), angles.end());
+  std::vector<std::size_t> indices;
+  for (const auto& [angle, index] : angles) indices.push_back(index);
+  return indices;
 }
 
 bool lies_on_both_sides(const Slab& slab) {
@@ -219,7 +242,8 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
     for (const std::size_t index : slab.indices) sigmas.push_back(cloud.sigma_mm[index]);
     sigma_mm = middle(std::move(sigmas));
   }
-  const NoiseEstimate noise = estimate_noise(slab.places, PointIndex(slab.places), sigma_mm);
+  const NoiseEstimate noise = estimate_noise(slab.places, PointIndex(slab.places),
+                                             along_the_plane(slab, spacing), sigma_mm);
   band.sigma = noise.sigma;
   band.roughness = noise.roughness;
 

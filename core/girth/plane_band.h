@@ -8,6 +8,7 @@
 #include "core/girth/tape_plane.h"
 #include "core/result.h"
 #include "core/surface/hermite_patch.h"
+#include "core/surface/noise_estimate.h"
 
 namespace instep {
 
@@ -18,11 +19,11 @@ struct PlaneBand {
   double unit_mm = 1.0;       ///< length of the unit
   Eigen::Vector2d middle_mm;  ///< in the plane's coordinates; the origin of the band's
   std::vector<OrientedPoint> points;
-  std::vector<bool> seen;  ///< whether any member of an averaged point was seen
-  double spacing = 0.0;    ///< between points, in the unit
-  double sigma = 0.0;      ///< noise of the points as they came, in the unit
-  double roughness = 0.0;  ///< see NoiseEstimate
-  std::size_t used = 0;    ///< points of the cloud in the band
+  std::vector<bool> seen;                 ///< whether any member of an averaged point was seen
+  double spacing = 0.0;                   ///< between points, in the unit
+  double sigma = 0.0;                     ///< noise of the points as they came, in the unit
+  std::vector<LocalRoughness> roughness;  ///< in the unit
+  std::size_t used = 0;                   ///< points of the cloud in the band
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {
     return middle_mm + unit_mm * place;

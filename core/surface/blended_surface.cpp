@@ -37,11 +37,12 @@ std::vector<Eigen::Vector3d> positions_of(const std::vector<OrientedPoint>& poin
 
 }  // namespace
 
-BlendedSurface::BlendedSurface(std::vector<OrientedPoint> points, double roughness)
+BlendedSurface::BlendedSurface(std::vector<OrientedPoint> points,
+                               std::vector<LocalRoughness> roughness)
     : points_(std::move(points)),
       positions_(positions_of(points_)),
       index_(positions_),
-      roughness_(roughness) {}
+      roughness_(std::move(roughness)) {}
 
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
   for (const auto& patch : patches_) {
@@ -51,7 +52,7 @@ bool BlendedSurface::visit(const Eigen::Vector3d& place) {
   std::vector<OrientedPoint> members;
   for (const auto& neighbour : nearest) members.push_back(points_[neighbour.index]);
   const double radius = std::sqrt(nearest.back().squared_distance);
-  auto patch = HermitePatch::fit(members, place, radius, roughness_);
+  auto patch = HermitePatch::fit(members, place, radius, roughness_at(roughness_, place));
   if (!patch) return false;
   patches_.push_back(std::move(*patch));
   return true;

@@ -6,6 +6,7 @@
 
 #include "core/geometry/point_index.h"
 #include "core/surface/hermite_patch.h"
+#include "core/surface/noise_estimate.h"
 
 namespace instep {
 
@@ -18,8 +19,8 @@ namespace instep {
 /// all places first, then read. Not for use from several threads at once.
 class BlendedSurface {
  public:
-  /// `roughness`: see HermitePatch. At least four points.
-  BlendedSurface(std::vector<OrientedPoint> points, double roughness);
+  /// `roughness`: of the surface, see there. At least four points.
+  BlendedSurface(std::vector<OrientedPoint> points, std::vector<LocalRoughness> roughness);
 
   /// Makes sure that a patch is centred nearby. False if none can be fitted there.
   bool visit(const Eigen::Vector3d& place);
@@ -36,7 +37,7 @@ class BlendedSurface {
   std::vector<OrientedPoint> points_;
   std::vector<Eigen::Vector3d> positions_;
   PointIndex index_;
-  double roughness_;
+  std::vector<LocalRoughness> roughness_;
   std::vector<HermitePatch> patches_;
 };
 

@@ -8,9 +8,18 @@
 namespace instep {
 namespace {
 
+constexpr Eigen::Index kTerms = HermitePatch::Polynomial::RowsAtCompileTime;
+/// Terms of the polynomial that the points determine less than this are left out: on a flat patch
+/// nothing tells the square of the height.
+constexpr double kLeastDetermined = 1e-3;
+
 /// Standard deviation granted to the unit slope along a normal: the field of a curved or creased
 /// surface cannot have it everywhere.
 constexpr double kSlopeDeviation = 0.05;
+/// Most smoothing of the slopes, against a unit kernel or the smoothing of the values: exact
+/// values whose slopes were free would be met by a field that vanishes.
+constexpr double kMostSlopeSmoothing = 0.1;
+constexpr double kSlopeToValueSmoothing = 10.0;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
 
@@ -35,13 +44,31 @@ Eigen::MatrixXd kernel_matrix(const Eigen::Matrix3Xd& positions, const Eigen::Ma
   return kernel;
 }
 
+/// Monomials up to the second degree.
+HermitePatch::Polynomial monomials(const Eigen::Vector3d& p) {
+  HermitePatch::Polynomial terms;
+  terms << 1.0, p, p.x() * p.x(), p.y() * p.y(), p.z() * p.z(), p.x() * p.y(), p.y() * p.z(),
+      p.z() * p.x();
+  return terms;
+}
+
+/// Their gradients, one a column.
+Eigen::Matrix<double, 3, kTerms> monomial_gradients(const Eigen::Vector3d& p) {
+  Eigen::Matrix<double, 3, kTerms> gradients;
+  gradients.row(0) << 0, 1, 0, 0, 2 * p.x(), 0, 0, p.y(), 0, p.z();
+  gradients.row(1) << 0, 0, 1, 0, 0, 2 * p.y(), 0, p.x(), p.z(), 0;
+  gradients.row(2) << 0, 0, 0, 1, 0, 0, 2 * p.z(), 0, p.y(), p.x();
+  return gradients;
+}
+
 Eigen::MatrixXd polynomial_block(const Eigen::Matrix3Xd& positions,
                                  const Eigen::Matrix3Xd& normals) {
   const Eigen::Index count = positions.cols();
-  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(2 * count, 4);
-  block.col(0).head(count).setOnes();
-  block.topRightCorner(count, 3) = positions.transpose();
-  block.bottomRightCorner(count, 3) = normals.transpose();
+  Eigen::MatrixXd block(2 * count, kTerms);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    block.row(i) = monomials(positions.col(i)).transpose();
+    block.row(count + i) = normals.col(i).transpose() * monomial_gradients(positions.col(i));
+  }
   return block;
 }
 
@@ -64,15 +91,15 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
     patch.positions_.col(i) = (point.position - centre) / radius;
     patch.normals_.col(i) = point.normal;
     smoothing[i] = std::max(point.variance / (radius * radius * unit), kLeastSmoothing);
-    smoothing[count + i] = kSlopeDeviation * kSlopeDeviation / unit;
+    const double most = std::max(kMostSlopeSmoothing, kSlopeToValueSmoothing * smoothing[i]);
+    smoothing[count + i] = std::min(kSlopeDeviation * kSlopeDeviation / unit, most);
   }
 
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(
       polynomial_block(patch.positions_, patch.normals_));
-  const Eigen::Matrix4d upper = qr.matrixQR().topRows<4>().triangularView<Eigen::Upper>();
-  if (upper.diagonal().cwiseAbs().minCoeff() < 1e-6 * upper.diagonal().cwiseAbs().maxCoeff()) {
-    return std::nullopt;
-  }
+  qr.setThreshold(kLeastDetermined);
+  const Eigen::Index terms = qr.rank();
+  if (terms < 4 || 2 * count < terms + 4) return std::nullopt;
   Eigen::MatrixXd system = kernel_matrix(patch.positions_, patch.normals_);
   system.diagonal() += smoothing;
   system.applyOnTheLeft(qr.householderQ().adjoint());
@@ -81,13 +108,17 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
   data << Eigen::VectorXd::Zero(count), Eigen::VectorXd::Ones(count);
   data.applyOnTheLeft(qr.householderQ().adjoint());
 
-  const Eigen::Index free = 2 * count - 4;
+  const Eigen::Index free = 2 * count - terms;
   const Eigen::LLT<Eigen::MatrixXd> cholesky(system.bottomRightCorner(free, free));
   if (cholesky.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(2 * count);
   weights.tail(free) = cholesky.solve(data.tail(free));
-  const Eigen::Vector4d rest = data.head<4>() - system.topRows<4>() * weights;
-  patch.polynomial_ = upper.triangularView<Eigen::Upper>().solve(rest);
+  Polynomial coefficients = Polynomial::Zero();
+  coefficients.head(terms) = qr.matrixQR()
+                                 .topLeftCorner(terms, terms)
+                                 .triangularView<Eigen::Upper>()
+                                 .solve(data.head(terms) - system.topRows(terms) * weights);
+  patch.polynomial_ = qr.colsPermutation() * coefficients;
   weights.applyOnTheLeft(qr.householderQ());
   if (!weights.allFinite() || !patch.polynomial_.allFinite()) return std::nullopt;
   patch.value_weights_ = weights.head(count);
@@ -97,8 +128,8 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
 
 FieldValue HermitePatch::at(const Eigen::Vector3d& position) const {
   const Eigen::Vector3d place = (position - centre_) / radius_;
-  double value = polynomial_[0] + polynomial_.tail<3>().dot(place);
-  Eigen::Vector3d gradient = polynomial_.tail<3>();
+  double value = polynomial_.dot(monomials(place));
+  Eigen::Vector3d gradient = monomial_gradients(place) * polynomial_;
   for (Eigen::Index j = 0; j < positions_.cols(); ++j) {
     const Eigen::Vector3d offset = place - positions_.col(j);
     const double r = offset.norm();

@@ -21,9 +21,9 @@ struct OrientedPoint {
 };
 
 /// A field over a small neighbourhood that is near zero on its points and grows at unit rate along
-/// their normals: the paper's eq. 6 (r^3 and a linear polynomial) with the normals as Hermite data
-/// instead of points put off the surface, so that no offset has to be chosen (Macedo, Gois, Velho
-/// 2011).
+/// their normals: the paper's eq. 6 with the normals as Hermite data instead of points put off the
+/// surface, so that no offset has to be chosen (Macedo, Gois, Velho 2011). The polynomial is the
+/// quadratic one that r^3 leaves unpenalised in space: curvature is no roughness.
 ///
 /// Read as kriging: the field wanders with variogram roughness * r^3, each value carries its
 /// point's variance, and that ratio is the smoothing. Coordinates are centred and scaled within, so
@@ -31,6 +31,9 @@ struct OrientedPoint {
 /// block, where it is positive definite, by Cholesky.
 class HermitePatch {
  public:
+  /// Coefficients of 1, x, y, z, xx, yy, zz, xy, yz, zx.
+  using Polynomial = Eigen::Matrix<double, 10, 1>;
+
   /// Nothing if the points do not determine a field (all on one line, all equal). `radius` > 0 is
   /// the size of the neighbourhood round `centre`. O((2 points)^3).
   static std::optional<HermitePatch> fit(const std::vector<OrientedPoint>& points,
@@ -51,7 +54,7 @@ class HermitePatch {
   Eigen::Matrix3Xd normals_;
   Eigen::VectorXd value_weights_;
   Eigen::VectorXd slope_weights_;
-  Eigen::Vector4d polynomial_;
+  Polynomial polynomial_;
 };
 
 }  // namespace instep

@@ -159,7 +159,9 @@ Vector3d pixel_ray(const CameraIntrinsics& lens, int u, int v) {
     const double xy = ideal.x() * ideal.y();
     const Vector2d tangential(2 * p1 * xy + p2 * (r2 + 2 * ideal.x() * ideal.x()),
                               p1 * (r2 + 2 * ideal.y() * ideal.y()) + 2 * p2 * xy);
-    ideal = (target - tangential) / radial;
+    const Vector2d next = (target - tangential) / radial;
+    if (next == ideal) break;
+    ideal = next;
   }
   return {ideal.x(), ideal.y(), 1.0};
 }

@@ -1,0 +1,135 @@
+#include "config/settings_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kCamera = "[[camera]]\nkind = \"simulated\"\n";
+
+SettingsReading read(const std::string& toml) {
+  return read_settings(toml, "/etc/s.toml");
+}
+
+TEST(SettingsFile, HasTheDocumentedDefaultsWhenOnlyACameraIsNamed) {
+  const auto reading = read(kCamera);
+  ASSERT_TRUE(reading.good());
+  EXPECT_EQ(reading.settings.capture.frames_per_camera, 15);
+  EXPECT_EQ(reading.settings.pedal.debounce, std::chrono::milliseconds(30));
+  EXPECT_EQ(reading.settings.pedal.hold_to_cancel, std::chrono::milliseconds(2000));
+  EXPECT_EQ(reading.settings.store.root, "/var/lib/instep/scans");
+  EXPECT_EQ(reading.settings.control.socket, "/run/instep/control.sock");
+  EXPECT_EQ(reading.settings.cameras.size(), 1U);
+}
+
+TEST(SettingsFile, ShippedFileIsSoundAndSaysTheDefaults) {
+  const auto shipped = load_settings(INSTEP_SOURCES "/config/instep.toml");
+  ASSERT_TRUE(shipped) << shipped.error().line();
+  EXPECT_EQ(describe(*shipped), describe(read(kCamera).settings));
+}
+
+struct Fault {
+  const char* toml;
+  const char* text;
+};
+
+class SettingsFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(SettingsFault, IsReportedWithItsLine) {
+  const auto reading = read(std::string(kCamera) + GetParam().toml);
+  EXPECT_THAT(reading.faults, ElementsAre(HasSubstr(GetParam().text)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SettingsFault,
+    testing::Values(
+        Fault{"[pedal]\ndebounce_ms = 4",
+              "/etc/s.toml:4: pedal.debounce_ms = 4 is outside 5 to 200"},
+        Fault{"[pedal]\ndebounce_ms = 201", "is outside 5 to 200"},
+        Fault{"[pedal]\ndebounce_ms = \"30\"", "must be a whole number, but it is text"},
+        Fault{"[pedal]\ndebounce_ms = 30.5", "must be a whole number, but it is a number"},
+        Fault{"[pedal]\nkind = \"simulted\"", "did you mean \"simulated\"?"},
+        Fault{"[pedal]\nkind = 3", "pedal.kind must be text in quotes, but it is a whole number"},
+        Fault{"[pedal]\ndebounce = 30", "there is no setting pedal.debounce: did you mean"},
+        Fault{"[pedl]\n", "there is no setting pedl: did you mean pedal?"},
+        Fault{"[zzzzzz]\n", "there is no setting zzzzzz: known here are"},
+        Fault{"[station]\nname = \"\"", "station.name must have 1 to 64 printable characters"},
+        Fault{"[station]\nname = \"a\\nb\"", "printable"},
+        Fault{"[station]\npoint_spacing_mm = nan", "is outside 0.2 to 10"},
+        Fault{"[station]\npoint_spacing_mm = inf", "is outside 0.2 to 10"},
+        Fault{"[station]\nplatform_height_mm = 1e30", "is outside -1000 to 1000"},
+        Fault{"[station]\nrefine_views = 1", "must be true or false"},
+        Fault{"[station]\nside = \"middle\"", "is not one of \"left\", \"right\", \"auto\""},
+        Fault{"[capture]\nframes_per_camera = 0", "is outside 1 to 120"},
+        Fault{"[capture]\nframes_per_camera = 9223372036854775807", "is outside 1 to 120"},
+        Fault{"[capture]\ndeadline_ms = 10", "is outside 200 to 60000"},
+        Fault{"[simulation]\nseed = -1", "simulation.seed = -1 is below 0"},
+        Fault{"[simulation]\nnoise = []", "must be text in quotes, but it is a list"},
+        Fault{"[[camera]]\nkind = \"recording\"", "camera.path is missing"},
+        Fault{"[store]\nkeep_days = 2020-01-01", "but it is a date or time"},
+        Fault{"[[log]]\nlevel = \"info\"", "log must be written as [log]"},
+        Fault{"[pedal]\nkind = \"none", "/etc/s.toml:4:"},
+        Fault{"[pedal]\n[pedal]\n", "/etc/s.toml:4:"}));
+
+TEST(SettingsFile, ReportsAllFaultsOfAFileInItsOrder) {
+  const auto reading =
+      read("[pedal]\ndebounce_ms = 1\nfoo = 2\n[store]\nkeep_days = -1\n" + std::string(kCamera));
+  EXPECT_THAT(reading.faults, ElementsAre(HasSubstr(":2: pedal.debounce_ms"),
+                                          HasSubstr(":3: there is no setting pedal.foo"),
+                                          HasSubstr(":5: store.keep_days")));
+}
+
+TEST(SettingsFile, DemandsACamera) {
+  EXPECT_THAT(read("").faults, ElementsAre(HasSubstr("there is no [[camera]]")));
+  EXPECT_THAT(read("camera = 3").faults,
+              testing::Contains(HasSubstr("camera must be written as [[camera]]")));
+}
+
+TEST(SettingsFile, RefusesASocketThatNoSystemCanName) {
+  const auto reading =
+      read(std::string(kCamera) + "[control]\nsocket = \"/" + std::string(120, 'a') + "\"");
+  EXPECT_THAT(reading.faults, ElementsAre(HasSubstr("control.socket is longer than 100")));
+}
+
+TEST(SettingsFile, TakesRelativePathsFromItsOwnFolder) {
+  const auto reading = read("[[camera]]\nkind = \"recording\"\npath = \"../visit\"\n");
+  ASSERT_TRUE(reading.good());
+  EXPECT_EQ(reading.settings.cameras[0].path, "/visit");
+}
+
+TEST(SettingsFile, FailsInOneErrorOnFilesThatCannotBeRead) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(load_settings(folder.path() / "none").error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(load_settings(folder.path()).error().code, ErrorCode::kNotFound);
+  const auto large = folder.path() / "large.toml";
+  std::ofstream(large) << std::string(kLargestSettingsFile + 1, '#');
+  EXPECT_EQ(load_settings(large).error().code, ErrorCode::kInvalidInput);
+}
+
+TEST(SettingsFile, NeverThrowsOnDamagedFiles) {
+  std::ifstream stream(INSTEP_SOURCES "/config/instep.toml");
+  const std::string shipped((std::istreambuf_iterator<char>(stream)), {});
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 2000; ++i) {
+    std::string damaged = shipped;
+    for (int hits = 0; hits < 5; ++hits) {
+      damaged[random() % damaged.size()] = static_cast<char>(random() % 256);
+    }
+    damaged.resize(damaged.size() - random() % 2000);
+    const auto reading = read(damaged);
+    for (const auto& fault : reading.faults) EXPECT_THAT(fault, HasSubstr("/etc/s.toml:"));
+  }
+}
+
+}  // namespace
+}  // namespace instep

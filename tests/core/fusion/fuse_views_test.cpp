@@ -1,0 +1,248 @@
+#include "core/fusion/fuse_views.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/ray_cast_scene.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Two feet 15 mm apart whose bottoms lie below the platform, shins on them, a platform.
+Surfaces feet_alone() {
+  return {ellipsoid_surface({0, 55, 28}, {125, 45, 34}, 3),
+          ellipsoid_surface({4, -50, 28}, {120, 44, 33}, -3)};
+}
+
+Surfaces standing_person() {
+  auto scene = feet_alone();
+  scene.push_back(cylinder_surface({-55, 55}, 33, 30, 500));
+  scene.push_back(cylinder_surface({-50, -50}, 33, 30, 500));
+  scene.push_back(disc_surface({0, 0, 0}, {0, 0, 1}, 350));
+  return scene;
+}
+
+std::vector<View> views_of(const Surfaces& scene, const std::vector<CameraGeometry>& cameras,
+                           const RenderNoise& noise, int frames = 3) {
+  std::vector<View> views;
+  for (const auto& camera : cameras) {
+    TemporalFusion fusion;
+    for (int i = 0; i < frames; ++i) {
+      EXPECT_TRUE(fusion.add(
+          render(camera, scene, noise, views.size() * 100 + static_cast<std::size_t>(i) + 1)));
+    }
+    views.push_back({camera, *fusion.result(), nullptr});
+  }
+  return views;
+}
+
+const std::vector<View>& good_views() {
+  static const std::vector<View> views =
+      views_of(standing_person(), ring_of_cameras(4, 450, 330, {0, 0, 20}), {1.4e-6, 0.7, 0.01});
+  return views;
+}
+
+FusionSettings at_zero() {
+  FusionSettings settings;
+  settings.platform_height_mm = 0.0;
+  return settings;
+}
+
+double distance_to(const Surfaces& surfaces, const Vector3d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& surface : surfaces) least = std::min(least, std::abs(surface->distance(point)));
+  return least;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const auto& line : lines) all += line + "\n";
+  return all;
+}
+
+TEST(FuseViews, GivesTwoCleanFeetOnTheirSurfaces) {
+  const auto scene = fuse_views(good_views(), at_zero());
+  ASSERT_TRUE(scene) << scene.error().line();
+  ASSERT_EQ(scene->feet.size(), 2U);
+  EXPECT_NEAR(scene->standing_height_mm, 0.0, 0.1);
+  EXPECT_TRUE(scene->diagnostics.platform_found);
+  auto body = standing_person();
+  body.pop_back();
+  for (const auto& foot : scene->feet) {
+    EXPECT_TRUE(check_cloud(foot));
+    double z = 0;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < foot.size(); ++i) {
+      if (!foot.was_seen(i)) continue;
+      const double away = distance_to(body, foot.positions[i]);
+      ASSERT_LT(away, 2.0) << foot.positions[i].transpose();
+      z += std::pow(away / foot.sigma_mm[i], 2);
+      ++seen;
+    }
+    EXPECT_GT(seen, 15000U);
+    EXPECT_GT(std::sqrt(z / static_cast<double>(seen)), 0.65);
+    EXPECT_LT(std::sqrt(z / static_cast<double>(seen)), 1.4);
+  }
+  for (const auto coverage : scene->diagnostics.coverage) EXPECT_GT(coverage, 0.9);
+}
+
+TEST(FuseViews, ClosesTheSoleInsideTheFootOnly) {
+  const auto scene = fuse_views(good_views(), at_zero());
+  ASSERT_TRUE(scene);
+  const auto feet = feet_alone();
+  for (const auto& foot : scene->feet) {
+    double closing = 0;
+    double outside = 0;
+    for (std::size_t i = 0; i < foot.size(); ++i) {
+      if (foot.was_seen(i)) continue;
+      closing += 1;
+      EXPECT_NEAR(foot.positions[i].z(), scene->standing_height_mm, 1e-9);
+      const double away =
+          std::min(feet[0]->distance(foot.positions[i]), feet[1]->distance(foot.positions[i]));
+      ASSERT_LT(away, 5.0);
+      outside += away > 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(closing, 500);
+    EXPECT_LT(outside, 0.05 * closing);
+  }
+  EXPECT_NE(joined(scene->warnings).find("sole"), std::string::npos);
+  auto open = at_zero();
+  open.close_soles = false;
+  const auto unclosed = fuse_views(good_views(), open);
+  ASSERT_TRUE(unclosed);
+  for (const auto& foot : unclosed->feet) EXPECT_TRUE(foot.origins.empty());
+}
+
+TEST(FuseViews, LevelsATiltedStation) {
+  RigidTransform tilt = RigidTransform::Identity();
+  tilt.linear() = Eigen::AngleAxisd(0.03, Vector3d(1, 0.4, 0).normalized()).toRotationMatrix();
+  tilt.translation() = Vector3d(3, -2, 25);
+  auto views = good_views();
+  for (auto& view : views) {
+    view.geometry.station_from_camera = tilt * view.geometry.station_from_camera;
+  }
+  auto settings = at_zero();
+  settings.platform_height_mm = 20.0;
+  const auto scene = fuse_views(views, settings);
+  ASSERT_TRUE(scene);
+  EXPECT_NEAR(scene->diagnostics.platform_tilt_deg, 0.03 / 0.017453, 0.1);
+  ASSERT_EQ(scene->feet.size(), 2U);
+  double highest = 0;
+  for (const auto& point : scene->feet[0].positions) {
+    highest = std::max(highest, point.z() - scene->standing_height_mm);
+    ASSERT_GT(point.z() - scene->standing_height_mm, -0.001);
+  }
+  EXPECT_LE(highest, settings.foot_ceiling_mm);
+}
+
+TEST(FuseViews, RefinesNominalPoses) {
+  auto views = good_views();
+  const Vector3d shifts[] = {{8, 3, -4}, {-6, 5, 3}, {2, -7, 5}, {-3, -3, -6}};
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    RigidTransform off = RigidTransform::Identity();
+    off.linear() =
+        Eigen::AngleAxisd(0.03, shifts[i].cross(Vector3d::UnitX()).normalized()).toRotationMatrix();
+    off.translation() = shifts[i];
+    views[i].geometry.station_from_camera = off * views[i].geometry.station_from_camera;
+  }
+  auto settings = at_zero();
+  settings.refine_views = true;
+  const auto scene = fuse_views(views, settings);
+  ASSERT_TRUE(scene) << scene.error().line();
+  EXPECT_EQ(scene->feet.size(), 2U);
+  EXPECT_EQ(scene->diagnostics.views_used, 4U);
+  EXPECT_LT(scene->diagnostics.registration_after_mm, 0.5);
+  EXPECT_GT(scene->diagnostics.registration_before_mm, 2.0);
+}
+
+TEST(FuseViews, NamesACameraThatSawNothing) {
+  auto views = good_views();
+  views[2].depth.depth_mm.assign(views[2].depth.depth_mm.size(), 0.0F);
+  const auto scene = fuse_views(views, at_zero());
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->diagnostics.views_used, 3U);
+  EXPECT_NE(joined(scene->warnings).find("camera2"), std::string::npos);
+}
+
+TEST(FuseViews, WorksWithOneCameraAndSaysWhatItMissed) {
+  const auto scene = fuse_views({good_views()[0]}, at_zero());
+  ASSERT_TRUE(scene) << scene.error().line();
+  EXPECT_GE(scene->feet.size(), 1U);
+  EXPECT_NE(joined(scene->warnings).find("not seen from all sides"), std::string::npos);
+}
+
+TEST(FuseViews, TellsTheOperatorWhenNobodyStandsThere) {
+  const auto empty = views_of({disc_surface({0, 0, 0}, {0, 0, 1}, 350)},
+                              ring_of_cameras(2, 450, 330, {0, 0, 20}), {1.4e-6, 0.7, 0.01});
+  const auto scene = fuse_views(empty, at_zero());
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().code, ErrorCode::kInsufficientData);
+  EXPECT_NE(scene.error().advice.find("step on the platform"), std::string::npos);
+}
+
+TEST(FuseViews, TellsTheOperatorWhenAllCamerasAreBlind) {
+  auto views = good_views();
+  for (auto& view : views) view.depth.depth_mm.assign(view.depth.depth_mm.size(), 0.0F);
+  const auto scene = fuse_views(views, at_zero());
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().code, ErrorCode::kInsufficientData);
+  EXPECT_NE(scene.error().advice.find("cover"), std::string::npos);
+  EXPECT_EQ(fuse_views({}, at_zero()).error().code, ErrorCode::kInvalidInput);
+}
+
+TEST(FuseViews, RefusesPosesLensesAndSizesThatAreNotSound) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto with = [](auto change) {
+    auto views = std::vector<View>(good_views().begin(), good_views().begin() + 1);
+    change(views[0]);
+    return fuse_views(views, at_zero());
+  };
+  const auto bad_pose =
+      with([&](View& v) { v.geometry.station_from_camera.translation().x() = nan; });
+  ASSERT_FALSE(bad_pose);
+  EXPECT_EQ(bad_pose.error().code, ErrorCode::kInvalidInput);
+  EXPECT_NE(bad_pose.error().message.find("camera0"), std::string::npos);
+  EXPECT_FALSE(with([](View& v) { v.geometry.station_from_camera.linear() *= 2.0; }));
+  EXPECT_FALSE(with([](View& v) { v.geometry.station_from_camera.translation().x() = 1e30; }));
+  EXPECT_FALSE(with([&](View& v) { v.geometry.intrinsics.fx = nan; }));
+  EXPECT_EQ(with([](View& v) { v.depth.depth_mm.pop_back(); }).error().code,
+            ErrorCode::kCorruptData);
+  EXPECT_FALSE(with([](View& v) { v.depth.width = 320; }));
+}
+
+TEST(FuseViews, BearsDepthThatIsAbsurd) {
+  for (const float depth : {65535.0F, 1e30F, std::numeric_limits<float>::infinity(),
+                            std::numeric_limits<float>::quiet_NaN(), -500.0F, 1e-30F}) {
+    auto views = good_views();
+    for (auto& view : views) view.depth.depth_mm.assign(view.depth.depth_mm.size(), depth);
+    EXPECT_FALSE(fuse_views(views, at_zero())) << depth;
+    auto settings = at_zero();
+    settings.refine_views = true;
+    EXPECT_FALSE(fuse_views(views, settings)) << depth;
+  }
+  auto views = good_views();
+  for (std::size_t i = 0; i < views[1].depth.depth_mm.size(); i += 3) {
+    views[1].depth.depth_mm[i] = std::numeric_limits<float>::quiet_NaN();
+    views[1].depth.sigma_mm[i + 1] = std::numeric_limits<float>::quiet_NaN();
+  }
+  const auto scene = fuse_views(views, at_zero());
+  ASSERT_TRUE(scene);
+  for (const auto& foot : scene->feet) EXPECT_TRUE(check_cloud(foot));
+}
+
+TEST(FuseViews, IsTheSameEveryTime) {
+  const auto once = fuse_views(good_views(), at_zero());
+  const auto again = fuse_views(good_views(), at_zero());
+  ASSERT_TRUE(once && again);
+  for (std::size_t i = 0; i < once->feet.size(); ++i) {
+    EXPECT_EQ(once->feet[i].positions, again->feet[i].positions);
+    EXPECT_EQ(once->feet[i].sigma_mm, again->feet[i].sigma_mm);
+  }
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,161 @@
+#include "core/fusion/registration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/fusion/surface_points.h"
+#include "tests/support/ray_cast_scene.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = 0.017453292519943295;
+
+Surfaces two_feet() {
+  return {ellipsoid_surface({0, 60, 28}, {125, 45, 40}, 8),
+          ellipsoid_surface({5, -62, 26}, {120, 44, 38}, -5),
+          ellipsoid_surface({-70, 60, 60}, {38, 32, 70}),
+          ellipsoid_surface({-65, -62, 60}, {38, 32, 70}), disc_surface({0, 0, 0}, {0, 0, 1}, 300)};
+}
+
+/// What each camera of a ring sees, in the station frame.
+std::vector<PointCloud> seen_by(const std::vector<CameraGeometry>& cameras, double axial_per_mm) {
+  std::vector<PointCloud> clouds;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    auto depth = *fuse_frames({render(cameras[i], two_feet(), {axial_per_mm, 0, 0}, i + 1, 0.1)});
+    drop_flying_pixels(cameras[i].intrinsics, {}, depth);
+    std::vector<std::uint32_t> pixels;
+    for (std::uint32_t p = 0; p < depth.depth_mm.size(); p += 3) {
+      if (depth.depth_mm[p] > 0.0F) pixels.push_back(p);
+    }
+    clouds.push_back(transformed(
+        cameras[i].station_from_camera,
+        surface_points(*Deprojector::create(cameras[i].intrinsics), depth, pixels, {})));
+  }
+  return clouds;
+}
+
+std::vector<CameraGeometry> small_ring(int count) {
+  auto cameras = ring_of_cameras(count, 450, 330, {0, 0, 20});
+  for (auto& camera : cameras) {
+    camera = camera_looking_at(camera.id, camera.station_from_camera.translation(), {0, 0, 20}, 320,
+                               240, 288);
+  }
+  return cameras;
+}
+
+/// A turn of `degrees` about the middle of the scene and a shift of `shift_mm`, in some direction.
+RigidTransform disturbance(std::mt19937_64& random, double shift_mm, double degrees) {
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    return Vector3d(normal(random), normal(random), normal(random)).normalized();
+  };
+  RigidTransform transform = RigidTransform::Identity();
+  transform.linear() = Eigen::AngleAxisd(degrees * kDegree, direction()).toRotationMatrix();
+  transform.translation() = shift_mm * direction();
+  return transform;
+}
+
+/// Largest distance between what two views make of the same place, over places on the feet.
+double disagreement(const std::vector<RigidTransform>& station_from_truth) {
+  double worst = 0;
+  for (const auto& a : station_from_truth) {
+    for (const auto& b : station_from_truth) {
+      for (const Vector3d& place :
+           {Vector3d(0, 60, 60), {0, -60, 60}, {120, 0, 10}, {-120, 0, 10}}) {
+        worst = std::max(worst, (a * place - b * place).norm());
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(RegisterViews, RecoversPosesThatAreOffByTenMillimetresAndFourDegrees) {
+  const auto truth = seen_by(small_ring(4), 1.0e-6);
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<PointCloud> moved;
+    std::vector<RigidTransform> given;
+    for (const auto& cloud : truth) {
+      given.push_back(disturbance(random, 10, 4));
+      moved.push_back(transformed(given.back(), cloud));
+    }
+    const auto registration = register_views(moved);
+    std::vector<RigidTransform> refined;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      EXPECT_EQ(registration.views[i].fit, ViewFit::kFits);
+      refined.push_back(registration.views[i].correction * given[i]);
+    }
+    EXPECT_GT(disagreement(given), 10.0);
+    EXPECT_LT(disagreement(refined), 0.8) << seed;
+    EXPECT_LT(registration.residual_after_mm, 0.4);
+    EXPECT_GT(registration.residual_before_mm, 5 * registration.residual_after_mm);
+  }
+}
+
+TEST(RegisterViews, LeavesGoodPosesAlone) {
+  const auto registration = register_views(seen_by(small_ring(4), 1.0e-6));
+  for (const auto& view : registration.views) {
+    EXPECT_EQ(view.fit, ViewFit::kFits);
+    EXPECT_LT(view.correction.translation().norm(), 0.5);
+  }
+}
+
+TEST(RegisterViews, LeavesOutAViewThatDoesNotFit) {
+  auto clouds = seen_by(small_ring(5), 1.0e-6);
+  for (auto& point : clouds[2].positions) {  // bent, as by a wrong lens
+    point.z() += 15.0 * std::sin(0.05 * point.x()) + 10.0 * std::sin(0.06 * point.y());
+  }
+  const auto registration = register_views(clouds);
+  EXPECT_EQ(registration.views[2].fit, ViewFit::kDoesNotFit);
+  EXPECT_TRUE(registration.views[2].correction.isApprox(RigidTransform::Identity()));
+  for (const std::size_t i : {0U, 1U, 3U, 4U}) {
+    EXPECT_EQ(registration.views[i].fit, ViewFit::kFits);
+    EXPECT_LT(registration.views[i].correction.translation().norm(), 1.5);
+  }
+}
+
+TEST(RegisterViews, RefusesToMoveAViewBeyondTheLimit) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  RigidTransform shift = RigidTransform::Identity();
+  shift.translation() = Vector3d(0, 0, 18);
+  clouds[1] = transformed(shift, clouds[1]);
+  RegistrationSettings settings;
+  settings.most_shift_mm = 6.0;
+  const auto registration = register_views(clouds, settings);
+  EXPECT_EQ(registration.views[1].fit, ViewFit::kDoesNotFit);
+}
+
+TEST(RegisterViews, SaysWhichViewsShareNothing) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  RigidTransform away = RigidTransform::Identity();
+  away.translation() = Vector3d(3000, 0, 0);
+  clouds[3] = transformed(away, clouds[3]);
+  clouds.push_back({});
+  const auto registration = register_views(clouds);
+  EXPECT_EQ(registration.views[3].fit, ViewFit::kAlone);
+  EXPECT_EQ(registration.views[4].fit, ViewFit::kAlone);
+  EXPECT_EQ(registration.views[0].fit, ViewFit::kFits);
+  EXPECT_NEAR(registration.views[3].correction.translation().norm(), 0.0, 1e-9);
+}
+
+TEST(RegisterViews, IsTheSameEveryTime) {
+  const auto clouds = seen_by(small_ring(3), 2.9e-6);
+  const auto once = register_views(clouds);
+  const auto again = register_views(clouds);
+  for (std::size_t i = 0; i < clouds.size(); ++i) {
+    EXPECT_EQ(once.views[i].correction.matrix(), again.views[i].correction.matrix());
+  }
+}
+
+TEST(RegisterViews, BearsOneViewAndNone) {
+  EXPECT_TRUE(register_views({}).views.empty());
+  EXPECT_EQ(register_views(seen_by(small_ring(1), 0)).views[0].fit, ViewFit::kAlone);
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "core/girth/girth.h"
+#include "tests/support/random_numbers.h"
+#include "tests/support/shape_files.h"
+
+namespace instep {
+namespace {
+
+class GirthByRbfOfTrialData : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(test::trial_data())) GTEST_SKIP() << "no trial data here";
+  }
+};
+
+double error_of(const PointCloud& cloud, const test::KnownSection& section) {
+  const auto girth = girth_by_rbf(cloud, section.plane);
+  EXPECT_TRUE(girth) << girth.error().line();
+  return girth ? girth->stretched_mm - section.stretched_mm : 1e9;
+}
+
+/// What a shape of the trial data has to meet, by its noise and its number of points.
+double tolerance_mm(const test::KnownSection& section, std::size_t points) {
+  if (section.sigma_mm > 0.0) return 0.7 * section.sigma_mm;
+  return points < 1000 ? 0.06 : 0.003;
+}
+
+TEST_F(GirthByRbfOfTrialData, MeetsAnalyticShapes) {
+  for (const auto& section : test::known_sections("shapes")) {
+    const auto shape = test::read_shape(test::trial_data() / "shapes" / section.file);
+    EXPECT_NEAR(error_of(shape.cloud, section), 0.0, tolerance_mm(section, shape.cloud.size()))
+        << section.file;
+  }
+}
+
+TEST_F(GirthByRbfOfTrialData, MeetsNoisyEllipseOfHalfAMillimetre) {
+  for (const auto& section : test::known_sections("shapes")) {
+    if (section.file != "ellipse_noise_0.5.ply") continue;
+    const auto shape = test::read_shape(test::trial_data() / "shapes" / section.file);
+    EXPECT_NEAR(error_of(shape.cloud, section), 0.0, 0.15);
+  }
+}
+
+/// Mean error over the sections of the lasts, each from `count` points drawn at random.
+double mean_error_on_lasts(std::size_t count, std::uint64_t seed) {
+  double sum = 0.0;
+  int sections = 0;
+  for (const auto& section : test::known_sections("lasts")) {
+    const auto shape = test::read_shape(test::trial_data() / "lasts" / section.file);
+    std::vector<std::size_t> order(shape.cloud.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    test::RandomNumbers random(seed);
+    for (std::size_t i = order.size() - 1; i > 0; --i) {
+      std::swap(order[i], order[random.below(i + 1)]);
+    }
+    order.resize(std::min(count, order.size()));
+    sum += std::abs(error_of(shape.cloud.subset(order), section));
+    ++sections;
+  }
+  return sum / sections;
+}
+
+TEST_F(GirthByRbfOfTrialData, MeetsLastsFromDenseAndSparsePoints) {
+  EXPECT_LT(mean_error_on_lasts(14240, 1), 0.5);
+  EXPECT_LT(mean_error_on_lasts(3560, 1), 0.5);
+  EXPECT_LT(mean_error_on_lasts(902, 1), 1.6);
+}
+
+TEST_F(GirthByRbfOfTrialData, MeetsFeetFromTheCornersOfTheirMeshes) {
+  for (const auto& section : test::known_sections("feet")) {
+    if (!section.file.ends_with(".stl")) continue;
+    const auto shape = test::read_shape(test::trial_data() / "feet" / section.file, 1000.0);
+    EXPECT_NEAR(error_of(shape.cloud, section), 0.0, 0.8) << section.file << section.name;
+  }
+}
+
+TEST_F(GirthByRbfOfTrialData, RefusesOrBridgesTheUnseenSole) {
+  for (const auto& section : test::known_sections("feet")) {
+    if (section.file != "lab_left.ply") continue;
+    const auto shape = test::read_shape(test::trial_data() / "feet" / section.file);
+    const auto girth = girth_by_rbf(shape.cloud, section.plane);
+    if (!girth) continue;
+    EXPECT_GT(girth->largest_gap_mm, 20.0);
+    EXPECT_FALSE(girth->warnings.empty());
+  }
+}
+
+}  // namespace
+}  // namespace instep

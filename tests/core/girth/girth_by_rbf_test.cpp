@@ -1,0 +1,295 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/girth/girth.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using test::AnalyticShape;
+
+TapePlane plane_at(const Vector3d& c1, const Vector3d& c2, const Vector3d& c3) {
+  return TapePlane::through(c1, c2, c3).value();
+}
+
+/// Across the axis of the shapes, and obliquely.
+TapePlane level_plane() {
+  return plane_at({0, 0, 1.3}, {1, 0, 1.3}, {0, 1, 1.3});
+}
+TapePlane oblique_plane() {
+  return plane_at({0, 0, -2}, {10, 0, 1}, {0, 10, 2});
+}
+
+PointCloud cylinder(std::size_t count, double sigma_mm = 0.0, std::uint64_t seed = 5) {
+  return test::random_points(test::elliptic_cylinder(40, 40), count, -30, 30, sigma_mm, seed);
+}
+
+void expect_girth(const AnalyticShape& shape, const TapePlane& plane, std::size_t count,
+                  double tolerance_mm) {
+  const auto cloud = test::random_points(shape, count, -30, 30, 0.0, 11);
+  const auto girth = girth_by_rbf(cloud, plane);
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, test::true_girth(shape, plane), tolerance_mm);
+  EXPECT_NEAR(girth->stretched_mm, girth->contact_mm, tolerance_mm);
+}
+
+TEST(GirthByRbf, MeetsSmoothShapesFromDensePoints) {
+  expect_girth(test::elliptic_cylinder(40, 40), level_plane(), 6000, 0.002);
+  expect_girth(test::elliptic_cylinder(45, 28), oblique_plane(), 6000, 0.002);
+  expect_girth(test::cone(38, 0.3), oblique_plane(), 6000, 0.002);
+  expect_girth(test::ellipsoid(42, 42, 42), level_plane(), 6000, 0.002);
+  expect_girth(test::ellipsoid(50, 35, 60), oblique_plane(), 6000, 0.002);
+  expect_girth(test::bent_tube(90, 35), oblique_plane(), 6000, 0.002);
+}
+
+TEST(GirthByRbf, MeetsSmoothShapesFromFewPoints) {
+  expect_girth(test::elliptic_cylinder(40, 40), level_plane(), 450, 0.06);
+  expect_girth(test::elliptic_cylinder(45, 28), oblique_plane(), 450, 0.06);
+  expect_girth(test::cone(38, 0.3), oblique_plane(), 450, 0.06);
+  expect_girth(test::superellipse(42, 38, 3.0), level_plane(), 1200, 0.06);
+  expect_girth(test::bent_tube(90, 35), oblique_plane(), 450, 0.06);
+}
+
+TEST(GirthByRbf, AveragesNoiseInsteadOfFollowingIt) {
+  const auto shape = test::elliptic_cylinder(45, 30);
+  for (const double sigma : {0.1, 0.3, 0.5}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      const auto cloud = test::random_points(shape, 8000, -30, 30, sigma, seed);
+      const auto girth = girth_by_rbf(cloud, oblique_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      EXPECT_NEAR(girth->stretched_mm, test::true_girth(shape, oblique_plane()), 0.6 * sigma)
+          << "sigma " << sigma << " seed " << seed;
+      EXPECT_NEAR(girth->sigma_mm, sigma, 0.15 * sigma);
+    }
+  }
+}
+
+TEST(GirthByRbf, StretchesOverHollowsAndTouchesThem) {
+  const AnalyticShape lobed{
+      [](double angle, double height) {
+        const double radius = 40 + 8 * std::cos(3 * angle);
+        return Vector3d(radius * std::cos(angle), radius * std::sin(angle), height);
+      },
+      [](const Vector3d& p) {
+        return p.head<2>().norm() - 40 - 8 * std::cos(3 * std::atan2(p.y(), p.x()));
+      }};
+  const auto girth = girth_by_rbf(test::random_points(lobed, 6000, -30, 30, 0.0, 3), level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, test::true_girth(lobed, level_plane()), 0.01);
+  EXPECT_LT(girth->stretched_mm, girth->contact_mm - 0.5);
+}
+
+TEST(GirthByRbf, BridgesAHoleAndTellsItsWidth) {
+  PointCloud cloud = cylinder(6000);
+  const Vector3d centre(40, 0, 1);
+  std::erase_if(cloud.positions, [&](const auto& p) { return (p - centre).norm() < 10.0; });
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.05);
+  EXPECT_NEAR(girth->largest_gap_mm, 20.0, 2.5);
+  EXPECT_FALSE(girth->warnings.empty());
+}
+
+TEST(GirthByRbf, CountsPlatformPointsAsShapeButNotAsEvidence) {
+  PointCloud cloud = cylinder(6000);
+  for (const auto& position : cloud.positions) {
+    cloud.origins.push_back(position.x() < -30 ? PointOrigin::kPlatform : PointOrigin::kSeen);
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.01);
+  EXPECT_NEAR(girth->largest_gap_mm, 2 * 40 * std::acos(30.0 / 40.0), 3.0);
+}
+
+TEST(GirthByRbf, UsesTheNormalsAndTheNoiseOfTheCloud) {
+  PointCloud cloud = cylinder(3000, 0.3);
+  for (const auto& position : cloud.positions) {
+    cloud.normals.push_back(Vector3d(position.x(), position.y(), 0).normalized());
+    cloud.sigma_mm.push_back(0.3);
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_DOUBLE_EQ(girth->sigma_mm, 0.3);
+  EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.3);
+}
+
+TEST(GirthByRbf, OrientsByTheViewIfThereIsOne) {
+  PointCloud cloud = cylinder(3000);
+  for (const auto& position : cloud.positions) {
+    cloud.view_directions.push_back(Vector3d(position.x(), position.y(), 15).normalized());
+  }
+  const auto girth = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, test::true_girth(test::elliptic_cylinder(40, 40), oblique_plane()),
+              0.01);
+}
+
+TEST(GirthByRbf, DoesNotDependOnWhereTheBodyStands) {
+  const auto cloud = test::random_points(test::elliptic_cylinder(45, 30), 3000, -30, 30, 0.2, 9);
+  RigidTransform moved_from_here = RigidTransform::Identity();
+  moved_from_here.rotate(Eigen::AngleAxisd(1.1, Vector3d(1, -2, 0.5).normalized()));
+  moved_from_here.pretranslate(Vector3d(812, -333, 95));
+  const auto here = girth_by_rbf(cloud, oblique_plane());
+  const auto there = girth_by_rbf(transformed(moved_from_here, cloud),
+                                  oblique_plane().transformed(moved_from_here));
+  ASSERT_TRUE(here && there);
+  EXPECT_NEAR(there->contact_mm, here->contact_mm, 1e-3);
+  EXPECT_NEAR(there->stretched_mm, here->stretched_mm, 1e-3);
+}
+
+TEST(GirthByRbf, ScalesWithTheUnit) {
+  const auto cloud = cylinder(2000, 0.2);
+  const auto plane = oblique_plane();
+  const auto girth = girth_by_rbf(cloud, plane);
+  ASSERT_TRUE(girth);
+  for (const double scale : {1e-3, 1e3}) {
+    PointCloud scaled = cloud;
+    for (auto& position : scaled.positions) position *= scale;
+    const auto& c = plane.control_points();
+    const auto other = girth_by_rbf(scaled, plane_at(scale * c[0], scale * c[1], scale * c[2]));
+    ASSERT_TRUE(other) << other.error().line();
+    EXPECT_NEAR(other->contact_mm / scale, girth->contact_mm, 1e-6);
+    EXPECT_NEAR(other->sigma_mm / scale, girth->sigma_mm, 1e-6);
+  }
+}
+
+TEST(GirthByRbf, DoesNotDependOnTheOrderOfThePoints) {
+  auto cloud = cylinder(3000);
+  const auto girth = girth_by_rbf(cloud, oblique_plane());
+  std::reverse(cloud.positions.begin(), cloud.positions.end());
+  const auto reversed = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(girth && reversed);
+  EXPECT_NEAR(reversed->contact_mm, girth->contact_mm, 1e-3);
+}
+
+TEST(GirthByRbf, GivesTheSameBytesTwice) {
+  const auto cloud = cylinder(3000, 0.3);
+  const auto first = girth_by_rbf(cloud, oblique_plane());
+  const auto second = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->contact_mm, second->contact_mm);
+  EXPECT_EQ(first->contour, second->contour);
+}
+
+TEST(GirthByRbf, IsNotMovedByDuplicates) {
+  auto cloud = cylinder(2000);
+  const auto once = cloud.positions;
+  for (const auto& position : once) {
+    cloud.positions.push_back(position);
+    cloud.positions.push_back(position + Vector3d(1e-7, 0, 1e-7));
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.01);
+}
+
+TEST(GirthByRbf, ChoosesTheLargerOfTwoBodiesAndNamesTheOther) {
+  PointCloud cloud = test::random_points(test::elliptic_cylinder(30, 30), 4000, -30, 30, 0.0, 1);
+  const auto other = test::random_points(test::elliptic_cylinder(20, 20), 3000, -30, 30, 0.0, 2);
+  for (const auto& position : other.positions) {
+    cloud.positions.push_back(position + Vector3d(90, 0, 0));
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 60 * M_PI, 0.01);
+  ASSERT_EQ(girth->warnings.size(), 1U);
+  EXPECT_NE(girth->warnings.front().find("125.7"), std::string::npos) << girth->warnings.front();
+}
+
+TEST(GirthByRbf, LeavesStrayPointsOut) {
+  PointCloud cloud = cylinder(6000, 0.1);
+  test::RandomNumbers random(4);
+  for (std::size_t i = 0; i < cloud.size(); i += 20) {
+    const Vector3d outward = Vector3d(cloud.positions[i].x(), cloud.positions[i].y(), 0);
+    cloud.positions[i] += random.uniform(10, 20) * outward.normalized();
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.5);
+}
+
+void expect_refusal(const PointCloud& cloud, const TapePlane& plane) {
+  const auto girth = girth_by_rbf(cloud, plane);
+  ASSERT_FALSE(girth) << girth->contact_mm;
+  EXPECT_FALSE(girth.error().message.empty());
+  EXPECT_FALSE(girth.error().advice.empty());
+}
+
+TEST(GirthByRbf, RefusesTooLittle) {
+  expect_refusal({}, level_plane());
+  PointCloud three;
+  three.positions = {{1, 0, 0}, {0, 1, 3}, {-1, 0, 0}};
+  expect_refusal(three, level_plane());
+}
+
+TEST(GirthByRbf, RefusesPointsThatFormNoSurface) {
+  PointCloud equal;
+  equal.positions.assign(500, Vector3d(3, 4, 1.3));
+  expect_refusal(equal, level_plane());
+  PointCloud line;
+  for (int i = 0; i < 500; ++i) line.positions.emplace_back(0.2 * i, 0.1 * i, -20 + 0.1 * i);
+  expect_refusal(line, level_plane());
+}
+
+TEST(GirthByRbf, RefusesAFlatCloud) {
+  PointCloud across, within;
+  test::RandomNumbers random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const double a = random.uniform(-50, 50);
+    const double b = random.uniform(-50, 50);
+    across.positions.emplace_back(a, 0.0, b);
+    within.positions.emplace_back(a, b, 1.3);
+  }
+  expect_refusal(across, level_plane());
+  expect_refusal(within, level_plane());
+}
+
+TEST(GirthByRbf, RefusesAPlaneThatMissesOrGrazesTheBody) {
+  expect_refusal(cylinder(3000), plane_at({0, 0, 80}, {1, 0, 80}, {0, 1, 80}));
+  expect_refusal(cylinder(3000), plane_at({40, 0, 0}, {40, 1, 0}, {40, 0, 1}));
+  expect_refusal(cylinder(3000), plane_at({0, 0, 30}, {1, 0, 30}, {0, 1, 30}));
+}
+
+TEST(GirthByRbf, RefusesASectionThatIsOpen) {
+  PointCloud cloud = cylinder(6000);
+  std::erase_if(cloud.positions, [](const auto& p) { return p.y() < 0.0; });
+  expect_refusal(cloud, level_plane());
+}
+
+TEST(GirthByRbf, RefusesWhatIsNoNumber) {
+  PointCloud cloud = cylinder(3000);
+  cloud.positions[7].y() = std::numeric_limits<double>::quiet_NaN();
+  expect_refusal(cloud, level_plane());
+}
+
+TEST(GirthByRbf, SurvivesPointsSpreadThroughAVolume) {
+  PointCloud cloud;
+  test::RandomNumbers random(12);
+  for (int i = 0; i < 5000; ++i) {
+    cloud.positions.emplace_back(random.uniform(-40, 40), random.uniform(-40, 40),
+                                 random.uniform(-40, 40));
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  EXPECT_TRUE(!girth || std::isfinite(girth->contact_mm));
+}
+
+TEST(GirthByRbf, SurvivesTwoShellsInEachOther) {
+  PointCloud cloud = cylinder(4000);
+  cloud.append(test::random_points(test::elliptic_cylinder(37, 37), 4000, -30, 30, 0.0, 6));
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  if (girth) {
+    EXPECT_GT(girth->stretched_mm, 74 * M_PI - 1);
+    EXPECT_LT(girth->stretched_mm, 80 * M_PI + 1);
+  }
+}
+
+}  // namespace
+}  // namespace instep

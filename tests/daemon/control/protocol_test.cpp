@@ -1,0 +1,62 @@
+#include "daemon/control/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+
+namespace instep {
+namespace {
+
+TEST(Protocol, UnderstandsEveryVerb) {
+  for (const auto* line :
+       {R"({"verb":"scan"})", R"({"verb":"cancel"})", R"({"verb":"status"})", R"({"verb":"watch"})",
+        R"({"verb":"list"})", R"({"verb":"show","id":"latest"})", R"({"verb":"export","id":"x"})",
+        R"({"verb":"delete","id":"x"})"}) {
+    EXPECT_TRUE(parse_request(line)) << line;
+  }
+}
+
+TEST(Protocol, RefusesWhatIsNoRequest) {
+  for (const auto* line :
+       {"", " ", "scan", "[]", "null", "{}", "{", R"({"verb":1})", R"({"verb":"fly"})",
+        R"({"verb":"show"})", R"({"verb":"scan","id":"x"})", R"({"verb":"delete","id":"latest"})",
+        R"({"verb":"show","id":7})", R"({"verb":"scan","force":true})", "\xff\xfe"}) {
+    const auto request = parse_request(line);
+    ASSERT_FALSE(request) << line;
+    EXPECT_EQ(request.error().code, ErrorCode::kInvalidInput) << line;
+  }
+}
+
+TEST(Protocol, NeverThrowsOnGarbage) {
+  std::mt19937_64 random(3);
+  const std::string alphabet = "{}[]\",:\\u0verbscanid \x80\xff\n";
+  for (int i = 0; i < 20000; ++i) {
+    std::string line(random() % 60, ' ');
+    for (auto& letter : line) letter = alphabet[random() % alphabet.size()];
+    (void)parse_request(line);
+  }
+  (void)parse_request(std::string(kLongestRequest, '['));
+}
+
+TEST(Protocol, CarriesErrorsWhole) {
+  const Error error{ErrorCode::kNoSpace, Remedy::kOperator, "full", "make room"};
+  const auto outcome = answer_outcome(nlohmann::json::parse(error_answer(error)));
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, error.code);
+  EXPECT_EQ(outcome.error().line(), error.line());
+  EXPECT_TRUE(answer_outcome(nlohmann::json::parse(ok_answer({}))));
+  EXPECT_FALSE(answer_outcome(nlohmann::json::parse("[]")));
+}
+
+TEST(Protocol, SurvivesTextThatIsNoUnicode) {
+  const Error error{ErrorCode::kIo, Remedy::kOperator,
+                    "a\xff"
+                    "b",
+                    ""};
+  EXPECT_NE(error_answer(error).find("\"ok\":false"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,129 @@
+#include "daemon/store/result_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "daemon/scan/scan_record.h"
+#include "daemon/store/posix_storage.h"
+#include "daemon/store/scan_id.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+using testing::ElementsAre;
+
+class ResultStoreOnDisk : public testing::Test {
+ protected:
+  ResultStoreOnDisk() : store(std::make_shared<PosixStorage>(), folder.path() / "scans") {
+    EXPECT_TRUE(store.prepare());
+  }
+  void put(const std::string& id) { ASSERT_TRUE(store.put(id, {"{}", "ply", "<svg/>"})); }
+
+  test::TemporaryFolder folder;
+  ResultStore store;
+};
+
+mode_t mode(const std::filesystem::path& path) {
+  struct stat there {};
+  EXPECT_EQ(::stat(path.c_str(), &there), 0);
+  return there.st_mode & 07777;
+}
+
+TEST_F(ResultStoreOnDisk, LaysAResultInTheFolderOfItsDayForTheGroupToRead) {
+  const auto at = store.put("20261121T091502417Z-k3f9", {"{}", "ply", "<svg/>"});
+  ASSERT_TRUE(at);
+  EXPECT_EQ(*at, folder.path() / "scans/2026/11/21/20261121T091502417Z-k3f9");
+  EXPECT_EQ(mode(*at), 0750U);
+  EXPECT_EQ(mode(folder.path() / "scans/2026"), 0750U);
+  for (const auto* file : {"result.json", "cloud.ply", "sections.svg"}) {
+    EXPECT_EQ(mode(*at / file), 0640U) << file;
+  }
+}
+
+TEST_F(ResultStoreOnDisk, ListsNewestFirstAndFindsTheLatest) {
+  put("20251231T235959999Z-aaaa");
+  put("20261121T091502417Z-k3f9");
+  put("20261121T091502416Z-zzzz");
+  EXPECT_THAT(*store.list(), ElementsAre("20261121T091502417Z-k3f9", "20261121T091502416Z-zzzz",
+                                         "20251231T235959999Z-aaaa"));
+  EXPECT_EQ(*store.find("latest"), "20261121T091502417Z-k3f9");
+  EXPECT_EQ(store.find("20261121T091502417Z-aaaa").error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(ResultStoreOnDisk, RefusesIdsThatLeadElsewhere) {
+  for (const auto* id : {"", "..", "../../../etc", "20261121T091502417Z-k3/9", "latest/..",
+                         "20261121T091502417Z-k3f9x", "2026112xT091502417Z-k3f9"}) {
+    EXPECT_EQ(store.find(id).error().code, ErrorCode::kInvalidInput) << id;
+    EXPECT_FALSE(store.put(id, {})) << id;
+    EXPECT_FALSE(store.remove(id)) << id;
+  }
+}
+
+TEST_F(ResultStoreOnDisk, ClearsWhatAnEarlierRunLeft) {
+  put("20261121T091502417Z-k3f9");
+  const auto day = folder.path() / "scans/2026/11/21";
+  std::filesystem::create_directory(day / ".writing-20261121T091502418Z-aaaa");
+  std::ofstream(day / ".writing-20261121T091502418Z-aaaa/cloud.ply") << "half";
+  std::filesystem::create_directory(day / ".deleting-20261121T091502419Z-aaaa");
+  EXPECT_EQ(*store.prepare(), 2U);
+  EXPECT_EQ(*store.prepare(), 0U);
+  EXPECT_THAT(*store.list(), ElementsAre("20261121T091502417Z-k3f9"));
+}
+
+TEST_F(ResultStoreOnDisk, PassesOverWhatIsNotItsOwn) {
+  put("20261121T091502417Z-k3f9");
+  std::filesystem::create_directories(folder.path() / "scans/notes/of");
+  std::ofstream(folder.path() / "scans/2026/README") << "mine";
+  EXPECT_EQ(store.list()->size(), 1U);
+}
+
+TEST_F(ResultStoreOnDisk, KeepsTheNewestOfTooMany) {
+  for (const auto* id :
+       {"20261101T000000000Z-aaaa", "20261102T000000000Z-aaaa", "20261103T000000000Z-aaaa"}) {
+    put(id);
+  }
+  const auto now = *time_of_scan_id("20261104T000000000Z-aaaa");
+  EXPECT_EQ(*store.sweep({}, now), 0U);
+  EXPECT_EQ(*store.sweep({.keep_days = 0, .keep_count = 2}, now), 1U);
+  EXPECT_THAT(*store.list(), ElementsAre("20261103T000000000Z-aaaa", "20261102T000000000Z-aaaa"));
+}
+
+TEST_F(ResultStoreOnDisk, RemovesWhatIsTooOld) {
+  put("20261101T000000000Z-aaaa");
+  put("20261103T000000000Z-aaaa");
+  const auto now = *time_of_scan_id("20261104T120000000Z-aaaa");
+  EXPECT_EQ(*store.sweep({.keep_days = 2, .keep_count = 0}, now), 1U);
+  EXPECT_THAT(*store.list(), ElementsAre("20261103T000000000Z-aaaa"));
+}
+
+TEST_F(ResultStoreOnDisk, NeverOverwritesAResult) {
+  put("20261121T091502417Z-k3f9");
+  EXPECT_FALSE(store.put("20261121T091502417Z-k3f9", {"other", "", ""}));
+  EXPECT_EQ(*store.read_result_json("20261121T091502417Z-k3f9"), "{}");
+}
+
+TEST(StorageError, NamesAFullDiskAndMissingRights) {
+  EXPECT_EQ(storage_error(ENOSPC, "writing", "/x").code, ErrorCode::kNoSpace);
+  EXPECT_EQ(storage_error(EDQUOT, "writing", "/x").code, ErrorCode::kNoSpace);
+  EXPECT_EQ(storage_error(EROFS, "writing", "/x").code, ErrorCode::kPermissionDenied);
+  EXPECT_EQ(storage_error(EIO, "writing", "/x").remedy, Remedy::kOperator);
+  EXPECT_THAT(storage_error(ENOSPC, "writing", "/x").line(), testing::HasSubstr("disk"));
+}
+
+TEST(ScanId, IsSortableByTimeAndUnlikeAnyOther) {
+  using namespace std::chrono;
+  const auto time = sys_days(2026y / 11 / 21) + 9h + 15min + 2s + 417ms;
+  const auto id = new_scan_id(time);
+  EXPECT_EQ(id.substr(0, 20), "20261121T091502417Z-");
+  EXPECT_TRUE(is_scan_id(id));
+  EXPECT_EQ(*time_of_scan_id(id), time - 417ms);
+  EXPECT_LT(id.substr(0, 19), new_scan_id(time + 1ms).substr(0, 19));
+  EXPECT_FALSE(time_of_scan_id("20261321T091502417Z-aaaa"));
+}
+
+}  // namespace
+}  // namespace instep
