@@ -1,0 +1,18 @@
+#include "daemon/report/number_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace instep {
+
+std::string interval_text(double value, const std::optional<double>& u95) {
+  return u95 ? fmt::format("{:.1f} ± {:.1f}", value, *u95) : fmt::format("{:.1f}", value);
+}
+
+std::string as_words(std::string id) {
+  std::replace(id.begin(), id.end(), '_', ' ');
+  return id;
+}
+
+}  // namespace instep

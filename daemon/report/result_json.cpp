@@ -1,0 +1,156 @@
+#include "daemon/report/result_json.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+namespace instep {
+namespace {
+
+constexpr double kMondopointStepMm = 5.0;
+
+Json number(double value, double step = 0.001) {
+  if (!std::isfinite(value)) return nullptr;
+  const double per_unit = std::round(1.0 / step);
+  const double rounded = std::round(value * per_unit) / per_unit;
+  return rounded == 0.0 ? 0.0 : rounded;
+}
+
+Json number(const std::optional<double>& value) {
+  return value ? number(*value) : Json(nullptr);
+}
+
+Json coordinates(const Eigen::Vector3d& point) {
+  return Json::array({number(point.x()), number(point.y()), number(point.z())});
+}
+
+Json matrix(const RigidTransform& transform) {
+  Json rows = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      rows.push_back(number(transform.matrix()(row, column), 1e-9));
+    }
+  }
+  return rows;
+}
+
+Json numbers(const std::map<std::string, double>& values) {
+  Json object = Json::object();
+  for (const auto& [name, value] : values) object[name] = number(value);
+  return object;
+}
+
+/// ISO 8601 in UTC, to the millisecond.
+std::string utc(std::chrono::system_clock::time_point time) {
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(time);
+  const auto milliseconds = std::chrono::floor<std::chrono::milliseconds>(time - seconds).count();
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)), milliseconds);
+}
+
+Json landmark_json(const Landmark& landmark) {
+  return {{"xyz_mm", coordinates(landmark.position_mm)},
+          {"confidence", number(landmark.confidence)},
+          {"rule", landmark.rule}};
+}
+
+Json measure_json(const Measure& measure) {
+  Json json{{"id", measure.id},
+            {"value_mm", number(measure.value_mm)},
+            {"u95_mm", number(measure.u95_mm)}};
+  if (measure.girth) {
+    json["stretched_mm"] = number(measure.girth->stretched_mm);
+    json["contact_mm"] = number(measure.girth->contact_mm);
+    json["largest_gap_mm"] = number(measure.girth->largest_gap_mm);
+  }
+  if (measure.plane) {
+    json["plane"] = Json::array();
+    for (const auto& point : measure.plane->control_points()) {
+      json["plane"].push_back(coordinates(point));
+    }
+  }
+  json["definition"] = measure.definition;
+  json["warnings"] = measure.warnings;
+  return json;
+}
+
+Json sizes_json(const MeasureSet& measures) {
+  Json sizes = Json::object();
+  const Measure* length = measures.find("foot_length");
+  if (length != nullptr && std::isfinite(length->value_mm)) {
+    sizes["mondopoint_mm"] = kMondopointStepMm * std::round(length->value_mm / kMondopointStepMm);
+    sizes["guide"] = "the foot length rounded to 5 mm: a guide, the shoe decides";
+  }
+  return sizes;
+}
+
+Json device_json(const CameraDescription& device) {
+  return {{"id", device.geometry.id},
+          {"model", device.model},
+          {"serial", device.serial},
+          {"depth_unit_mm", number(device.depth_unit_mm, 1e-6)},
+          {"simulated", device.simulated}};
+}
+
+}  // namespace
+
+Json girth_json(const std::string& method, const Girth& girth, const GirthTimes& times) {
+  return {{"method", method},
+          {"stretched_mm", number(girth.stretched_mm)},
+          {"contact_mm", number(girth.contact_mm)},
+          {"stretched_u95_mm", number(girth.stretched_u95_mm)},
+          {"contact_u95_mm", number(girth.contact_u95_mm)},
+          {"points", girth.points},
+          {"band_points", girth.band_points},
+          {"sigma_mm", number(girth.sigma_mm, 1e-6)},
+          {"largest_gap_mm", number(girth.largest_gap_mm)},
+          {"warnings", girth.warnings},
+          {"elapsed_ms",
+           {{"read", number(times.read_ms)},
+            {"measure", number(times.measure_ms)},
+            {"total", number(times.total_ms)}}}};
+}
+
+Json foot_json(const FootScan& foot, const MeasureSet& measures) {
+  Json json{{"side", to_string(foot.side)},
+            {"side_confidence", number(foot.side_confidence)},
+            {"frame", matrix(foot.foot_from_input)},
+            {"axis", "pt_toe2"}};
+  json["landmarks"] = Json::object();
+  for (const auto& [name, landmark] : foot.landmarks) {
+    json["landmarks"][name] = landmark_json(landmark);
+  }
+  json["measures"] = Json::array();
+  for (const auto& measure : measures.measures) json["measures"].push_back(measure_json(measure));
+  json["withheld"] = Json::array();
+  for (const auto& withheld : measures.withheld) {
+    json["withheld"].push_back({{"id", withheld.id}, {"reason", withheld.reason}});
+  }
+  json["sizes"] = sizes_json(measures);
+  json["warnings"] = foot.warnings;
+  return json;
+}
+
+Json result_json(const ScanRecord& record) {
+  Json json{{"id", record.id},
+            {"time", utc(record.time)},
+            {"station", record.station},
+            {"software", {{"name", "instep"}, {"version", INSTEP_VERSION}}}};
+  json["devices"] = Json::array();
+  for (const auto& device : record.devices) json["devices"].push_back(device_json(device));
+  json["calibration"] = record.calibration;
+  json["simulated"] = record.simulated;
+  json["timings_ms"] = numbers(record.timings_ms);
+  json["quality"] = numbers(record.quality);
+  Json foot = foot_json(record.foot, record.measures);
+  std::vector<std::string> warnings = record.warnings;
+  warnings.insert(warnings.end(), record.foot.warnings.begin(), record.foot.warnings.end());
+  foot["warnings"] = warnings;
+  json.update(foot);
+  return json;
+}
+
+}  // namespace instep

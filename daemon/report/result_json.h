@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/foot/foot_scan.h"
+#include "core/foot/measure_set.h"
+#include "core/girth/girth.h"
+#include "daemon/scan/scan_record.h"
+
+namespace instep {
+
+/// Results as JSON, with the keys in a fixed order. Lengths are rounded to 0.001 mm; what is no
+/// finite number is null, so that the text is always valid JSON.
+using Json = nlohmann::ordered_json;
+
+/// Milliseconds that `instep girth` took, by stage.
+struct GirthTimes {
+  double read_ms = 0.0;
+  double measure_ms = 0.0;
+  double total_ms = 0.0;
+};
+
+/// One girth, as `instep girth` prints it. `method` is the name that the user gave.
+Json girth_json(const std::string& method, const Girth& girth, const GirthTimes& times);
+
+/// A measured foot, as `instep measure` prints it: side, frame, landmarks, measures, those that
+/// were withheld and why, sizes, warnings.
+Json foot_json(const FootScan& foot, const MeasureSet& measures);
+
+/// A whole result, as result.json holds it: what came how and when, then the object of foot_json().
+Json result_json(const ScanRecord& record);
+
+}  // namespace instep

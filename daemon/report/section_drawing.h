@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/foot/foot_scan.h"
+#include "core/foot/measure_set.h"
+
+namespace instep {
+
+/// The section of one girth, ready to be drawn: medial to the left, dorsal up, in millimetres with
+/// y downwards and the lowest point of the contour at y = 0.
+struct SectionDrawing {
+  std::vector<Eigen::Vector2d> contour;
+  std::vector<Eigen::Vector2d> tape;             ///< hull of the contour
+  std::vector<Eigen::Vector2d> seen_points;      ///< of the cloud, beside the plane
+  std::vector<Eigen::Vector2d> platform_points;  ///< put under a sole that nobody saw
+  double left = 0.0;
+  double right = 0.0;
+  double height = 0.0;
+};
+
+/// `measure` must have a girth and a plane; what is not finite is left out.
+SectionDrawing draw_section(const FootScan& foot, const Measure& measure);
+
+}  // namespace instep

@@ -1,0 +1,172 @@
+#include "daemon/report/sections_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "daemon/report/number_text.h"
+#include "daemon/report/plan_drawing.h"
+#include "daemon/report/section_drawing.h"
+#include "daemon/report/svg_text.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kMarginPx = 48.0;
+constexpr double kLeastPageWidthPx = 900.0;
+constexpr double kPixelsPerMm = 3.0;
+constexpr double kBetweenPx = 56.0;
+constexpr double kPlanTopPx = 120.0;
+constexpr double kPlanWidthPx = 560.0;
+constexpr double kPlanHeightPx = 230.0;
+constexpr double kSectionsTopPx = kPlanTopPx + 322.0;
+constexpr double kBelowSectionsPx = 150.0;
+constexpr double kRulerMm = 50.0;
+
+constexpr const char* kStyle = R"(<style>
+text { font-family: "Source Serif 4", Georgia, "DejaVu Serif", serif; fill: #3b3028; }
+.title { font-size: 30px; }
+.note { font-size: 13px; fill: #8a7b6c; }
+.row { font-size: 15px; }
+.value { font-size: 15px; text-anchor: end; font-weight: bold; }
+.name { font-size: 13px; text-anchor: middle; fill: #8a4b20; }
+.length { font-size: 15px; text-anchor: middle; font-weight: bold; }
+.heading { font-size: 18px; text-anchor: middle; }
+.number { font-size: 26px; text-anchor: middle; font-weight: bold; }
+.middle { font-size: 13px; text-anchor: middle; fill: #8a7b6c; }
+.doubt { font-size: 12px; fill: #a8552a; }
+.side { font-size: 12px; fill: #8a7b6c; text-anchor: middle; font-style: italic; }
+.skin { fill: #f3dfcb; stroke: #7a5a42; stroke-width: 1.4; stroke-linejoin: round; }
+.tape { fill: none; stroke: #d9822b; stroke-width: 4; stroke-linejoin: round; }
+.seen, .platform, .cloud, .mark { fill: none; stroke-linecap: round; }
+.seen { stroke: #2f5d7c; opacity: 0.75; }
+.platform { stroke: #b9aa9a; }
+.cloud { stroke: #b79f88; }
+.mark { stroke: #3b3028; }
+.rule { stroke: #3b3028; stroke-width: 1.2; }
+.floor { stroke: #cdbfae; stroke-width: 1.2; }
+</style>
+)";
+
+struct Panel {
+  const Measure* measure = nullptr;
+  SectionDrawing drawing;
+
+  double width_px() const { return kPixelsPerMm * (drawing.right - drawing.left); }
+};
+
+std::vector<Panel> draw_panels(const FootScan& foot, const MeasureSet& measures) {
+  std::vector<Panel> panels;
+  for (const auto& measure : measures.measures) {
+    if (!measure.girth || !measure.plane) continue;
+    Panel panel{&measure, draw_section(foot, measure)};
+    if (panel.drawing.contour.size() >= 3) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+std::vector<Vector2d> placed(const std::vector<Vector2d>& points, const Vector2d& origin) {
+  std::vector<Vector2d> on_page;
+  on_page.reserve(points.size());
+  for (const auto& point : points) on_page.push_back(origin + kPixelsPerMm * point);
+  return on_page;
+}
+
+/// One section on its base line; `left` is where its leftmost point comes to lie.
+std::string panel_svg(const Panel& panel, double left, double base_line) {
+  const SectionDrawing& drawing = panel.drawing;
+  const Vector2d origin(left - kPixelsPerMm * drawing.left, base_line);
+  const double middle = left + panel.width_px() / 2.0;
+  const double top = base_line - kPixelsPerMm * drawing.height;
+  const Girth& girth = *panel.measure->girth;
+  std::string text = svg::line({left - 14.0, base_line + 3.0},
+                               {left + panel.width_px() + 14.0, base_line + 3.0}, "floor");
+  text += svg::polygon(placed(drawing.tape, origin), "tape");
+  text += svg::polygon(placed(drawing.contour, origin), "skin");
+  text += svg::dots(placed(drawing.platform_points, origin), 1.3, "platform");
+  text += svg::dots(placed(drawing.seen_points, origin), 1.3, "seen");
+  text += svg::label({middle, top - 12.0}, "side", "dorsal");
+  text += svg::label({middle, base_line + 20.0}, "side", "plantar");
+  text += svg::label({left + 10.0, base_line + 20.0}, "side", "medial");
+  text += svg::label({left + panel.width_px() - 10.0, base_line + 20.0}, "side", "lateral");
+  text += svg::label({middle, base_line + 52.0}, "heading", as_words(panel.measure->id));
+  text += svg::label({middle, base_line + 82.0}, "number",
+                     interval_text(panel.measure->value_mm, panel.measure->u95_mm) + " mm");
+  text += svg::label({middle, base_line + 102.0}, "middle",
+                     fmt::format("along the skin {:.1f} mm", girth.contact_mm));
+  return text;
+}
+
+std::string title(const FootScan& foot, double width) {
+  return svg::label({kMarginPx, 62.0}, "title",
+                    foot.side == Side::kLeft ? "Left foot" : "Right foot") +
+         svg::label({kMarginPx, 86.0}, "note",
+                    "stretched tape in orange, points of the scan in blue; all sections to one "
+                    "scale, seen with the medial side on the left") +
+         svg::line({kMarginPx, 100.0}, {width - kMarginPx, 100.0}, "floor");
+}
+
+/// All measures in a table beside the foot from above.
+std::string table(const MeasureSet& measures, double left, double right) {
+  std::string text;
+  double y = kPlanTopPx + 24.0;
+  for (const auto& measure : measures.measures) {
+    text += svg::label({left, y}, "row", as_words(measure.id));
+    text +=
+        svg::label({right, y}, "value", interval_text(measure.value_mm, measure.u95_mm) + " mm");
+    text += svg::line({left, y + 8.0}, {right, y + 8.0}, "floor");
+    y += 30.0;
+  }
+  for (const auto& withheld : measures.withheld) {
+    text += svg::label({left, y}, "doubt", as_words(withheld.id) + ": not measured");
+    y += 22.0;
+  }
+  return text;
+}
+
+std::string ruler(double y) {
+  const Vector2d from(kMarginPx, y);
+  const Vector2d to(kMarginPx + kPixelsPerMm * kRulerMm, y);
+  const Vector2d tick(0.0, 4.0);
+  return svg::line(from, to, "rule") + svg::line(from - tick, from + tick, "rule") +
+         svg::line(to - tick, to + tick, "rule") +
+         svg::label(to + Vector2d(10.0, 5.0), "note", fmt::format("{:.0f} mm", kRulerMm));
+}
+
+}  // namespace
+
+std::string sections_svg(const FootScan& foot, const MeasureSet& measures) {
+  const auto panels = draw_panels(foot, measures);
+  double row_width = 0.0;
+  double tallest = 0.0;
+  for (const auto& panel : panels) {
+    row_width += panel.width_px() + (row_width > 0.0 ? kBetweenPx : 0.0);
+    tallest = std::max(tallest, kPixelsPerMm * panel.drawing.height);
+  }
+  const double width = std::max(kLeastPageWidthPx, row_width + 2.0 * kMarginPx);
+  const double base_line = kSectionsTopPx + tallest;
+  const double height = base_line + kBelowSectionsPx;
+
+  std::string page = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
+      "viewBox=\"0 0 {0:.0f} {1:.0f}\">\n",
+      width, height);
+  page += kStyle;
+  page += "<rect width=\"100%\" height=\"100%\" fill=\"#fdfaf5\"/>\n";
+  page += title(foot, width);
+  page += plan_drawing(foot, measures, {kMarginPx, kPlanTopPx}, {kPlanWidthPx, kPlanHeightPx});
+  page += table(measures, kMarginPx + kPlanWidthPx + 40.0, width - kMarginPx);
+  double left = (width - row_width) / 2.0;
+  for (const auto& panel : panels) {
+    page += panel_svg(panel, left, base_line);
+    left += panel.width_px() + kBetweenPx;
+  }
+  if (!panels.empty()) page += ruler(height - 24.0);
+  return page + "</svg>\n";
+}
+
+}  // namespace instep

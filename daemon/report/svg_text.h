@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace instep::svg {
+
+/// The text with the five characters of XML escaped and control characters left out.
+std::string escaped(std::string_view text);
+
+/// Points as an attribute value, "x,y x,y ...", to a tenth of a pixel.
+std::string point_list(const std::vector<Eigen::Vector2d>& points);
+
+/// A closed shape, and small round dots, of a class of the page's style sheet.
+std::string polygon(const std::vector<Eigen::Vector2d>& points, std::string_view style);
+std::string dots(const std::vector<Eigen::Vector2d>& points, double radius, std::string_view style);
+
+/// A line of text; `style` names its class.
+std::string label(const Eigen::Vector2d& place, std::string_view style, std::string_view text);
+
+/// A straight line.
+std::string line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::string_view style);
+
+}  // namespace instep::svg
