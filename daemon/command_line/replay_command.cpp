@@ -42,14 +42,15 @@ Result<Capture> read_capture(const std::string& folder) {
 
 /// The object of a result; with its folder if it is to be kept.
 Result<json> result_of(const ScanRecord& record, ResultStore* store) {
-  const ResultContent content = content_of(record);
-  json result = json::parse(content.result_json, nullptr, /*allow_exceptions=*/false);
+  const auto content = content_of(record);
+  if (!content) return tl::make_unexpected(content.error());
+  json result = json::parse(content->result_json, nullptr, /*allow_exceptions=*/false);
   if (!result.is_object()) {
     return fail(ErrorCode::kInternal, "a result is no JSON object", "report this");
   }
   result["folder"] = nullptr;
   if (store != nullptr) {
-    const auto folder = store->put(record.id, content);
+    const auto folder = store->put(record.id, *content);
     if (!folder) return tl::make_unexpected(folder.error());
     result["folder"] = folder->string();
   }
