@@ -85,6 +85,7 @@ void read_simulation(SettingsTable& table, SimulatedStationSettings& simulation,
   table.choose(
       "pacing", simulation.pacing,
       {{"real-time", SimulatedPacing::kRealTime}, {"fast", SimulatedPacing::kAsFastAsPossible}});
+  table.read("truth", simulation.truth);
   table.read("fault_script", simulation.fault_script, base);
 }
 

@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     instep::add_cloud_commands(app, exit_code);
     instep::add_recording_commands(app, exit_code);
+    instep::add_station_commands(app, exit_code);
+    instep::add_doctor_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return app.exit(success);  // --help or --version

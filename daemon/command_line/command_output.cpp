@@ -29,7 +29,7 @@ Result<void> print_text(std::string_view text) {
               "check where the output goes");
 }
 
-Result<void> print_json(const nlohmann::json& object) {
+Result<void> print_json(const nlohmann::ordered_json& object) {
   return print_text(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 

@@ -22,8 +22,8 @@ void print_error(const Error& error);
 /// Prints text to stdout. Fails if stdout takes it not: a full disk, a closed pipe.
 Result<void> print_text(std::string_view text);
 
-/// Prints one JSON object and a line end to stdout. Names that are no UTF-8 are mended.
-Result<void> print_json(const nlohmann::json& object);
+/// Prints one JSON object, in the order of its keys, and a line end to stdout. Names that are no UTF-8 are mended.
+Result<void> print_json(const nlohmann::ordered_json& object);
 
 /// The exit code for the outcome of a command, whose error is printed.
 int finish_command(const Result<void>& outcome);

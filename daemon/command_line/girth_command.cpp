@@ -19,7 +19,7 @@ namespace instep {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr const char* kExamples =
     R"(The plane is given by three points, in millimetres. Examples:

@@ -14,7 +14,7 @@
 namespace instep {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr const char* kExamples = R"(Prints {"results": [...]}, one object for each foot. Examples:
   instep replay visit
@@ -42,14 +42,15 @@ Result<Capture> read_capture(const std::string& folder) {
 
 /// The object of a result; with its folder if it is to be kept.
 Result<json> result_of(const ScanRecord& record, ResultStore* store) {
-  const ResultContent content = content_of(record);
-  json result = json::parse(content.result_json, nullptr, /*allow_exceptions=*/false);
+  const auto content = content_of(record);
+  if (!content) return tl::make_unexpected(content.error());
+  json result = json::parse(content->result_json, nullptr, /*allow_exceptions=*/false);
   if (!result.is_object()) {
     return fail(ErrorCode::kInternal, "a result is no JSON object", "report this");
   }
   result["folder"] = nullptr;
   if (store != nullptr) {
-    const auto folder = store->put(record.id, content);
+    const auto folder = store->put(record.id, *content);
     if (!folder) return tl::make_unexpected(folder.error());
     result["folder"] = folder->string();
   }
@@ -71,8 +72,7 @@ Result<void> run(const ReplayCommand& command) {
       });
   if (!records) return tl::make_unexpected(records.error());
 
-  PosixStorage storage;
-  ResultStore store(storage, command.out);
+  ResultStore store(std::make_shared<PosixStorage>(), command.out);
   if (!command.out.empty()) {
     if (auto ready = store.prepare(); !ready) return tl::make_unexpected(ready.error());
   }

@@ -52,6 +52,15 @@ Result<std::string> read_fault_script(const std::filesystem::path& path) {
   return text;
 }
 
+/// Two feet are told apart by their side before each id.
+void add_truth(const std::vector<SubjectTruth>& bodies, std::map<std::string, double>& truth) {
+  for (const auto& body : bodies) {
+    const bool apart = bodies.size() > 1 && body.side;
+    const std::string prefix = apart ? std::string(to_string(*body.side)) + "_" : "";
+    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
+  }
+}
+
 Result<void> add_simulated(const SimulatedStationSettings& chosen, Devices& devices) {
   auto script = read_fault_script(chosen.fault_script);
   if (!script) return tl::make_unexpected(script.error());
@@ -69,8 +78,10 @@ Result<void> add_simulated(const SimulatedStationSettings& chosen, Devices& devi
   auto station = build_station(settings);
   if (!station) return tl::make_unexpected(station.error());
   for (auto& camera : station->cameras) devices.cameras.push_back(std::move(camera));
-  for (auto& truth : station->truth) {
-    devices.truth.push_back({truth.side, std::move(truth.measures)});
+  if (chosen.truth) {
+    const auto truth = station->truth();
+    if (!truth) return tl::make_unexpected(truth.error());
+    add_truth(*truth, devices.truth);
   }
   devices.platform_height_mm = station->platform_height_mm;
   devices.calibration = "simulated: exact poses";
@@ -89,6 +100,7 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
     devices.cameras.push_back(std::move(*camera));
   }
   devices.platform_height_mm = recording->platform_height_mm;
+  devices.truth = recording->truth;
   devices.calibration = "as the recording says";
   devices.simulated = devices.simulated || recording->simulated;
   return {};

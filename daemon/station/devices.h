@@ -7,18 +7,11 @@
 #include <vector>
 
 #include "config/settings.h"
-#include "core/foot/side.h"
 #include "core/result.h"
 #include "drivers/depth_camera.h"
 #include "drivers/pedal.h"
 
 namespace instep {
-
-/// The measures of one simulated body, known from its shape: measure id -> value.
-struct KnownTruth {
-  std::optional<Side> side;  ///< nothing = not a foot
-  std::map<std::string, double> measures;
-};
 
 /// What the settings say is plugged in, opened.
 struct Devices {
@@ -26,7 +19,7 @@ struct Devices {
   std::optional<double> platform_height_mm;  ///< as the cameras' source says it
   std::string calibration;                   ///< where the cameras' poses come from
   bool simulated = false;
-  std::vector<KnownTruth> truth;  ///< of simulated bodies
+  std::map<std::string, double> truth;  ///< as Capture::truth
 };
 
 /// The one place that knows the camera families: a new one is a new case here. May take some

@@ -45,6 +45,7 @@ class ScanSession {
     capture.platform_height_mm = tools_.platform_height_mm;
     capture.simulated = tools_.simulated;
     capture.calibration = tools_.calibration;
+    capture.truth = tools_.truth;
     return capture;
   }
 
@@ -61,7 +62,9 @@ class ScanSession {
     listener_.on_progress("store", kCaptureShare + kMeasureShare);
     for (const auto& record : records) {
       progress_.step();
-      auto folder = tools_.store->put(record.id, content_of(record));
+      const auto content = content_of(record);
+      if (!content) return failed(content.error());
+      auto folder = tools_.store->put(record.id, *content);
       if (!folder) {
         outcome.error = folder.error();
         outcome.store_failed = true;

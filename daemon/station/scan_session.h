@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ struct ScanTools {
   std::optional<double> platform_height_mm;
   std::string calibration;
   bool simulated = false;
-  std::vector<KnownTruth> truth;
+  std::map<std::string, double> truth;
   MeasureCapture measure;
   std::shared_ptr<ResultStore> store;
 };

@@ -14,7 +14,8 @@ struct ResultContent {
   std::string sections_svg;
 };
 
-/// Serialises a record. Pure; some milliseconds for a usual cloud.
-ResultContent content_of(const ScanRecord& record);
+/// Serialises a record. Pure; some milliseconds for a usual cloud. Fails with kInvalidInput on a cloud
+/// that contradicts itself.
+Result<ResultContent> content_of(const ScanRecord& record);
 
 }  // namespace instep

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/recording/recording_reader.h"
+#include "tests/support/run_program.h"
+#include "tests/support/small_recording.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPlane = "0,0,50,1,0,50,0,1,50";
+
+class BadInput : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& bytes) {
+    std::ofstream(folder_.path() / name, std::ios::binary) << bytes;
+    return folder_.path() / name;
+  }
+
+  /// The program must end with that code, one line on stderr that holds `said`, and no output.
+  static void expect_failure(const std::vector<std::string>& arguments, int exit_code,
+                             const std::string& said) {
+    const auto run = test::run_program("instep", arguments);
+    EXPECT_EQ(run.exit_code, exit_code) << run.errors;
+    EXPECT_EQ(run.output, "");
+    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+    EXPECT_EQ(run.errors.substr(0, 8), "instep: ");
+    EXPECT_NE(run.errors.find(said), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find(": ", 8), std::string::npos) << "no advice: " << run.errors;
+  }
+
+  static void expect_bad_girth(const std::string& cloud, const std::string& said,
+                               const std::string& plane = kPlane) {
+    for (const char* method : {"rbf", "hull"}) {
+      expect_failure({"girth", cloud, "--plane", plane, "--method", method}, 1, said);
+    }
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+/// A cylinder of radius 40 mm and 100 mm height, 4 mm between points.
+std::string cylinder(double scale = 1.0) {
+  std::string text;
+  for (int ring = 0; ring <= 25; ++ring) {
+    for (int i = 0; i < 64; ++i) {
+      const double angle = i * 0.09817477042468103;
+      text += std::to_string(scale * 40.0 * std::cos(angle)) + " " +
+              std::to_string(scale * 40.0 * std::sin(angle)) + " " +
+              std::to_string(scale * 4.0 * ring) + "\n";
+    }
+  }
+  return text;
+}
+
+TEST_F(BadInput, SoundCloudIsMeasuredAsJsonAlone) {
+  const auto run =
+      test::run_program("instep", {"girth", file("c.xyz", cylinder()), "--plane", kPlane});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "");
+  EXPECT_EQ(run.output.substr(0, 1), "{");
+  EXPECT_NE(run.output.find("\"stretched_mm\""), std::string::npos);
+}
+
+TEST_F(BadInput, WrongUsageIsTwo) {
+  const auto cloud = file("c.xyz", cylinder());
+  expect_failure({}, 2, "see instep --help");
+  expect_failure({"grith"}, 2, "--help");
+  expect_failure({"girth"}, 2, "see instep girth --help");
+  expect_failure({"girth", cloud}, 2, "--plane");
+  expect_failure({"girth", cloud, "--plane", kPlane, "--colour"}, 2, "--colour");
+  expect_failure({"girth", cloud, "--plane", kPlane, "--unit", "inch"}, 2, "--unit");
+  expect_failure({"girth", cloud, "--plane", kPlane, "--method", "magic"}, 2, "--method");
+  expect_failure({"girth", cloud, "--plane", kPlane, "--sigma-mm", "-1"}, 2, "--sigma-mm");
+  expect_failure({"girth", cloud, "--plane", kPlane, "--sigma-mm", "nan"}, 2, "--sigma-mm");
+  for (const char* plane :
+       {"", "1,2,3", "1,2,3,4,5,6,7,8,9,10", "1,2,3,4,5,6,7,8,", "nan,2,3,4,5,6,7,8,9",
+        "1,2,3,4,5,6,7,8,inf", "1,2,3,4,5,6,7,8,1e999", "a,b,c,d,e,f,g,h,i"}) {
+    expect_failure({"girth", cloud, std::string("--plane=") + plane}, 2, "plane");
+  }
+}
+
+TEST_F(BadInput, HelpAndVersionAreZero) {
+  EXPECT_EQ(test::run_program("instep", {"--help"}).exit_code, 0);
+  EXPECT_NE(test::run_program("instep", {"girth", "--help"}).output.find("Examples"),
+            std::string::npos);
+  EXPECT_EQ(test::run_program("instep", {"--version"}).output.substr(0, 7), "instep ");
+}
+
+TEST_F(BadInput, BadCloudsAreOne) {
+  expect_bad_girth(folder_.path() / "none.ply", "No such file");
+  expect_bad_girth(folder_.path(), "is a folder");
+  expect_bad_girth(file("empty.ply", ""), "is empty");
+  expect_bad_girth(file("three.xyz", "0 0 0\n50 0 0\n0 50 0\n"), "");
+  expect_bad_girth(file("same.xyz", "1 1 1\n1 1 1\n1 1 1\n1 1 1\n"), "the same");
+  expect_bad_girth(file("nan.xyz", cylinder() + "nan 0 0\n"), "no number");
+  expect_bad_girth(file("huge.xyz", cylinder() + "1e30 0 0\n"), "absurdly large");
+  expect_bad_girth(file("metres.xyz", cylinder(0.001)), "--unit m");
+  const auto sound = file("c.xyz", cylinder());
+  expect_bad_girth(sound, "", "0,0,900,1,0,900,0,1,900");
+  expect_bad_girth(sound, "on one line", "0,0,0,1,1,1,2,2,2");
+  expect_failure({"girth", sound, "--plane", kPlane, "--method", "section"}, 1, "no faces");
+}
+
+TEST_F(BadInput, ForbiddenFilesAreOne) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  const auto cloud = file("c.xyz", cylinder());
+  fs::permissions(cloud, fs::perms::none);
+  expect_bad_girth(cloud, "permissions");
+}
+
+TEST_F(BadInput, BadRecordingsAreOne) {
+  const auto visit = folder_.path() / "visit";
+  test::write_small_recording(visit);
+  const auto frame = visit / read_recording(visit)->frames[1].file;
+  expect_failure({"replay", folder_.path() / "none"}, 1, "No such file");
+  fs::resize_file(frame, fs::file_size(frame) / 2);
+  expect_failure({"replay", visit}, 1, "damaged PNG");
+  std::ofstream(frame, std::ios::binary) << "no PNG at all";
+  expect_failure({"replay", visit}, 1, "damaged PNG");
+  std::ofstream(visit / "recording.json") << "{\"format\": \"instep-recording\", \"version\": 1}";
+  expect_failure({"replay", visit}, 1, "\"cameras\" is missing");
+  std::ofstream(visit / "recording.json") << "[1, 2";
+  expect_failure({"replay", visit}, 1, "no JSON");
+}
+
+TEST_F(BadInput, SimulateRefusesAFolderThatHoldsSomething) {
+  file("mine.txt", "x");
+  expect_failure({"simulate", "--out", folder_.path(), "--subject", "cylinder", "--frames", "1"}, 1,
+                 "new folder");
+}
+
+}  // namespace
+}  // namespace instep

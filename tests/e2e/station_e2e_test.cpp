@@ -1,0 +1,242 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/mount.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "daemon/store/scan_id.h"
+#include "tests/support/station_process.h"
+
+namespace instep {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+using test::StationProcess;
+using testing::HasSubstr;
+
+constexpr auto kLong = 60000ms;
+
+/// The next event of a kind.
+Result<json> next_event(ControlClient& client, const std::string& kind) {
+  while (true) {
+    auto line = client.next(kLong);
+    if (!line || line->value("event", "") == kind) return line;
+  }
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Every folder with the name of a scan holds three whole files.
+void check_results(const std::filesystem::path& store, std::size_t& count) {
+  count = 0;
+  if (!std::filesystem::exists(store)) return;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(store)) {
+    if (!entry.is_directory() || !is_scan_id(entry.path().filename().string())) continue;
+    ++count;
+    const auto result = json::parse(bytes_of(entry.path() / "result.json"), nullptr, false);
+    ASSERT_TRUE(result.is_object()) << entry.path();
+    ASSERT_EQ(result.value("id", ""), entry.path().filename().string());
+    ASSERT_THAT(bytes_of(entry.path() / "sections.svg"), HasSubstr("</svg>")) << entry.path();
+    ASSERT_EQ(bytes_of(entry.path() / "cloud.ply").substr(0, 3), "ply") << entry.path();
+  }
+}
+
+std::size_t leftovers(const std::filesystem::path& store) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(store)) {
+    if (entry.path().filename().string().starts_with('.')) ++count;
+  }
+  return count;
+}
+
+TEST(Station, MakesAResultOfAPressOfThePedal) {
+  StationProcess station;
+  station.start();
+  ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  auto watching = station.connect();
+  ASSERT_TRUE(watching);
+  ASSERT_TRUE(watching->ask("watch"));
+  station.tap_pedal();
+  const auto result = next_event(*watching, "result");
+  ASSERT_TRUE(result) << station.log();
+  const std::filesystem::path folder = result->at("scans").at(0).at("folder").get<std::string>();
+  for (const auto* file : {"result.json", "cloud.ply", "sections.svg"}) {
+    EXPECT_GT(std::filesystem::file_size(folder / file), 0U) << file;
+  }
+  std::size_t count = 0;
+  check_results(station.store(), count);
+  EXPECT_EQ(count, 1U);
+}
+
+TEST(Station, IsReachedByEveryCommand) {
+  StationProcess station;
+  station.start();
+  const auto ready = station.run_instep("status --wait-ready 60");
+  ASSERT_EQ(ready.exit_code, 0) << ready.text;
+  const auto scan = station.run_instep("scan");
+  ASSERT_EQ(scan.exit_code, 0) << scan.text;
+  EXPECT_THAT(scan.text, HasSubstr("foot_length"));
+  EXPECT_EQ(station.run_instep("show latest").text, scan.text);
+  const auto list = station.run_instep("list");
+  const std::string id = list.text.substr(0, list.text.find('\n'));
+  ASSERT_TRUE(is_scan_id(id)) << list.text;
+  const auto out = station.folder() / "out";
+  EXPECT_EQ(station.run_instep("export " + id + " --out " + out.string()).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(out / id / "cloud.ply"));
+  const auto again = station.run_instep("export latest --out " + out.string());
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_THAT(again.text, HasSubstr("is there already"));
+  EXPECT_EQ(station.run_instep("delete " + id).exit_code, 0);
+  const auto gone = station.run_instep("show " + id);
+  EXPECT_EQ(gone.exit_code, 1);
+  EXPECT_THAT(gone.text, HasSubstr("there is no scan"));
+  EXPECT_EQ(station.run_instep("list").text, "");
+  EXPECT_EQ(leftovers(station.store()), 0U);
+}
+
+TEST(Station, IsSaidNotToRunByEveryCommandInOneLine) {
+  const StationProcess station;
+  for (const auto* command : {"scan", "status", "watch", "list", "show", "export latest",
+                              "delete 20261121T091502417Z-k3f9", "cancel"}) {
+    const auto output = station.run_instep(command);
+    EXPECT_EQ(output.exit_code, 1) << command;
+    EXPECT_THAT(output.text, HasSubstr("start it with")) << command;
+    EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
+  }
+}
+
+TEST(Station, EndsWithinASecondOfSigtermInTheMiddleOfAScan) {
+  for (const int ignored_lines : {0, 1, 2, 3}) {
+    StationProcess station;
+    station.start();
+    ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+    auto client = station.connect();
+    ASSERT_TRUE(client);
+    ASSERT_TRUE(client->ask("watch"));
+    ASSERT_TRUE(client->ask("scan"));
+    for (int i = 0; i < ignored_lines; ++i) ASSERT_TRUE(client->next(kLong));
+    station.signal(SIGTERM);
+    const auto exit_code = station.wait_for_exit(1500ms);
+    ASSERT_TRUE(exit_code) << station.log();
+    EXPECT_EQ(*exit_code, 0) << station.log();
+    std::size_t count = 0;
+    check_results(station.store(), count);
+    EXPECT_EQ(leftovers(station.store()), 0U);
+    EXPECT_FALSE(std::filesystem::exists(station.folder() / "control.sock"));
+  }
+}
+
+TEST(Station, KeepsItsSettingsWhenTheNewOnesAreFaulty) {
+  StationProcess station;
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  station.write_settings(StationProcess::small_settings() + "[pedal]\ndebounce_ms = 1\n");
+  station.signal(SIGHUP);
+  ASSERT_TRUE(station.wait_for("RELOADING=1", kLong));
+  ASSERT_TRUE(station.wait_for("READY=1", kLong));
+  EXPECT_THAT(station.log(), HasSubstr("pedal.debounce_ms = 1 is outside 5 to 200"));
+  station.write_settings(StationProcess::small_settings() + "[station]\nname = \"renamed\"\n");
+  station.signal(SIGHUP);
+  ASSERT_TRUE(station.wait_for("READY=1", kLong));
+  const auto scan = station.run_instep("scan --format json");
+  EXPECT_EQ(json::parse(scan.text, nullptr, false).value("station", ""), "renamed") << scan.text;
+}
+
+TEST(Station, StartsWithoutACameraAndSaysWhichIsMissing) {
+  StationProcess station("fault_script = \"faults.txt\"\n");
+  std::ofstream(station.folder() / "faults.txt") << "camera left: never starts\n";
+  station.start();
+  ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
+  ASSERT_TRUE(station.wait_for("STATUS=degraded", kLong)) << station.log();
+  const auto scan = station.run_instep("scan");
+  EXPECT_EQ(scan.exit_code, 1);
+  EXPECT_THAT(scan.text, HasSubstr("camera left"));
+}
+
+TEST(Station, RecoversACameraThatComesBack) {
+  StationProcess station("fault_script = \"faults.txt\"\n");
+  std::ofstream(station.folder() / "faults.txt")
+      << "camera left: vanish after 3 frames, return after 500 ms\n";
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  const auto scan = station.run_instep("scan");
+  if (scan.exit_code != 0) {
+    EXPECT_THAT(scan.text, HasSubstr("left"));
+    const auto ready = station.run_instep("status --wait-ready 20");
+    ASSERT_EQ(ready.exit_code, 0) << ready.text;
+    const auto next = station.run_instep("scan");
+    EXPECT_EQ(next.exit_code, 0) << next.text;
+  }
+}
+
+TEST(Station, RefusesASecondDaemonOnItsSocket) {
+  StationProcess station;
+  station.start();
+  ASSERT_TRUE(station.wait_for("READY=1", kLong));
+  const pid_t first = station.process();
+  station.start();
+  EXPECT_EQ(station.wait_for_exit(kLong), 1);
+  EXPECT_THAT(station.log(), HasSubstr("another instepd answers"));
+  ::kill(first, SIGTERM);
+}
+
+TEST(Station, FeedsTheWatchdogWhileItIsWell) {
+  StationProcess station;
+  station.start(2s);
+  ASSERT_TRUE(station.wait_for("READY=1", kLong));
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(station.wait_for("WATCHDOG=1", 1500ms));
+}
+
+TEST(Station, OutlivesRudeClients) {
+  StationProcess station;
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong));
+  std::mt19937_64 random(9);
+  std::vector<ControlClient> rude;
+  for (int i = 0; i < 60; ++i) {
+    auto client = station.connect();
+    ASSERT_TRUE(client);
+    // Far too long, and no line: the client that sends it is dropped.
+    (void)client->ask(std::string(random() % 20000, 'x'), "", 50ms);
+    if (i % 2 == 0) rude.push_back(std::move(*client));
+  }
+  rude.clear();
+  const auto status = station.run_instep("status");
+  EXPECT_EQ(status.exit_code, 0) << status.text;
+}
+
+TEST(Station, NamesAFullDiskAndRecoversFromIt) {
+  StationProcess station;
+  const auto disk = station.folder() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=8M") != 0) {
+    GTEST_SKIP() << "needs the right to mount a small disk";
+  }
+  std::ofstream(disk / "filler") << std::string(9 << 20, 'x');
+  station.set_store(disk / "scans");
+  station.start();
+  EXPECT_TRUE(station.wait_for("STATUS=", kLong));
+  EXPECT_EQ(station.run_instep("status --wait-ready 1").exit_code, 1);
+  const auto full = station.run_instep("scan");
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.text, HasSubstr("make room on the disk")) << station.log();
+  std::filesystem::remove(disk / "filler");
+  const auto next = station.run_instep("scan");
+  EXPECT_EQ(next.exit_code, 0) << next.text << station.log();
+  station.signal(SIGTERM);
+  EXPECT_EQ(station.wait_for_exit(5s), 0);
+  EXPECT_EQ(leftovers(disk), 0U);
+  ::umount(disk.c_str());
+}
+
+}  // namespace
+}  // namespace instep

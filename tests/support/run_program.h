@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace instep::test {
+
+/// What a program did.
+struct ProgramRun {
+  int exit_code = -1;  ///< 128 + the signal if it was killed
+  std::string output;
+  std::string errors;
+};
+
+/// Runs one of this project's programs with arguments and no terminal; throws if it cannot start.
+ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments);
+
+}  // namespace instep::test

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "daemon/control/control_client.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep::test {
+
+/// The real instepd in a folder of its own, watched through its notifications as systemd would.
+class StationProcess {
+ public:
+  /// A small simulated station that loses no time; `more` is added to its settings.
+  explicit StationProcess(const std::string& more_settings = "");
+  /// Kills it if it still runs.
+  ~StationProcess();
+  StationProcess(const StationProcess&) = delete;
+  StationProcess& operator=(const StationProcess&) = delete;
+
+  void write_settings(const std::string& toml) const;
+  static std::string small_settings();
+
+  void start(std::optional<std::chrono::microseconds> watchdog = std::nullopt);
+  void signal(int number) const;
+  /// The exit code, or minus the signal that ended it; nothing if it runs on.
+  std::optional<int> wait_for_exit(std::chrono::milliseconds limit);
+  pid_t process() const { return process_; }
+
+  /// True once a notification has held `text` (such as "READY=1", "STATUS=ready").
+  bool wait_for(const std::string& text, std::chrono::milliseconds limit);
+
+  Result<ControlClient> connect() const {
+    return ControlClient::connect(folder() / "control.sock");
+  }
+  /// Runs `instep` with these arguments against it.
+  struct Output {
+    int exit_code = -1;
+    std::string text;  ///< stdout and stderr
+  };
+  Output run_instep(const std::string& arguments) const;
+  void tap_pedal() const;
+
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  std::filesystem::path store() const { return store_; }
+  void set_store(const std::filesystem::path& store) { store_ = store; }
+  std::string log() const;
+
+ private:
+  TemporaryFolder folder_;
+  std::filesystem::path store_;
+  int notifications_ = -1;
+  std::string notified_;
+  pid_t process_ = -1;
+};
+
+}  // namespace instep::test
