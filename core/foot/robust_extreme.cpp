@@ -11,6 +11,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostExtreme = 5;
 constexpr double kSummitRadiusMm = 6.0;
+/// Deeper points are of another face: the sole behind the edge of a toe.
+constexpr double kDeepestMm = 2.0;
 constexpr std::size_t kFewestForSummit = 12;
 constexpr double kLargestCorrectionMm = 2.5;
 
@@ -79,6 +81,7 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
   for (const auto& point : points) {
     const Vector3d offset = point - start;
     if (offset.squaredNorm() > kSummitRadiusMm * kSummitRadiusMm) continue;
+    if (direction.dot(offset) < -kDeepestMm) continue;
     local.emplace_back(across.dot(offset), upright.dot(offset), direction.dot(offset));
   }
   if (local.size() < kFewestForSummit) return start;
