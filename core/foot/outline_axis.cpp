@@ -22,7 +22,7 @@ constexpr double kFirstOutlineHeightMm = 40.0;
 constexpr double kNarrowestShare = 0.26;  ///< breadth of the outline over its length
 constexpr double kBroadestShare = 0.58;
 constexpr double kHighestToeShare = 0.18;    ///< height at the toes' end over the length
-constexpr double kLowestInstepShare = 0.13;  ///< height in the rear half over the length
+constexpr double kLowestInstepShare = 0.18;  ///< height in the rear half over the length
 constexpr double kEndShare = 0.08;
 constexpr double kStrayShare = 0.02;
 

@@ -11,6 +11,8 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostExtreme = 5;
 constexpr double kSummitRadiusMm = 6.0;
+/// Deeper points are of another face: the sole behind the edge of a toe.
+constexpr double kDeepestMm = 2.0;
 constexpr std::size_t kFewestForSummit = 12;
 constexpr double kLargestCorrectionMm = 2.5;
 
@@ -69,6 +71,12 @@ Eigen::Vector2d summit(const Quadratic& surface) {
   return vertex.norm() < 0.5 * kSummitRadiusMm ? vertex : Eigen::Vector2d::Zero();
 }
 
+double second_furthest(LocalPoints local) {
+  std::nth_element(local.begin(), local.begin() + 1, local.end(),
+                   [](const Vector3d& a, const Vector3d& b) { return a.z() > b.z(); });
+  return local[1].z();
+}
+
 }  // namespace
 
 Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& direction) {
@@ -79,13 +87,16 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
   for (const auto& point : points) {
     const Vector3d offset = point - start;
     if (offset.squaredNorm() > kSummitRadiusMm * kSummitRadiusMm) continue;
+    if (direction.dot(offset) < -kDeepestMm) continue;
     local.emplace_back(across.dot(offset), upright.dot(offset), direction.dot(offset));
   }
   if (local.size() < kFewestForSummit) return start;
 
+  const double furthest = second_furthest(local);
   const Quadratic surface = robust_fit(std::move(local));
   const Eigen::Vector2d top = summit(surface);
-  const double reach = surface.dot(terms(top.x(), top.y()));
+  // A summit beyond what was seen would be a guess of the quadratic.
+  const double reach = std::min(surface.dot(terms(top.x(), top.y())), furthest);
   if (!(std::abs(reach) < kLargestCorrectionMm)) return start;
   return start + top.x() * across + top.y() * upright + reach * direction;
 }

@@ -1,0 +1,189 @@
+#include "core/foot/alignment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tests/support/foot_body.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using test::FootBody;
+
+RigidTransform turned(double angle, const Vector3d& axis, const Vector3d& shift) {
+  RigidTransform transform = RigidTransform::Identity();
+  transform.rotate(Eigen::AngleAxisd(angle, axis.normalized()));
+  transform.pretranslate(shift);
+  return transform;
+}
+
+double length(const FootScan& foot) {
+  return foot.landmarks.at("acropodion").position_mm.x() -
+         foot.landmarks.at("pternion").position_mm.x();
+}
+
+/// Extent of the body itself along the foot's axis: of a very dense cloud of it.
+double true_extent(const FootScan& foot) {
+  double least = 1e300;
+  double most = -1e300;
+  for (const auto& point : FootBody{260.0, 0.4}.points().positions) {
+    const double x = (foot.foot_from_input * point).x();
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  return most - least;
+}
+
+PointCloud cylinder(const Vector3d& axis, double radius, double length_mm) {
+  const Vector3d u = axis.unitOrthogonal();
+  const Vector3d v = axis.cross(u);
+  PointCloud cloud;
+  for (double along = 0.0; along <= length_mm; along += 3.0) {
+    for (int i = 0; i < 90; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 90;
+      cloud.positions.emplace_back(along * axis + radius * std::cos(angle) * u +
+                                   radius * std::sin(angle) * v);
+    }
+  }
+  return cloud;
+}
+
+PointCloud part_of(const PointCloud& cloud, bool (*keep)(const Vector3d&)) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (keep(cloud.positions[i])) indices.push_back(i);
+  }
+  return cloud.subset(indices);
+}
+
+TEST(Alignment, FindsHeelToesAndSide) {
+  const auto foot = align_foot(FootBody{}.points());
+  ASSERT_TRUE(foot) << foot.error().line();
+  EXPECT_EQ(foot->side, Side::kRight);
+  EXPECT_GT(foot->side_confidence, 0.9);
+  EXPECT_NEAR(length(*foot), true_extent(*foot), 0.3);
+  const Vector3d heel = foot->foot_from_input * Vector3d::Zero();
+  EXPECT_LT(heel.head<2>().norm(), 3.0);
+  EXPECT_LT(std::abs(foot->landmarks.at("toe2_tip").position_mm.y()), 0.1);
+}
+
+TEST(Alignment, GivesTheOtherSideForAMirroredFoot) {
+  const auto right = align_foot(FootBody{}.points());
+  const auto left = align_foot(test::mirrored(FootBody{}.points()));
+  ASSERT_TRUE(right && left);
+  EXPECT_EQ(left->side, Side::kLeft);
+  EXPECT_NEAR(left->side_confidence, right->side_confidence, 1e-6);
+  EXPECT_NEAR(length(*left), length(*right), 0.01);
+}
+
+TEST(Alignment, DoesNotDependOnWhereTheFootPoints) {
+  const auto straight = align_foot(FootBody{}.points());
+  ASSERT_TRUE(straight);
+  for (const double angle : {0.4, 1.7, 3.1, 4.4}) {
+    const auto moved =
+        transformed(turned(angle, Vector3d::UnitZ(), {400, -300, 77}), FootBody{}.points());
+    const auto foot = align_foot(moved);
+    ASSERT_TRUE(foot) << foot.error().line();
+    EXPECT_EQ(foot->side, Side::kRight);
+    EXPECT_NEAR(length(*foot), length(*straight), 0.05);
+  }
+}
+
+TEST(Alignment, FindsTheSoleWhenAnotherAxisPointsUp) {
+  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(1, 1, 0)}) {
+    const auto tipped =
+        transformed(turned(std::numbers::pi / 2, axis, {10, 20, 30}), FootBody{}.points());
+    const auto foot = align_foot(tipped);
+    ASSERT_TRUE(foot) << foot.error().line();
+    EXPECT_EQ(foot->side, Side::kRight);
+    EXPECT_NEAR(length(*foot), 260.0, 1.5);
+  }
+}
+
+TEST(Alignment, TakesTheFloorThatTheStationKnows) {
+  AlignmentOptions options;
+  options.standing_plane = StandingPlane{Vector3d::UnitZ(), -2.0};
+  const auto foot = align_foot(FootBody{}.points(), options);
+  ASSERT_TRUE(foot);
+  EXPECT_NEAR((foot->foot_from_input * Vector3d(100, 0, 0)).z(), 2.0, 1e-9);
+}
+
+TEST(Alignment, ObeysAForcedSide) {
+  AlignmentOptions options;
+  options.side = Side::kLeft;
+  const auto foot = align_foot(FootBody{}.points(), options);
+  ASSERT_TRUE(foot);
+  EXPECT_EQ(foot->side, Side::kLeft);
+  EXPECT_EQ(foot->side_confidence, 1.0);
+}
+
+TEST(Alignment, IsNotMovedByStrays) {
+  auto cloud = FootBody{}.points();
+  const auto clean = align_foot(cloud);
+  cloud.positions.emplace_back(290.0, 10.0, 15.0);
+  cloud.positions.emplace_back(-25.0, 5.0, 20.0);
+  const auto foot = align_foot(cloud);
+  ASSERT_TRUE(clean && foot);
+  EXPECT_NEAR(length(*foot), length(*clean), 0.5);
+}
+
+TEST(Alignment, DropsRepeatedPoints) {
+  auto cloud = FootBody{}.points();
+  const auto once = align_foot(cloud);
+  cloud.append(cloud);
+  const auto twice = align_foot(cloud);
+  ASSERT_TRUE(once && twice);
+  EXPECT_EQ(twice->cloud.size(), once->cloud.size());
+  EXPECT_EQ(length(*twice), length(*once));
+}
+
+TEST(Alignment, RefusesWhatIsNoFoot) {
+  PointCloud table;
+  for (int x = 0; x < 100; ++x) {
+    for (int y = 0; y < 40; ++y) table.positions.emplace_back(2.6 * x, 2.6 * y, 0.0);
+  }
+  PointCloud one_point;
+  one_point.positions.assign(1000, Vector3d(1, 2, 3));
+  PointCloud line;
+  for (int i = 0; i < 1000; ++i) line.positions.emplace_back(0.25 * i, 0.0, 0.0);
+  for (const auto& cloud :
+       {cylinder(Vector3d::UnitZ(), 40.0, 100.0), cylinder(Vector3d::UnitX(), 40.0, 250.0), table,
+        one_point, line, PointCloud{}}) {
+    const auto foot = align_foot(cloud);
+    ASSERT_FALSE(foot);
+    EXPECT_FALSE(foot.error().message.empty());
+    EXPECT_FALSE(foot.error().advice.empty());
+  }
+}
+
+TEST(Alignment, RefusesHalfAFoot) {
+  const auto whole = FootBody{}.points();
+  EXPECT_FALSE(align_foot(part_of(whole, [](const Vector3d& p) { return p.x() < 130.0; })));
+  EXPECT_FALSE(align_foot(part_of(whole, [](const Vector3d& p) { return p.x() > 120.0; })));
+  EXPECT_FALSE(align_foot(part_of(whole, [](const Vector3d& p) { return p.y() > 0.0; })));
+}
+
+TEST(Alignment, RefusesFeetOfImpossibleSize) {
+  EXPECT_FALSE(align_foot(FootBody{100.0, 1.0}.points()));
+  EXPECT_FALSE(align_foot(FootBody{400.0, 3.0}.points()));
+  EXPECT_TRUE(align_foot(FootBody{140.0, 1.0}.points()));
+}
+
+TEST(Alignment, RefusesNumbersThatAreNone) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e30}) {
+    auto cloud = FootBody{}.points();
+    cloud.positions[17].y() = bad;
+    EXPECT_FALSE(align_foot(cloud));
+  }
+  AlignmentOptions options;
+  options.up = Vector3d::Zero();
+  EXPECT_FALSE(align_foot(FootBody{}.points(), options));
+}
+
+}  // namespace
+}  // namespace instep

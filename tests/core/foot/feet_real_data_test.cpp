@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "core/foot/alignment.h"
+#include "core/foot/landmarks.h"
+#include "core/foot/measures.h"
+#include "tests/support/foot_body.h"
+#include "tests/support/shape_files.h"
+
+namespace instep {
+namespace {
+
+struct Measured {
+  FootScan foot;
+  MeasureSet set;
+};
+
+Measured measured(const PointCloud& cloud) {
+  auto foot = align_foot(cloud).and_then(find_landmarks);
+  if (!foot) throw std::runtime_error(foot.error().line());
+  auto set = measure_foot(*foot);
+  if (!set) throw std::runtime_error(set.error().line());
+  return {*std::move(foot), *std::move(set)};
+}
+
+PointCloud turned(const PointCloud& cloud, double angle) {
+  const RigidTransform turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+  return transformed(turn, cloud);
+}
+
+void expect_same(const Measured& a, const Measured& b, double tolerance) {
+  ASSERT_EQ(a.set.measures.size(), b.set.measures.size());
+  for (const auto& measure : a.set.measures) {
+    EXPECT_NEAR(b.set.find(measure.id)->value_mm, measure.value_mm, tolerance) << measure.id;
+  }
+}
+
+class RealFeet : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(test::trial_data() / "feet")) GTEST_SKIP() << "no trial data";
+  }
+
+  static PointCloud cloud(const char* name, double unit_mm) {
+    return test::read_shape(test::trial_data() / "feet" / name, unit_mm).cloud;
+  }
+};
+
+TEST_F(RealFeet, OfTheRetailScannerHaveTheirLengthAndSide) {
+  const auto left = measured(cloud("retail_left.stl", 1000.0));
+  EXPECT_EQ(left.foot.side, Side::kLeft);
+  EXPECT_NEAR(left.set.find("foot_length")->value_mm, 276.3, 1.0);
+  const auto right = measured(cloud("retail_right.stl", 1000.0));
+  EXPECT_EQ(right.foot.side, Side::kRight);
+  EXPECT_TRUE(left.set.withheld.empty() && right.set.withheld.empty());
+}
+
+TEST_F(RealFeet, MeasureTheSameHoweverTheyStand) {
+  for (const char* name : {"retail_left.stl", "retail_right.stl"}) {
+    const auto points = cloud(name, 1000.0);
+    const auto straight = measured(points);
+    for (const double angle : {0.7, 2.6, 4.9}) {
+      expect_same(straight, measured(turned(points, angle)), 0.5);
+    }
+    const auto mirror = measured(test::mirrored(points));
+    EXPECT_NE(mirror.foot.side, straight.foot.side);
+    expect_same(straight, mirror, 0.5);
+  }
+}
+
+TEST_F(RealFeet, WithAnOpenSoleAndALegKeepTheirSideAndLength) {
+  const auto points = cloud("lab_left.ply", 1.0);
+  const auto whole = measured(points);
+  EXPECT_EQ(whole.foot.side, Side::kLeft);
+  EXPECT_NEAR(whole.set.find("foot_length")->value_mm, 279.8, 1.0);
+  expect_same(whole, measured(turned(points, 2.0)), 0.5);
+  expect_same(whole, measured(test::half_of(points)), 0.5);
+  const auto mirror = measured(test::mirrored(points));
+  EXPECT_EQ(mirror.foot.side, Side::kRight);
+  expect_same(whole, mirror, 0.5);
+}
+
+TEST_F(RealFeet, AreNotNeededForALastToBeTakenOrRefused) {
+  for (const char* name : {"Uomo_STD_T10_42.ply", "Uomo_STD_T25_43.ply", "Donna_STD_38_T30.ply"}) {
+    const auto last = test::read_shape(test::trial_data() / "lasts" / name);
+    const auto foot = align_foot(last.cloud).and_then(find_landmarks);
+    EXPECT_TRUE(foot || !foot.error().message.empty());
+  }
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,153 @@
+#include "core/foot/measures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/foot/alignment.h"
+#include "core/foot/landmarks.h"
+#include "core/geometry/polygon.h"
+#include "tests/support/foot_body.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using test::FootBody;
+
+FootScan prepared(const PointCloud& cloud) {
+  const auto foot = align_foot(cloud).and_then(find_landmarks);
+  if (!foot) throw std::runtime_error(foot.error().line());
+  return *foot;
+}
+
+Result<Girth> no_girth(const PointCloud&, const TapePlane&, const GirthOptions&) {
+  return fail(ErrorCode::kInsufficientData, "the section is open", "scan again");
+}
+
+double value(const MeasureSet& set, const char* id) {
+  return set.find(id)->value_mm;
+}
+
+/// Tape round the body itself: hull of a very thin slice of a very dense cloud.
+double dense_tape(const FootScan& foot, const TapePlane& tape) {
+  const auto in_input = tape.transformed(foot.foot_from_input.inverse());
+  std::vector<Eigen::Vector2d> slice;
+  for (const auto& point : FootBody{260.0, 0.35}.points().positions) {
+    if (std::abs(in_input.distance(point)) < 0.3) slice.push_back(in_input.project(point));
+  }
+  return perimeter(convex_hull(std::move(slice)));
+}
+
+TEST(Landmarks, StandWhereTheBodyProtrudes) {
+  const auto foot = prepared(FootBody{}.points());
+  const auto at = [&](const char* name) { return foot.landmarks.at(name).position_mm; };
+  // The body's own borders are known along its own axis, some degrees from the foot's.
+  EXPECT_NEAR(at("metatarsale_tibiale").x(), 0.70 * 260.0, 8.0);
+  EXPECT_NEAR(at("metatarsale_fibulare").x(), 0.62 * 260.0, 8.0);
+  EXPECT_GT(at("metatarsale_tibiale").y(), 30.0);
+  EXPECT_LT(at("metatarsale_fibulare").y(), -30.0);
+  // Along the foot's axis the body is 259.47 mm long.
+  EXPECT_NEAR(at("instep_point").x(), 259.47 / 2.0, 0.2);
+  EXPECT_NEAR(at("instep_point").z(), FootBody{}.height(130.0), 2.0);
+  for (const auto& [name, landmark] : foot.landmarks) {
+    EXPECT_GT(landmark.confidence, 0.0) << name;
+    EXPECT_LE(landmark.confidence, 1.0) << name;
+    EXPECT_FALSE(landmark.rule.empty()) << name;
+  }
+}
+
+TEST(Landmarks, FallBackToTheAverageFootWhereTheBorderIsStraight) {
+  auto cloud = FootBody{}.points();
+  const auto foot = align_foot(cloud);
+  ASSERT_TRUE(foot);
+  auto straight = *foot;
+  for (auto& point : straight.cloud.positions) {
+    if (point.x() > 100.0 && point.x() < 240.0 && point.y() < 0.0) {
+      point.y() = std::max(point.y(), -20.0 - 0.1 * (point.x() - 100.0));
+    }
+  }
+  const auto found = find_landmarks(straight);
+  ASSERT_TRUE(found);
+  const auto& fibulare = found->landmarks.at("metatarsale_fibulare");
+  EXPECT_LT(fibulare.confidence, 0.35);
+  EXPECT_NEAR(fibulare.position_mm.x(), 0.63 * 260.0, 2.0);
+  EXPECT_FALSE(found->warnings.empty());
+}
+
+TEST(Landmarks, AreNotSoughtOnAFootThatIsNotAligned) {
+  const auto found = find_landmarks(FootScan{});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kInvalidInput);
+}
+
+TEST(Measures, AgreeWithTheBody) {
+  const auto foot = prepared(FootBody{}.points());
+  const auto set = measure_foot(foot);
+  ASSERT_TRUE(set) << set.error().line();
+  ASSERT_TRUE(set->withheld.empty()) << set->withheld.front().reason;
+  double most = -1e300;
+  double least = 1e300;
+  for (const auto& point : foot.cloud.positions) {
+    if (point.x() < 130.0 || point.x() > 0.85 * 260.0 || point.z() > 25.0) continue;
+    most = std::max(most, point.y());
+    least = std::min(least, point.y());
+  }
+  EXPECT_NEAR(value(*set, "foot_breadth_horizontal"), most - least, 0.5);
+  for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
+    const auto* measure = set->find(id);
+    ASSERT_NE(measure, nullptr) << id;
+    EXPECT_NEAR(measure->value_mm, dense_tape(foot, *measure->plane), 1.0) << id;
+    EXPECT_EQ(measure->value_mm, measure->girth->stretched_mm);
+    EXPECT_FALSE(measure->definition.empty());
+  }
+}
+
+TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {
+  const auto right = measure_foot(prepared(FootBody{}.points()));
+  const auto left = measure_foot(prepared(test::mirrored(FootBody{}.points())));
+  ASSERT_TRUE(right && left);
+  ASSERT_EQ(left->measures.size(), right->measures.size());
+  for (const auto& measure : right->measures) {
+    EXPECT_NEAR(left->find(measure.id)->value_mm, measure.value_mm, 0.05) << measure.id;
+  }
+}
+
+TEST(Measures, HardlyMoveWhenHalfThePointsAreMissing) {
+  const auto whole = measure_foot(prepared(FootBody{}.points()));
+  const auto half = measure_foot(prepared(test::half_of(FootBody{}.points())));
+  ASSERT_TRUE(whole && half);
+  for (const auto& measure : whole->measures) {
+    EXPECT_NEAR(half->find(measure.id)->value_mm, measure.value_mm, 1.0) << measure.id;
+  }
+}
+
+TEST(Measures, WithholdAGirthThatCannotBeHad) {
+  MeasureOptions options;
+  options.girth = no_girth;
+  const auto set = measure_foot(prepared(FootBody{}.points()), options);
+  ASSERT_TRUE(set);
+  EXPECT_EQ(set->measures.size(), 3U);
+  ASSERT_EQ(set->withheld.size(), 3U);
+  EXPECT_EQ(set->withheld[0].id, "ball_girth");
+  EXPECT_NE(set->withheld[0].reason.find("the section is open"), std::string::npos);
+  EXPECT_EQ(set->find("ball_girth"), nullptr);
+}
+
+TEST(Measures, WithholdWhatHangsOnAMissingLandmark) {
+  auto foot = prepared(FootBody{}.points());
+  foot.landmarks.erase("medial_arch");
+  const auto set = measure_foot(foot);
+  ASSERT_TRUE(set);
+  ASSERT_EQ(set->withheld.size(), 2U);
+  EXPECT_NE(set->find("ball_girth"), nullptr);
+}
+
+TEST(Measures, RefuseAFootWithoutLandmarks) {
+  const auto set = measure_foot(FootScan{});
+  ASSERT_FALSE(set);
+  EXPECT_EQ(set.error().code, ErrorCode::kInvalidInput);
+}
+
+}  // namespace
+}  // namespace instep

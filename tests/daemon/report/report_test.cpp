@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "daemon/report/csv_report.h"
+#include "daemon/report/result_json.h"
+#include "daemon/report/sections_svg.h"
+#include "daemon/report/svg_text.h"
+#include "daemon/report/text_report.h"
+
+namespace instep {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Girth square_girth() {
+  Girth girth;
+  girth.stretched_mm = 240.00049;
+  girth.contact_mm = 241.0;
+  girth.stretched_u95_mm = 0.2345678;
+  girth.points = 9;
+  girth.band_points = 5;
+  girth.contour = {{-40, 0}, {40, 0}, {40, 40}, {0, 30}, {-40, 40}};
+  girth.warnings = {"a <gap> & \"more\""};
+  return girth;
+}
+
+FootScan small_foot() {
+  FootScan foot;
+  foot.side = Side::kLeft;
+  foot.side_confidence = 0.97;
+  foot.cloud.positions = {{0, 0, 0}, {170, 30, 10}, {170, -30, 20}, {250, 0, 5}};
+  foot.landmarks["pternion"] = {{0, 0, 20}, 1.0, "rearmost"};
+  foot.landmarks["acropodion"] = {{251.25, 3, 10}, 1.0, "foremost"};
+  foot.warnings = {"of the foot"};
+  return foot;
+}
+
+MeasureSet small_set() {
+  MeasureSet set;
+  set.measures.resize(2);
+  set.measures[0].id = "foot_length";
+  set.measures[0].value_mm = 251.25;
+  set.measures[0].definition = "from heel to toe";
+  auto& girth = set.measures[1];
+  girth.id = "ball_girth";
+  girth.girth = square_girth();
+  girth.value_mm = girth.girth->stretched_mm;
+  girth.u95_mm = girth.girth->stretched_u95_mm;
+  girth.plane = *TapePlane::through({170, 0, 0}, {170, 10, 0}, {170, 0, 10});
+  girth.warnings = girth.girth->warnings;
+  set.withheld = {{"waist_girth", "the section is open"}};
+  return set;
+}
+
+ScanRecord small_record() {
+  ScanRecord record;
+  record.id = "20261121T091502417Z-k3f9";
+  record.time = std::chrono::system_clock::time_point(std::chrono::milliseconds(1795252502417));
+  record.station = "shop";
+  record.devices.resize(1);
+  record.devices[0].geometry.id = "north";
+  record.timings_ms = {{"fuse", 12.34567}};
+  record.quality = {{"seen_share", kNan}};
+  record.warnings = {"of the scan"};
+  record.foot = small_foot();
+  record.measures = small_set();
+  return record;
+}
+
+/// Every opened tag is closed in order, attributes are quoted, and nothing is no number.
+void expect_sound_xml(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    ASSERT_NE(end, std::string::npos);
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    EXPECT_EQ(tag.find('<'), std::string::npos) << tag;
+    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
+    if (tag.front() == '/') {
+      ASSERT_FALSE(open.empty());
+      EXPECT_EQ("/" + open.back(), tag);
+      open.pop_back();
+    } else if (tag.back() != '/') {
+      open.push_back(name);
+    }
+  }
+  EXPECT_TRUE(open.empty());
+  for (const char* word : {"nan", "inf,", "inf\"", "infM"}) {
+    EXPECT_EQ(xml.find(word), std::string::npos) << word;
+  }
+}
+
+TEST(ResultJson, HoldsWhatAGirthIs) {
+  const Json json = girth_json("rbf", square_girth(), {1.5, 2.25, 4.0});
+  EXPECT_EQ(json["method"], "rbf");
+  EXPECT_DOUBLE_EQ(json["stretched_mm"].get<double>(), 240.0);
+  EXPECT_DOUBLE_EQ(json["stretched_u95_mm"].get<double>(), 0.235);
+  EXPECT_TRUE(json["contact_u95_mm"].is_null());
+  EXPECT_EQ(json["points"], 9);
+  EXPECT_EQ(json["warnings"].size(), 1U);
+  EXPECT_DOUBLE_EQ(json["elapsed_ms"]["total"].get<double>(), 4.0);
+}
+
+TEST(ResultJson, HoldsWhatAFootIs) {
+  const Json json = foot_json(small_foot(), small_set());
+  EXPECT_EQ(json["side"], "left");
+  ASSERT_EQ(json["frame"].size(), 16U);
+  EXPECT_EQ(json["frame"][0], 1.0);
+  EXPECT_EQ(json["landmarks"]["acropodion"]["xyz_mm"][0], 251.25);
+  ASSERT_EQ(json["measures"].size(), 2U);
+  EXPECT_EQ(json["measures"][0]["id"], "foot_length");
+  EXPECT_TRUE(json["measures"][0]["u95_mm"].is_null());
+  EXPECT_FALSE(json["measures"][0].contains("plane"));
+  EXPECT_EQ(json["measures"][1]["plane"].size(), 3U);
+  EXPECT_EQ(json["measures"][1]["contact_mm"], 241.0);
+  EXPECT_EQ(json["withheld"][0]["id"], "waist_girth");
+  EXPECT_EQ(json["sizes"]["mondopoint_mm"], 250.0);
+}
+
+TEST(ResultJson, SaysWhenAndWhere) {
+  const Json json = result_json(small_record());
+  EXPECT_EQ(json["id"], "20261121T091502417Z-k3f9");
+  EXPECT_EQ(json["time"], "2026-11-21T09:15:02.417Z");
+  EXPECT_EQ(json["software"]["name"], "instep");
+  EXPECT_EQ(json["devices"][0]["id"], "north");
+  EXPECT_TRUE(json["quality"]["seen_share"].is_null());
+  EXPECT_DOUBLE_EQ(json["timings_ms"]["fuse"].get<double>(), 12.346);
+  EXPECT_EQ(json["warnings"], Json({"of the scan", "of the foot"}));
+  EXPECT_EQ(Json::parse(json.dump()), json);
+}
+
+TEST(ResultJson, NeverHoldsWhatIsNoNumber) {
+  auto set = small_set();
+  set.measures[0].value_mm = kNan;
+  set.measures[1].u95_mm = std::numeric_limits<double>::infinity();
+  const Json json = foot_json(small_foot(), set);
+  EXPECT_TRUE(json["measures"][0]["value_mm"].is_null());
+  EXPECT_TRUE(json["measures"][1]["u95_mm"].is_null());
+  EXPECT_TRUE(json["sizes"].empty());
+}
+
+TEST(TextReport, AlignsMeasuresAndTellsIntervals) {
+  const std::string text = foot_text(small_foot(), small_set());
+  EXPECT_NE(text.find("Left foot"), std::string::npos);
+  EXPECT_NE(text.find("ball girth     240.0 mm  ± 0.2\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("foot length    251.2 mm\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("waist girth        -     the section is open"), std::string::npos) << text;
+  EXPECT_NE(text.find("! of the foot"), std::string::npos);
+}
+
+TEST(TextReport, TellsAGirth) {
+  const std::string text = girth_text("rbf", square_girth());
+  EXPECT_NE(text.find("stretched    240.0 ± 0.2 mm\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("contact      241.0 mm\n"), std::string::npos) << text;
+}
+
+TEST(CsvReport, HasALineForEachMeasure) {
+  EXPECT_EQ(foot_csv(small_foot(), small_set()),
+            "side,id,value_mm,u95_mm,contact_mm,warnings\n"
+            "left,foot_length,251.250,,,\"\"\n"
+            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\"\n"
+            "left,waist_girth,,,,\"the section is open\"\n");
+}
+
+TEST(SectionsSvg, IsSoundAndShowsTheNumbers) {
+  const std::string svg = sections_svg(small_foot(), small_set());
+  expect_sound_xml(svg);
+  EXPECT_NE(svg.find("240.0 ± 0.2 mm"), std::string::npos);
+  EXPECT_NE(svg.find("251.2 mm"), std::string::npos);
+  for (const char* word : {"Left foot", "medial", "lateral", "dorsal", "plantar"}) {
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
+  }
+  EXPECT_EQ(svg, sections_svg(small_foot(), small_set()));
+}
+
+TEST(SectionsSvg, DrawsTheTapeOverTheHollow) {
+  const std::string svg = sections_svg(small_foot(), small_set());
+  const auto corners = [&](const std::string& style) {
+    const std::size_t at = svg.rfind("<polygon class=\"" + style + "\"");
+    const std::string element = svg.substr(at, svg.find("/>", at) - at);
+    return std::count(element.begin(), element.end(), ',');
+  };
+  EXPECT_EQ(corners("skin"), 5);
+  EXPECT_EQ(corners("tape"), 4);
+}
+
+TEST(SectionsSvg, StandsWhateverItIsGiven) {
+  expect_sound_xml(sections_svg(FootScan{}, MeasureSet{}));
+  auto foot = small_foot();
+  foot.cloud.positions.emplace_back(kNan, 1.0, 2.0);
+  foot.landmarks["pternion"].position_mm.y() = kNan;
+  auto set = small_set();
+  set.measures[1].girth->contour[0].x() = kNan;
+  set.withheld[0].id = "<script>";
+  expect_sound_xml(sections_svg(foot, set));
+  set.measures[1].girth->contour.clear();
+  expect_sound_xml(sections_svg(foot, set));
+}
+
+TEST(SvgText, EscapesWhatXmlDoesNotTake) {
+  EXPECT_EQ(svg::escaped("a<b>&\"'\x01"), "a&lt;b&gt;&amp;&quot;&apos;");
+}
+
+}  // namespace
+}  // namespace instep
