@@ -23,7 +23,11 @@ constexpr double kStrayRatio = 2.5;
 constexpr double kDuplicate = 0.02;
 /// Noisy points are averaged over this many standard deviations, up to this part of the section.
 constexpr double kAveragedSigmas = 4.0;
-constexpr double kWidestAverage = 0.012;
+constexpr double kWidestAverage = 0.024;
+
+constexpr double kNormalReachInSigmas = 5.0;
+constexpr std::size_t kFewestNormalPoints = 16;
+constexpr std::size_t kMostNormalPoints = 100;
 
 /// Points of the cloud within a half-width of the plane, in the plane's frame.
 struct Slab {
@@ -159,13 +163,20 @@ void average(const PointCloud& cloud, const TapePlane& plane, const Slab& slab, 
   }
 }
 
+/// As many neighbours as reach beyond the noise, or a normal would be one of noise.
+std::size_t normal_points(const PlaneBand& band) {
+  const double reach = kNormalReachInSigmas * band.sigma / band.spacing;
+  return std::clamp(static_cast<std::size_t>(std::numbers::pi * reach * reach), kFewestNormalPoints,
+                    kMostNormalPoints);
+}
+
 void find_normals(const PointCloud& cloud, const std::vector<Eigen::Vector3d>& views,
                   PlaneBand& band) {
   if (cloud.has_normals()) return;
   std::vector<Eigen::Vector3d> places;
   for (const auto& point : band.points) places.push_back(point.position);
   const PointIndex index(places);
-  auto normals = estimate_normals(places, index);
+  auto normals = estimate_normals(places, index, normal_points(band));
   if (cloud.view_directions.empty()) {
     orient_by_neighbours(places, index, normals);
   } else {

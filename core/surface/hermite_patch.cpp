@@ -1,7 +1,5 @@
 #include "core/surface/hermite_patch.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -121,6 +119,10 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
   patch.polynomial_ = qr.colsPermutation() * coefficients;
   weights.applyOnTheLeft(qr.householderQ());
   if (!weights.allFinite() || !patch.polynomial_.allFinite()) return std::nullopt;
+  patch.unit_ = unit;
+  patch.basis_ = qr;
+  patch.system_ = std::move(system);
+  patch.cholesky_ = cholesky;
   patch.value_weights_ = weights.head(count);
   patch.slope_weights_ = weights.tail(count);
   return patch;
@@ -140,6 +142,51 @@ FieldValue HermitePatch::at(const Eigen::Vector3d& position) const {
                 3.0 * r * slope_weights_[j] * normals_.col(j);
   }
   return {radius_ * value, gradient};
+}
+
+Eigen::VectorXd HermitePatch::kernel_at(const Eigen::Vector3d& place) const {
+  const Eigen::Index count = positions_.cols();
+  Eigen::VectorXd kernel(2 * count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::Vector3d offset = place - positions_.col(j);
+    const double r = offset.norm();
+    kernel[j] = r * r * r;
+    kernel[count + j] = -3.0 * r * offset.dot(normals_.col(j));
+  }
+  return kernel;
+}
+
+FieldReading HermitePatch::read(const std::vector<Eigen::Vector3d>& places,
+                                const Eigen::VectorXd& weights) const {
+  const Eigen::Index count = positions_.cols();
+  Eigen::VectorXd kernel = Eigen::VectorXd::Zero(2 * count);
+  Polynomial polynomial = Polynomial::Zero();
+  double own = 0.0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double weight = weights[static_cast<Eigen::Index>(k)];
+    const Eigen::Vector3d place = (places[k] - centre_) / radius_;
+    kernel += weight * kernel_at(place);
+    polynomial += weight * monomials(place);
+    for (std::size_t l = 0; l < k; ++l) {
+      const double r = (places[k] - places[l]).norm() / radius_;
+      own += 2.0 * weight * weights[static_cast<Eigen::Index>(l)] * r * r * r;
+    }
+  }
+  const Eigen::Index terms = basis_.rank();
+  const Eigen::Index free = 2 * count - terms;
+  const auto upper = basis_.matrixQR().topLeftCorner(terms, terms).triangularView<Eigen::Upper>();
+  const Eigen::VectorXd determined =
+      (basis_.colsPermutation().transpose() * polynomial).head(terms);
+  const Eigen::VectorXd rotated = basis_.householderQ().adjoint() * kernel;
+  Eigen::VectorXd solution(2 * count);
+  solution.head(terms) = upper.adjoint().solve(determined);
+  solution.tail(free) = cholesky_.solve(rotated.tail(free) - system_.bottomLeftCorner(free, terms) *
+                                                                 solution.head(terms));
+  const Eigen::VectorXd multipliers =
+      upper.solve(rotated.head(terms) - system_.topRows(terms) * solution);
+  const double variance = own - solution.dot(rotated) - multipliers.dot(determined);
+  const Eigen::VectorXd data_weights = basis_.householderQ() * solution;
+  return {data_weights.head(count), std::max(variance, 0.0) * unit_ * radius_ * radius_};
 }
 
 }  // namespace instep

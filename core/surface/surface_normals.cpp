@@ -9,7 +9,6 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kNormalPoints = 16;
 constexpr std::size_t kTreeNeighbours = 10;
 
 /// A bend between two neighbours; the flattest comes first.
@@ -62,11 +61,11 @@ void turn_outwards(const std::vector<Eigen::Vector3d>& points, const std::vector
 }  // namespace
 
 std::vector<Eigen::Vector3d> estimate_normals(const std::vector<Eigen::Vector3d>& points,
-                                              const PointIndex& index) {
+                                              const PointIndex& index, std::size_t count) {
   std::vector<Eigen::Vector3d> normals;
   normals.reserve(points.size());
   for (const auto& point : points) {
-    const auto nearest = index.nearest(point, kNormalPoints);
+    const auto nearest = index.nearest(point, count);
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const auto& neighbour : nearest) mean += points[neighbour.index];
     mean /= static_cast<double>(nearest.size());

@@ -1,16 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 #include "core/geometry/point_index.h"
 
 namespace instep {
 
-/// Unit normals by principal components over the nearest points (the paper, section 3.2); their
-/// sign means nothing yet.
+/// Unit normals by principal components over the `count` nearest points (the paper, section 3.2);
+/// their sign means nothing yet.
 std::vector<Eigen::Vector3d> estimate_normals(const std::vector<Eigen::Vector3d>& points,
-                                              const PointIndex& index);
+                                              const PointIndex& index, std::size_t count);
 
 /// Turns normals to agree with their neighbours along a minimum spanning tree of the bends (Hoppe
 /// 1992), then each connected part as a whole outwards: the sum of normal times place over a ring

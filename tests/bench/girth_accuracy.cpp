@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/girth/girth.h"
+#include "tests/support/analytic_shapes.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 
@@ -144,6 +145,26 @@ void feet() {
   }
 }
 
+void analytic() {
+  const std::vector<test::AnalyticShape> bodies = {
+      test::elliptic_cylinder(40, 40), test::elliptic_cylinder(48, 28), test::cone(38, 0.25),
+      test::ellipsoid(50, 35, 70),     test::superellipse(42, 38, 3.0), test::bent_tube(90, 35)};
+  const auto plane = TapePlane::through({0, 0, 1}, {10, 0, 3}, {0, 10, 0}).value();
+  for (const double sigma : {0.0, 0.1, 0.3, 0.5, 1.0}) {
+    for (const std::size_t count : {450U, 1200U, 8000U}) {
+      Tally tally;
+      for (const auto& body : bodies) {
+        const double truth = test::true_girth(body, plane);
+        for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+          const auto cloud = test::random_points(body, count, -30, 30, sigma, seed);
+          measure(tally, cloud, {"", "", plane, sigma, truth, truth}, "");
+        }
+      }
+      print(fmt::format("analytic {} s {}", count, sigma), tally);
+    }
+  }
+}
+
 void dense_foot() {
   for (const double sigma : {0.0, 0.3}) {
     Tally tally;
@@ -167,6 +188,7 @@ int main(int count, char** words) {
       {"shapes", instep::shapes},
       {"lasts", instep::lasts},
       {"feet", instep::feet},
+      {"analytic", instep::analytic},
       {"dense", instep::dense_foot}};
   if (!std::filesystem::exists(instep::test::trial_data())) {
     fmt::print("no trial data here\n");
