@@ -119,14 +119,28 @@ struct SplitLine {
   double offset;
 };
 
-/// Of the parallel lines, the one with the fewest cells near it that leaves a fair part on both
+/// The ground that a piece covers, as squares of `side_mm`.
+std::vector<Vector2d> covered_ground(const Piece& piece, double side_mm) {
+  std::vector<std::pair<double, double>> squares;
+  for (const auto& cell : piece.cells) {
+    squares.emplace_back(std::floor(cell.x() / side_mm), std::floor(cell.y() / side_mm));
+  }
+  std::sort(squares.begin(), squares.end());
+  squares.erase(std::unique(squares.begin(), squares.end()), squares.end());
+  std::vector<Vector2d> ground;
+  for (const auto& [x, y] : squares) ground.emplace_back((x + 0.5) * side_mm, (y + 0.5) * side_mm);
+  return ground;
+}
+
+/// Of the parallel lines, the one with the least ground near it that leaves a fair part on both
 /// sides.
-std::optional<SplitLine> thinnest_line(const Piece& piece, const Vector2d& direction) {
+std::optional<SplitLine> thinnest_line(const std::vector<Vector2d>& ground,
+                                       const Vector2d& direction) {
   std::optional<SplitLine> best;
-  const auto count = piece.cells.size();
+  const auto count = ground.size();
   const auto share = static_cast<std::size_t>(kLeastSplitShare * static_cast<double>(count));
   std::vector<double> offsets;
-  for (const auto& cell : piece.cells) offsets.push_back(direction.dot(cell.head<2>()));
+  for (const auto& square : ground) offsets.push_back(direction.dot(square));
   std::sort(offsets.begin(), offsets.end());
   std::size_t past = 0;
   std::size_t fewest = count;
@@ -169,9 +183,10 @@ void split_piece(std::vector<Piece>& pieces, std::size_t at, const std::vector<V
                  const SeparationSettings& settings) {
   std::optional<std::array<Piece, 2>> best;
   double least_area = std::numeric_limits<double>::infinity();
+  const auto ground = covered_ground(pieces[at], settings.link_mm);
   for (int degree = 0; degree < 180; degree += 5) {
     const double angle = degree * std::numbers::pi / 180.0;
-    const auto line = thinnest_line(pieces[at], {std::cos(angle), std::sin(angle)});
+    const auto line = thinnest_line(ground, {std::cos(angle), std::sin(angle)});
     if (!line) continue;
     auto sides = split_along(pieces[at], *line, positions);
     const double area = area_as_a_foot(sides[0], settings) + area_as_a_foot(sides[1], settings);
