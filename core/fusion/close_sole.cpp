@@ -14,8 +14,11 @@ using Eigen::Vector3d;
 constexpr double kWallCellMm = 6.0;     // within it the lowest seen points are one piece of wall
 constexpr double kLowestLayerMm = 1.5;  // above the lowest point, still taken as lowest
 constexpr double kSeenSoleHeightMm = 25.0;
-constexpr double kSeenSoleNormal = -0.8;  // z of the normal of a sole seen from below
-constexpr int kMostCells = 4000;          // a side; a foot needs some 200
+constexpr double kSeenSoleNormal = -0.8;   // z of the normal of a sole seen from below
+constexpr double kLeastLean = 0.15;        // sine of a wall's lean that is not its noise
+constexpr double kRadiusOfLean = 60.0;     // mm of radius that a full lean allows
+constexpr double kLeastClearingMm = 12.0;  // radius, so that discs of neighbouring cells overlap
+constexpr int kMostCells = 4000;           // a side; a foot needs some 200
 
 /// A map of the platform from above.
 struct Plan {
@@ -157,7 +160,13 @@ double contact_distance(const WallFoot& wall, double height, const SoleSettings&
   const double down = std::clamp(-normal.z(), -1.0, 0.95);
   const double out = std::sqrt(1.0 - down * down);
   const double above = std::max(0.0, wall.position.z() - height);
-  return std::min(settings.most_inset_mm, settings.inset_factor * above * out / (1.0 - down));
+  // An upright wall whose foot was hidden says nothing of its rounding; one that leans in, as under
+  // an arch, does.
+  const double largest =
+      settings.usual_radius_mm + kRadiusOfLean * std::max(0.0, down - kLeastLean);
+  const double radius = std::min(above / (1.0 - down), largest);
+  return std::clamp(settings.inset_factor * radius * out, settings.least_inset_mm,
+                    settings.most_inset_mm);
 }
 
 /// Where a camera saw the sole itself, with a margin.
@@ -190,7 +199,11 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
   Mask closing = print;
   for (const auto& wall : wall_feet(foot, standing_height_mm, settings)) {
     const double inset = contact_distance(wall, standing_height_mm, settings);
-    plan.disc(wall.position.head<2>(), inset, [&](std::size_t cell) { closing[cell] = 0; });
+    // A disc that touches the contact line from outside also clears what lies outside the wall.
+    const double radius = std::max(inset, kLeastClearingMm);
+    const Vector2d out = wall.normal.head<2>().normalized();
+    const Vector2d centre = wall.position.head<2>() + (radius - inset) * out;
+    plan.disc(centre, radius, [&](std::size_t cell) { closing[cell] = 0; });
   }
   PointCloud sole;
   double cells = 0.0;

@@ -11,10 +11,15 @@ struct SoleSettings {
   double sigma_mm = 0.5;           ///< how well the platform stands for the sole that rests on it
   double outline_below_mm = 35.0;  ///< points up to this height make the outline
   double bridge_mm = 8.0;          ///< gaps in the outline up to twice this are closed
+  double least_inset_mm = 3.0;
   double most_inset_mm = 45.0;
+  double usual_radius_mm = 8.0;  ///< of the rounding, where the seen wall is upright to its end
   /// The contact is put where the lowest seen wall, continued as an arc, meets the platform; this
-  /// factor on its distance makes up for the arc that a straight tape cuts off.
-  double inset_factor = 0.9;
+  /// factor on its distance makes up for the arc that a straight tape cuts off. Measured on upright
+  /// walls with roundings of 4, 8 and 12 mm seen from 15, 30 and 45 degrees above: the stretched
+  /// girth is off by -0.6 to 0.7 mm, but at 45 degrees, where the rounding is hardly seen, by -1.7
+  /// (8 mm) to 1.0 mm (12 mm).
+  double inset_factor = 0.7;
 };
 
 struct SoleClosure {

@@ -119,25 +119,36 @@ struct SplitLine {
   double offset;
 };
 
-struct Split {
-  SplitLine line;
-  std::size_t crossed;  ///< cells near the line
-};
+/// The ground that a piece covers, as squares of `side_mm`.
+std::vector<Vector2d> covered_ground(const Piece& piece, double side_mm) {
+  std::vector<std::pair<double, double>> squares;
+  for (const auto& cell : piece.cells) {
+    squares.emplace_back(std::floor(cell.x() / side_mm), std::floor(cell.y() / side_mm));
+  }
+  std::sort(squares.begin(), squares.end());
+  squares.erase(std::unique(squares.begin(), squares.end()), squares.end());
+  std::vector<Vector2d> ground;
+  for (const auto& [x, y] : squares) ground.emplace_back((x + 0.5) * side_mm, (y + 0.5) * side_mm);
+  return ground;
+}
 
-/// Of the parallel lines, the one with the fewest cells near it that leaves a fair part on both
+/// Of the parallel lines, the one with the least ground near it that leaves a fair part on both
 /// sides.
-std::optional<Split> thinnest_line(const Piece& piece, const Vector2d& direction) {
-  std::optional<Split> best;
-  const auto count = piece.cells.size();
+std::optional<SplitLine> thinnest_line(const std::vector<Vector2d>& ground,
+                                       const Vector2d& direction) {
+  std::optional<SplitLine> best;
+  const auto count = ground.size();
   const auto share = static_cast<std::size_t>(kLeastSplitShare * static_cast<double>(count));
   std::vector<double> offsets;
-  for (const auto& cell : piece.cells) offsets.push_back(direction.dot(cell.head<2>()));
+  for (const auto& square : ground) offsets.push_back(direction.dot(square));
   std::sort(offsets.begin(), offsets.end());
   std::size_t past = 0;
+  std::size_t fewest = count;
   for (std::size_t first = share; first + share < count; ++first) {
     while (past < count && offsets[past] <= offsets[first] + kSplitBandMm) ++past;
-    if (past + share > count || (best && past - first >= best->crossed)) continue;
-    best = Split{{direction, offsets[first] + 0.5 * kSplitBandMm}, past - first};
+    if (past + share > count || past - first >= fewest) continue;
+    fewest = past - first;
+    best = SplitLine{direction, offsets[first] + 0.5 * kSplitBandMm};
   }
   return best;
 }
@@ -157,23 +168,30 @@ std::array<Piece, 2> split_along(const Piece& piece, const SplitLine& line,
   return sides;
 }
 
-bool looks_like_a_foot(const Piece& piece, const SeparationSettings& settings) {
+/// Area of the rectangle round a piece, or infinity if no foot has such a rectangle.
+double area_as_a_foot(const Piece& piece, const SeparationSettings& settings) {
   const auto sides = enclosing_rectangle(piece.hull());
-  return fits_a_foot(piece, settings) && sides.width <= kWidestFoot * sides.length;
+  const bool fits = sides.length <= settings.most_length_mm &&
+                    sides.width <= settings.most_width_mm &&
+                    sides.width <= kWidestFoot * sides.length;
+  return fits ? sides.length * sides.width : std::numeric_limits<double>::infinity();
 }
 
-/// Splits a piece that is too large for one foot where it is thinnest, if that gives two feet.
+/// Splits a piece that is too large for one foot, if that gives two feet: of the thinnest lines of
+/// all directions the one that leaves the two tightest rectangles.
 void split_piece(std::vector<Piece>& pieces, std::size_t at, const std::vector<Vector3d>& positions,
                  const SeparationSettings& settings) {
   std::optional<std::array<Piece, 2>> best;
-  std::size_t fewest = pieces[at].cells.size();
+  double least_area = std::numeric_limits<double>::infinity();
+  const auto ground = covered_ground(pieces[at], settings.link_mm);
   for (int degree = 0; degree < 180; degree += 5) {
     const double angle = degree * std::numbers::pi / 180.0;
-    const auto split = thinnest_line(pieces[at], {std::cos(angle), std::sin(angle)});
-    if (!split || split->crossed >= fewest) continue;
-    auto sides = split_along(pieces[at], split->line, positions);
-    if (!looks_like_a_foot(sides[0], settings) || !looks_like_a_foot(sides[1], settings)) continue;
-    fewest = split->crossed;
+    const auto line = thinnest_line(ground, {std::cos(angle), std::sin(angle)});
+    if (!line) continue;
+    auto sides = split_along(pieces[at], *line, positions);
+    const double area = area_as_a_foot(sides[0], settings) + area_as_a_foot(sides[1], settings);
+    if (area >= least_area) continue;
+    least_area = area;
     best = std::move(sides);
   }
   if (!best) return;

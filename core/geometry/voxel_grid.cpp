@@ -24,6 +24,12 @@ std::uint64_t key_of(const Eigen::Vector3d& point, double cell_mm) {
          axis_number(point.z(), cell_mm);
 }
 
+/// What to add to a key for the lowest cell of the row-th of the nine rows round it.
+std::uint64_t row_shift(std::size_t row) {
+  const auto number = static_cast<std::int64_t>(row);
+  return static_cast<std::uint64_t>(((number / 3 - 1) * kSpan + number % 3 - 1) * kSpan - 1);
+}
+
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t cell) {
   while (parents[cell] != cell) {
     parents[cell] = parents[parents[cell]];
@@ -49,23 +55,34 @@ VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm)
     members_.push_back(index);
   }
   begins_.push_back(static_cast<std::uint32_t>(members_.size()));
+  find_rows();
 }
 
 std::span<const std::uint32_t> VoxelGrid::members(std::size_t cell) const {
   return {members_.data() + begins_[cell], members_.data() + begins_[cell + 1]};
 }
 
+/// The cells above each other round a cell follow each other in the order of keys: nine rows, whose
+/// beginnings move forward as the cell does.
+void VoxelGrid::find_rows() {
+  rows_.resize(cell_count());
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const std::uint64_t shift = row_shift(row);
+    std::size_t at = 0;
+    for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+      while (at < cell_count() && keys_[at] < keys_[cell] + shift) ++at;
+      rows_[cell][row] = static_cast<std::uint32_t>(at);
+    }
+  }
+}
+
 std::vector<std::size_t> VoxelGrid::neighbourhood(std::size_t cell) const {
   std::vector<std::size_t> found;
-  for (std::int64_t dx = -1; dx <= 1; ++dx) {
-    for (std::int64_t dy = -1; dy <= 1; ++dy) {
-      const auto shift = static_cast<std::uint64_t>((dx * kSpan + dy) * kSpan - 1);
-      const std::uint64_t lowest = keys_[cell] + shift;
-      auto it = std::lower_bound(keys_.begin(), keys_.end(), lowest);
-      for (; it != keys_.end() && *it <= lowest + 2; ++it) {
-        found.push_back(static_cast<std::size_t>(it - keys_.begin()));
-      }
-    }
+  found.reserve(kRows);
+  for (std::size_t row = 0; row < kRows; ++row) {
+    const std::uint64_t lowest = keys_[cell] + row_shift(row);
+    for (std::size_t at = rows_[cell][row]; at < cell_count() && keys_[at] <= lowest + 2; ++at)
+      found.push_back(at);
   }
   return found;
 }

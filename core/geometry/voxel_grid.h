@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -35,9 +36,14 @@ class VoxelGrid {
   std::vector<std::size_t> clusters_of_points() const;
 
  private:
+  static constexpr std::size_t kRows = 9;
+
+  void find_rows();
+
   std::vector<std::uint64_t> keys_;     ///< of occupied cells, ascending
   std::vector<std::uint32_t> begins_;   ///< first member of each cell, and the end of the last
   std::vector<std::uint32_t> members_;  ///< point indices, cell by cell
+  std::vector<std::array<std::uint32_t, kRows>> rows_;  ///< first cell not before each row
 };
 
 }  // namespace instep

@@ -1,0 +1,127 @@
+#include "core/fusion/close_sole.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/geometry/polygon.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kRadius = 50.0;
+constexpr double kHeight = 60.0;
+
+void add(PointCloud& cloud, const Vector3d& point, const Vector3d& normal) {
+  cloud.positions.push_back(point);
+  cloud.normals.push_back(normal);
+  cloud.sigma_mm.push_back(0.2);
+  cloud.view_directions.push_back(normal);
+}
+
+/// An upright round wall whose bottom edge is rounded, seen down to where its normal points
+/// `seen_deg` below the horizon; open below.
+PointCloud rounded_wall(double rounding, double seen_deg) {
+  PointCloud cloud;
+  for (double turn = 0; turn < 2 * std::numbers::pi; turn += 0.015) {
+    const Vector3d out(std::cos(turn), std::sin(turn), 0);
+    for (double z = rounding; z <= kHeight; z += 0.8) {
+      add(cloud, kRadius * out + z * Vector3d::UnitZ(), out);
+    }
+    for (double degree = 0; degree <= seen_deg; degree += 3) {
+      const double phi = degree * std::numbers::pi / 180;
+      const Vector3d normal = std::cos(phi) * out - std::sin(phi) * Vector3d::UnitZ();
+      add(cloud, (kRadius - rounding) * out + rounding * Vector3d::UnitZ() + rounding * normal,
+          normal);
+    }
+  }
+  return cloud;
+}
+
+/// Length of a stretched tape in the plane y = 0.
+double stretched_girth(const PointCloud& cloud) {
+  std::vector<Vector2d> section;
+  for (const auto& point : cloud.positions) {
+    if (std::abs(point.y()) < 1.5) section.emplace_back(point.x(), point.z());
+  }
+  return perimeter(convex_hull(section));
+}
+
+TEST(CloseSole, LeavesTheStretchedGirthOfARoundedBottomTrue) {
+  for (const double rounding : {4.0, 8.0, 12.0}) {
+    for (const double seen_deg : {30.0, 45.0, 60.0}) {
+      auto cloud = rounded_wall(rounding, seen_deg);
+      const auto closure = close_sole(cloud, 0.0);
+      EXPECT_GT(closure.points_added, 500U);
+      const double truth = 2 * kHeight + 4 * kRadius - rounding * (4 - std::numbers::pi);
+      EXPECT_NEAR(stretched_girth(cloud), truth, 1.5) << rounding << " " << seen_deg;
+    }
+  }
+}
+
+TEST(CloseSole, MarksItsPointsAndPutsThemOnThePlatform) {
+  auto cloud = rounded_wall(8, 45);
+  for (auto& point : cloud.positions) point.z() += 33.0;
+  const std::size_t seen = cloud.size();
+  const auto closure = close_sole(cloud, 33.0);
+  ASSERT_EQ(cloud.size(), seen + closure.points_added);
+  EXPECT_TRUE(check_cloud(cloud));
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_EQ(cloud.was_seen(i), i < seen);
+    if (i < seen) continue;
+    EXPECT_EQ(cloud.positions[i].z(), 33.0);
+    EXPECT_EQ(cloud.normals[i], -Vector3d::UnitZ());
+    EXPECT_LT(cloud.positions[i].head<2>().norm(), kRadius);
+  }
+}
+
+TEST(CloseSole, AddsNothingWhereTheSoleWasSeen) {
+  auto cloud = rounded_wall(8, 85);
+  for (double x = -kRadius; x < kRadius; x += 1) {
+    for (double y = -kRadius; y < kRadius; y += 1) {
+      if (Vector2d(x, y).norm() < kRadius - 8) add(cloud, {x, y, 0}, -Vector3d::UnitZ());
+    }
+  }
+  const auto closure = close_sole(cloud, 0.0);
+  EXPECT_EQ(closure.points_added, 0U);
+  EXPECT_GT(closure.seen_share, 0.7);
+}
+
+TEST(CloseSole, KeepsOutOfTheHollowUnderALeaningWall) {
+  // The wall on the side of +x ends 15 mm above the platform and leans in by 30 degrees: an arch.
+  PointCloud cloud = rounded_wall(6, 45);
+  PointCloud arched;
+  const Vector3d lean(std::cos(0.52), 0, -std::sin(0.52));
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto& point = cloud.positions[i];
+    if (point.x() < 20) {
+      add(arched, point, cloud.normals[i]);
+    } else if (point.z() > 15) {
+      add(arched, point, point.z() < 20 ? lean : cloud.normals[i]);
+    }
+  }
+  close_sole(arched, 0.0);
+  for (std::size_t i = 0; i < arched.size(); ++i) {
+    if (!arched.was_seen(i) && std::abs(arched.positions[i].y()) < 15) {
+      EXPECT_LT(arched.positions[i].x(), kRadius - 10);
+    }
+  }
+}
+
+TEST(CloseSole, BearsNoPointsAndPointsWithoutNormals) {
+  PointCloud none;
+  EXPECT_EQ(close_sole(none, 0.0).points_added, 0U);
+  PointCloud bare;
+  bare.positions = {{0, 0, 1}, {1, 0, 1}};
+  EXPECT_EQ(close_sole(bare, 0.0).points_added, 0U);
+  PointCloud single;
+  add(single, {1e5, -1e5, 3}, Vector3d::UnitX());
+  EXPECT_LT(close_sole(single, 0.0).points_added, 50U);
+}
+
+}  // namespace
+}  // namespace instep
