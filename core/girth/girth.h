@@ -47,6 +47,8 @@ struct Girth {
 ///
 /// Refuses, with the reason, where no closed section can be told from the points: too few points
 /// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput).
+/// A section of which more than a quarter has no points is refused; a narrower hole is bridged by
+/// the surface and reported. It gives no interval.
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
@@ -57,8 +59,8 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
 /// Cuts the faces that a mesh already has; no surface is fitted. All loops are chained; of several
-/// the longest closed one counts and the others are named in a warning. An open section is bridged
-/// for the stretched length, and the contact length is that of the pieces, with a warning.
+/// the one round the largest area counts and the others are named in a warning. An open section is
+/// bridged for the stretched length, and the contact length is that of the pieces, with a warning.
 Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane);
 
 }  // namespace instep

@@ -22,8 +22,6 @@ constexpr double kWidestBridge = 0.25;
 constexpr double kNotableGapInSpacings = 6.0;
 /// Chords are refined so that the hull loses less than 0.001 mm to them.
 constexpr int kPiecesOfChord = 8;
-/// Standard deviations in half a 95 % interval: those of a normal error.
-constexpr double kCoverage = 1.96;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 
@@ -68,30 +66,6 @@ std::vector<Eigen::Vector2d> evidence(const PlaneBand& band, const Contour& cont
   return places;
 }
 
-/// How a shift of the surface at each corner of a polygon changes its length: by the turn there.
-std::vector<double> turns(const std::vector<Eigen::Vector2d>& polygon) {
-  std::vector<double> turned;
-  const std::size_t count = polygon.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d in = polygon[i] - polygon[(i + count - 1) % count];
-    const Eigen::Vector2d out = polygon[(i + 1) % count] - polygon[i];
-    turned.push_back(std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out)));
-  }
-  return turned;
-}
-
-/// Half-width of the 95 % interval of a polygon's length on the surface.
-double u95(const BlendedSurface& surface, const std::vector<Eigen::Vector2d>& polygon) {
-  std::vector<Eigen::Vector3d> places;
-  for (const auto& point : polygon) places.emplace_back(point.x(), point.y(), 0.0);
-  std::vector<double> weights = turns(polygon);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto field = surface.at(places[i]);
-    weights[i] /= std::max(field ? field->gradient.head<2>().norm() : 0.0, 0.1);
-  }
-  return kCoverage * surface.deviation_of(places, weights);
-}
-
 /// The loop round the largest area first.
 void largest_first(std::vector<Contour>& contours) {
   std::stable_sort(contours.begin(), contours.end(), [](const auto& a, const auto& b) {
@@ -126,8 +100,6 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
-  girth.contact_u95_mm = band->unit_mm * u95(surface, contour.points);
-  girth.stretched_u95_mm = band->unit_mm * u95(surface, convex_hull(contour.points));
   girth.points = cloud.size();
   girth.band_points = band->used;
   girth.sigma_mm = band->unit_mm * band->sigma;

@@ -23,7 +23,7 @@ constexpr double kStrayRatio = 2.5;
 constexpr double kDuplicate = 0.02;
 /// Noisy points are averaged over this many standard deviations, up to this part of the section.
 constexpr double kAveragedSigmas = 4.0;
-constexpr double kWidestAverage = 0.024;
+constexpr double kWidestAverage = 0.018;
 
 constexpr double kNormalReachInSigmas = 5.0;
 constexpr std::size_t kFewestNormalPoints = 16;
