@@ -196,7 +196,9 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
   const Plan plan = Plan::round(foot, settings.spacing_mm, 2.5 * settings.bridge_mm);
   const Mask print = footprint(plan, foot, standing_height_mm, settings);
   const Mask seen = seen_sole(plan, foot, standing_height_mm);
-  Mask closing = print;
+  // Where the wall ends too unevenly to tell its rounding, at least the least inset is kept.
+  Mask closing =
+      inverted(grown(plan, inverted(print), settings.least_inset_mm + settings.spacing_mm));
   for (const auto& wall : wall_feet(foot, standing_height_mm, settings)) {
     const double inset = contact_distance(wall, standing_height_mm, settings);
     // A disc that touches the contact line from outside also clears what lies outside the wall.

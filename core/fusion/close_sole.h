@@ -17,7 +17,7 @@ struct SoleSettings {
   /// The contact is put where the lowest seen wall, continued as an arc, meets the platform; this
   /// factor on its distance makes up for the arc that a straight tape cuts off. Measured on upright
   /// walls with roundings of 4, 8 and 12 mm seen from 15, 30 and 45 degrees above: the stretched
-  /// girth is off by -0.6 to 0.7 mm, but at 45 degrees, where the rounding is hardly seen, by -1.7
+  /// girth is off by -0.7 to 0.7 mm, but at 45 degrees, where the rounding is hardly seen, by -1.7
   /// (8 mm) to 1.0 mm (12 mm).
   double inset_factor = 0.7;
 };

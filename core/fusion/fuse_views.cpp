@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "core/fusion/seen_through.h"
+
 namespace instep {
 namespace {
 
@@ -205,8 +207,15 @@ ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& in
   return part;
 }
 
-void drop_outliers(ViewedCloud& points, const FusionSettings& settings, FusedScene& scene) {
+void drop_outliers(const std::vector<WorkingView>& views, const FusionSettings& settings,
+                   ViewedCloud& points, FusedScene& scene) {
+  std::vector<PosedDepth> posed;
+  for (const auto& view : views) {
+    posed.push_back({&view.rays->intrinsics(), &view.depth, view.station_from_camera});
+  }
+  const double margin = settings.seen_through_mm + 2.0 * scene.diagnostics.registration_after_mm;
   const std::size_t before = points.cloud.size();
+  points = subset(points, points_not_seen_through(points, posed, margin));
   points = subset(points, crowded_points(points.cloud, settings.outliers));
   points = subset(points, clustered_points(points.cloud, settings.outliers));
   scene.diagnostics.outliers = before - points.cloud.size();
@@ -299,7 +308,7 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   scene.diagnostics.views_used = working.size();
   find_standing_plane(working, settings, scene);
   ViewedCloud points = gather_feet(working, settings, scene);
-  drop_outliers(points, settings, scene);
+  drop_outliers(working, settings, points, scene);
   const auto feet = pick_feet(points, settings, scene);
   if (feet.empty()) {
     return fail(ErrorCode::kInsufficientData, "no foot stands on the platform",

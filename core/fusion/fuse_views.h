@@ -38,6 +38,8 @@ struct FusionSettings {
   /// Points further from the station's origin, in plan and in height, are background.
   double region_radius_mm = 600.0;
   double region_height_mm = 500.0;
+  /// A point so far in front of what another camera sees there floats in the air.
+  double seen_through_mm = 4.0;
   double platform_clearance_mm = 1.0;  ///< points nearer than this, or 4 sigma, are platform
 
   SurfaceSettings surface;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <vector>
 
 #include "core/fusion/fuse_views.h"
@@ -25,15 +26,17 @@ Surfaces standing_person() {
 }
 
 void time_fusion(const char* name, const std::vector<View>& views, const FusionSettings& settings) {
+  const std::clock_t busy = std::clock();
   const auto start = Clock::now();
   const auto scene = fuse_views(views, settings);
   const double elapsed = milliseconds_since(start);
+  const double cpu = 1000.0 * static_cast<double>(std::clock() - busy) / CLOCKS_PER_SEC;
   if (!scene) {
     std::printf("%s: %s\n", name, scene.error().line().c_str());
     return;
   }
-  std::printf("%-44s %8.1f ms  (%zu feet, %zu points)\n", name, elapsed, scene->feet.size(),
-              scene->feet.front().size() + scene->feet.back().size());
+  std::printf("%-44s %8.1f ms  (%.1f of CPU; %zu feet, %zu points)\n", name, elapsed, cpu,
+              scene->feet.size(), scene->feet.front().size() + scene->feet.back().size());
 }
 
 }  // namespace

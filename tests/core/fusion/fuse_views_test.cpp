@@ -101,7 +101,7 @@ TEST(FuseViews, ClosesTheSoleInsideTheFootOnly) {
       ++closing;
       EXPECT_NEAR(foot.positions[i].z(), scene->standing_height_mm, 1e-9);
       const Vector3d at_widest(foot.positions[i].x(), foot.positions[i].y(), 28.0);
-      EXPECT_LT(std::min(feet[0]->distance(at_widest), feet[1]->distance(at_widest)), -3.0);
+      EXPECT_LT(std::min(feet[0]->distance(at_widest), feet[1]->distance(at_widest)), -2.0);
     }
     EXPECT_GT(closing, 500U);
   }
