@@ -52,8 +52,7 @@ Result<void> Station::request_scan() {
   }
   handle(StationEvent::kScanRequested);
   if (machine_.is_busy()) return {};
-  if (const auto trouble = first_trouble()) return tl::make_unexpected(*trouble);
-  return fail(ErrorCode::kBusy, "the station is starting", "wait a moment and scan again");
+  return tl::make_unexpected(refusal());
 }
 
 Result<void> Station::request_cancel() {
@@ -94,7 +93,8 @@ StationStatus Station::status() const {
 }
 
 void Station::note_progress(ProgressWatch& watch) const {
-  watch.note("scan", scan_thread_.is_busy(), scan_thread_.progress());
+  // Opening devices is one long call that tells no steps; the state shows that it goes on.
+  watch.note("scan", scan_thread_.is_busy() && !opening_, scan_thread_.progress());
   if (cameras_) cameras_->note_progress(watch);
 }
 
@@ -112,8 +112,7 @@ void Station::act(StationAction action) {
       *cancelled_ = true;
       return;
     case StationAction::kRefuseScan:
-      if (const auto trouble = first_trouble()) listener_.on_failure(*trouble);
-      return;
+      return listener_.on_failure(refusal());
     case StationAction::kIgnorePress:
       return listener_.on_ignored_press(machine_.ignored_presses());
     case StationAction::kAnnounceResult:
@@ -129,6 +128,7 @@ void Station::act(StationAction action) {
 }
 
 void Station::open_devices_again() {
+  opening_ = true;
   scan_thread_.post([this, post = loop_.poster(), settings = settings_](TaskProgress&) {
     auto devices = std::make_shared<Result<Devices>>(open_devices(settings));
     post([this, devices] { take_devices(std::move(*devices)); });
@@ -136,6 +136,7 @@ void Station::open_devices_again() {
 }
 
 void Station::take_devices(Result<Devices> devices) {
+  opening_ = false;
   if (!devices) {
     open_trouble_ = devices.error();
     check_timer_.set(back_off_.next());
@@ -278,6 +279,12 @@ void Station::scan_ended(const ScanOutcome& outcome) {
   }
   handle(outcome.error->code == ErrorCode::kCancelled ? StationEvent::kScanCancelled
                                                       : StationEvent::kScanFailed);
+}
+
+Error Station::refusal() const {
+  const Error starting{ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
+                       "wait a moment and scan again"};
+  return first_trouble().value_or(starting);
 }
 
 std::optional<Error> Station::first_trouble() const {

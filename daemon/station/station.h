@@ -91,6 +91,8 @@ class Station {
   void scan_ended(const ScanOutcome& outcome);
   ScanTools tools() const;
   std::optional<Error> first_trouble() const;
+  /// Why a scan cannot begin now.
+  Error refusal() const;
 
   EventLoop& loop_;
   Settings settings_;
@@ -120,6 +122,7 @@ class Station {
   double done_ = 0.0;
   std::uint64_t scans_ = 0;
   std::string last_result_;
+  bool opening_ = false;
 };
 
 }  // namespace instep

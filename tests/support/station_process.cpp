@@ -33,6 +33,7 @@ StationProcess::StationProcess(const std::string& more_settings) {
   if (::bind(notifications_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
     throw std::runtime_error("cannot listen on " + path);
   }
+  reader_ = std::thread([this] { read_notifications(); });
 }
 
 StationProcess::~StationProcess() {
@@ -40,6 +41,8 @@ StationProcess::~StationProcess() {
     ::kill(process_, SIGKILL);
     ::waitpid(process_, nullptr, 0);
   }
+  ending_ = true;
+  reader_.join();
   ::close(notifications_);
 }
 
@@ -54,7 +57,12 @@ std::string StationProcess::small_settings() {
 }
 
 void StationProcess::start(std::optional<std::chrono::microseconds> watchdog) {
-  notified_.clear();
+  {
+    // What an earlier run has said is not about this one.
+    const std::lock_guard lock(mutex_);
+    take_waiting();
+    notified_.clear();
+  }
   std::vector<std::string> environment = {"NOTIFY_SOCKET=" + (folder() / "notify.sock").string(),
                                           "INSTEP_CONFIG=" + (folder() / "instep.toml").string(),
                                           "INSTEP_STORE=" + store_.string(),
@@ -93,18 +101,32 @@ std::optional<int> StationProcess::wait_for_exit(milliseconds limit) {
 }
 
 bool StationProcess::wait_for(const std::string& text, milliseconds limit) {
-  const auto deadline = steady_clock::now() + limit;
-  while (true) {
-    if (const auto found = notified_.find(text); found != std::string::npos) {
-      notified_.erase(0, found + text.size());
-      return true;
-    }
-    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
+  std::unique_lock lock(mutex_);
+  auto found = std::string::npos;
+  const bool came = changed_.wait_for(lock, limit, [&] {
+    found = notified_.find(text);
+    return found != std::string::npos;
+  });
+  if (came) notified_.erase(0, found + text.size());
+  return came;
+}
+
+void StationProcess::read_notifications() {
+  while (!ending_) {
     pollfd waiting{notifications_, POLLIN, 0};
-    if (left <= 0 || ::poll(&waiting, 1, static_cast<int>(left)) <= 0) return false;
-    std::array<char, 4096> message;
-    const auto got = ::recv(notifications_, message.data(), message.size(), 0);
-    if (got > 0) notified_ += std::string(message.data(), static_cast<std::size_t>(got)) + "\n";
+    if (::poll(&waiting, 1, 20) <= 0) continue;
+    const std::lock_guard lock(mutex_);
+    take_waiting();
+    changed_.notify_all();
+  }
+}
+
+void StationProcess::take_waiting() {
+  std::array<char, 4096> message;
+  while (true) {
+    const auto got = ::recv(notifications_, message.data(), message.size(), MSG_DONTWAIT);
+    if (got < 0) return;
+    notified_ += std::string(message.data(), static_cast<std::size_t>(got)) + "\n";
   }
 }
 

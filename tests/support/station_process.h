@@ -2,10 +2,14 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "daemon/control/control_client.h"
 #include "tests/support/temporary_folder.h"
@@ -53,8 +57,16 @@ class StationProcess {
  private:
   TemporaryFolder folder_;
   std::filesystem::path store_;
+  /// Reads notifications as they come: a full socket would hold up the daemon.
+  void read_notifications();
+  void take_waiting();
+
   int notifications_ = -1;
+  std::mutex mutex_;
+  std::condition_variable changed_;
   std::string notified_;
+  std::atomic<bool> ending_ = false;
+  std::thread reader_;
   pid_t process_ = -1;
 };
 
