@@ -90,16 +90,31 @@ class Measurer {
   }
 
   Vector3d most_protruding(double sign, double from, double to) const {
+    return most_protruding(sign, from, to, [](double) { return 0.0; });
+  }
+
+  /// With a handicap, by place, that makes a likely place win over one hardly further out.
+  template <typename Handicap>
+  Vector3d most_protruding(double sign, double from, double to, const Handicap& handicap) const {
     const OutlineProbe felt = probe();
-    const double x =
-        place_of_maximum([&](double at) { return sign * felt.side(at, sign).y(); }, from, to, 1.5);
-    return felt.side(x, sign);
+    const auto reach = [&](double at) { return sign * felt.side(at, sign).y() - handicap(at); };
+    return felt.side(place_of_maximum(reach, from, to, 1.5), sign);
+  }
+
+  /// A millimetre of handicap at a twenty-fifth of FL off the usual place, growing as its square.
+  auto off_usual(double usual) const {
+    return [usual, spread = 0.04 * length_](double at) {
+      return std::pow((at - usual) / spread, 2);
+    };
   }
 
   void find_ball_points() {
-    const Vector3d mt = landmark("mt") = most_protruding(medial_, 0.60 * length_, 0.80 * length_);
+    const Vector3d mt = landmark("mt") =
+        most_protruding(medial_, 0.60 * length_, 0.80 * length_, off_usual(0.69 * length_));
+    const double foremost = std::min(0.75 * length_, mt.x() - 15.0);
     const Vector3d mf = landmark("mf") =
-        most_protruding(-medial_, 0.50 * length_, std::min(0.75 * length_, mt.x() - 15.0));
+        most_protruding(-medial_, 0.50 * length_, foremost,
+                        off_usual(std::min(0.63 * length_, foremost)));
     truth_.measures["foot_breadth"] = (mt - mf).head<2>().norm();
     const double from = 0.50 * length_, to = 0.85 * length_;
     truth_.measures["foot_breadth_horizontal"] =

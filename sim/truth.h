@@ -21,8 +21,10 @@ namespace instep {
 ///   toe2             where the axis leaves the outline in front: the axis runs from the pternion
 ///                    over the middle of the second toe's tip, which the solid knows
 ///   acropodion       foremost point of the outline
-///   mt               most medial point of the outline in 0.60-0.80 FL
-///   mf               most lateral point of the outline in 0.50-0.75 FL, 15 mm or more behind mt
+///   mt               most medial point of the outline in 0.60-0.80 FL, less a handicap of 1 mm
+///                    for each (0.04 FL)^2 off 0.69 FL
+///   mf               most lateral point of the outline in 0.50-0.75 FL, 15 mm or more behind mt,
+///                    with the same handicap off 0.63 FL
 ///   instep           highest point of the back of the foot at 0.50 FL
 ///   lateral_midfoot  P2, the lateral outline point in 0.25-0.45 FL nearest to `instep` seen from
 ///                    above

@@ -98,7 +98,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   foot.landmarks["toe2_tip"] =
       axis.is_second_toe_resolved
           ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
-          : Landmark{axis.toe2_tip, 0.4, "front border at 0.35 of the ball's breadth from medial"};
+          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
   foot.warnings = doubts(foot, axis.is_second_toe_resolved);
   return foot;
 }

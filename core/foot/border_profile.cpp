@@ -9,7 +9,6 @@
 namespace instep {
 namespace {
 
-constexpr double kNarrowestStripMm = 2.0;
 constexpr double kPointsInStrip = 30.0;
 constexpr double kStrayMm = 3.0;
 constexpr double kNarrowestSmoothingInStrips = 3.0;
@@ -18,16 +17,16 @@ constexpr int kEnvelopeRounds = 4;
 constexpr double kSearchStepMm = 0.5;
 constexpr std::size_t kFewestSamples = 4;
 
-double strip_width(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along) {
-  if (points.empty()) return kNarrowestStripMm;
+double strip_width(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along,
+                   double narrowest_mm) {
+  if (points.empty()) return narrowest_mm;
   double from = along.dot(points.front());
   double to = from;
   for (const auto& point : points) {
     from = std::min(from, along.dot(point));
     to = std::max(to, along.dot(point));
   }
-  return std::max(kNarrowestStripMm,
-                  kPointsInStrip * (to - from) / static_cast<double>(points.size()));
+  return std::max(narrowest_mm, kPointsInStrip * (to - from) / static_cast<double>(points.size()));
 }
 
 Eigen::Vector2d furthest_point(std::vector<Eigen::Vector2d>& points) {
@@ -42,8 +41,8 @@ Eigen::Vector2d furthest_point(std::vector<Eigen::Vector2d>& points) {
 
 BorderProfile::BorderProfile(const std::vector<Eigen::Vector2d>& points,
                              const Eigen::Vector2d& along, const Eigen::Vector2d& reach,
-                             double smoothing_mm) {
-  const double width = strip_width(points, along);
+                             double smoothing_mm, double strip_mm) {
+  const double width = strip_width(points, along, strip_mm);
   smoothing_mm_ = std::max(smoothing_mm, kNarrowestSmoothingInStrips * width);
   std::map<long, std::vector<Eigen::Vector2d>> strips;
   for (const auto& point : points) {

@@ -9,17 +9,17 @@ namespace instep {
 
 /// One side of an outline as a function: how far the body reaches, at each place along a line.
 ///
-/// Points are sorted into strips along the line, 2 mm wide or as wide as it takes to hold thirty
-/// points; the furthest point of each (the next one, if it stands alone by 3 mm: a stray) is a
-/// sample. reach() fits a local quadratic to the samples, in which those that fall short count
-/// little: a strip may have no point on the very border. So a peak is found well under the spacing
-/// of the points.
+/// Points are sorted into strips along the line, 2 mm wide (or as asked) or as wide as it takes to
+/// hold thirty points; the furthest point of each (the next one, if it stands alone by 3 mm: a
+/// stray) is a sample. reach() fits a local quadratic to the samples, in which those that fall
+/// short count little: a strip may have no point on the very border. So a peak is found well under
+/// the spacing of the points.
 class BorderProfile {
  public:
   /// `along` and `reach` (unit vectors, at right angles) are the axes of the function;
   /// `smoothing_mm` is how far to either side a sample has a say.
   BorderProfile(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along,
-                const Eigen::Vector2d& reach, double smoothing_mm);
+                const Eigen::Vector2d& reach, double smoothing_mm, double strip_mm = 2.0);
 
   /// Smoothed reach at a place; nothing where too few strips near by have points.
   std::optional<double> reach(double place) const;

@@ -1,5 +1,6 @@
 #include "core/foot/second_toe.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/foot/border_profile.h"
@@ -10,10 +11,12 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kBorderSmoothingMm = 9.0;
-constexpr double kToeSmoothingMm = 5.0;
-constexpr double kToeSummitMm = 2.0;
-constexpr std::size_t kFewestToes = 3;
-constexpr double kFurthestShareOff = 0.12;
+constexpr double kToeSmoothingMm = 3.5;
+constexpr double kToeStripMm = 1.0;
+constexpr double kCleftMm = 1.0;  ///< depth from which a cleft parts two toes
+constexpr std::size_t kFewestToes = 2;
+constexpr double kFurthestShareOff = 0.1;
+constexpr double kHalfToeMm = 6.0;
 
 struct BallBorders {
   double medial = 0.0;
@@ -29,6 +32,46 @@ std::optional<BallBorders> ball_borders(const std::vector<Vector2d>& outline, do
   return BallBorders{inside->reach, inside->reach + outside->reach};
 }
 
+/// The direction that looks square at the line of the toes' tips: least squares over the border
+/// from the little toe to the second one.
+Vector2d square_to_toes(const BorderProfile& front, double from, double to) {
+  constexpr int kSteps = 30;
+  double count = 0.0, sum_y = 0.0, sum_x = 0.0, sum_yy = 0.0, sum_xy = 0.0;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double y = from + (to - from) * i / kSteps;
+    const auto x = front.reach(y);
+    if (!x) continue;
+    count += 1.0;
+    sum_y += y;
+    sum_x += *x;
+    sum_yy += y * y;
+    sum_xy += *x * y;
+  }
+  const double spread = count * sum_yy - sum_y * sum_y;
+  if (!(spread > 0.0)) return Vector2d::UnitX();
+  const double slope = (count * sum_xy - sum_x * sum_y) / spread;
+  return Vector2d(1.0, -slope).normalized();
+}
+
+/// The toes that show, each by the point of its border that stands out most.
+std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vector2d& square,
+                                   const BallBorders& ball) {
+  const Vector2d along(-square.y(), square.x());
+  const BorderProfile toes(front, along, square, kToeSmoothingMm, kToeStripMm);
+  double from = 1e300;
+  double to = -1e300;
+  for (const auto& point : front) {
+    from = std::min(from, along.dot(point));
+    to = std::max(to, along.dot(point));
+  }
+  std::vector<Vector2d> found;
+  if (!(to - from < 2.0 * ball.breadth)) return found;
+  for (const auto& summit : toes.summits(from, to, kCleftMm)) {
+    found.push_back(summit.place * along + summit.reach * square);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, double length_mm) {
@@ -38,22 +81,24 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
   for (const auto& point : outline) {
     if (point.x() > 0.75 * length_mm) front.push_back(point);
   }
-  const BorderProfile toes(front, Vector2d::UnitY(), Vector2d::UnitX(), kToeSmoothingMm);
+  const BorderProfile forwards(front, Vector2d::UnitY(), Vector2d::UnitX(), kToeSmoothingMm,
+                               kToeStripMm);
   const double expected = ball->medial - kSecondToeShare * ball->breadth;
-  const auto summits = toes.summits(ball->medial - ball->breadth, ball->medial, kToeSummitMm);
 
-  const BorderProfile::Peak* nearest = nullptr;
-  for (const auto& summit : summits) {
-    if (nearest == nullptr ||
-        std::abs(summit.place - expected) < std::abs(nearest->place - expected)) {
-      nearest = &summit;
-    }
+  const Vector2d square = square_to_toes(forwards, ball->medial - 0.9 * ball->breadth,
+                                         ball->medial - 0.3 * ball->breadth);
+  const auto toes = visible_toes(front, square, *ball);
+  const auto nearest =
+      std::min_element(toes.begin(), toes.end(), [&](const Vector2d& a, const Vector2d& b) {
+        return std::abs(a.y() - expected) < std::abs(b.y() - expected);
+      });
+  if (toes.size() >= kFewestToes &&
+      std::abs(nearest->y() - expected) < kFurthestShareOff * ball->breadth) {
+    const auto tip = forwards.furthest(nearest->y() - kHalfToeMm, nearest->y() + kHalfToeMm);
+    const bool is_summit = tip && std::abs(tip->place - nearest->y()) < 0.9 * kHalfToeMm;
+    return SecondToe{is_summit ? Vector2d(tip->reach, tip->place) : *nearest, true};
   }
-  if (summits.size() >= kFewestToes &&
-      std::abs(nearest->place - expected) < kFurthestShareOff * ball->breadth) {
-    return SecondToe{{nearest->reach, nearest->place}, true};
-  }
-  const auto reach = toes.reach(expected);
+  const auto reach = forwards.reach(expected);
   if (!reach) return std::nullopt;
   return SecondToe{{*reach, expected}, false};
 }

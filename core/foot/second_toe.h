@@ -14,11 +14,15 @@ struct SecondToe {
 
 /// Share of the ball's breadth from the medial border at which the second toe's tip is taken to be
 /// where the toes cannot be told apart (in a sock, or in a coarse cloud).
-inline constexpr double kSecondToeShare = 0.35;
+inline constexpr double kSecondToeShare = 0.42;
 
-/// Finds the second toe's tip on the front border: the summit nearest to kSecondToeShare of the
-/// breadth, if at least three toes show as summits of 2 mm or more and one of them lies within 0.12
-/// of that share; else the front border at that share.
+/// Finds the second toe's tip on the front border: of the toes that show, the one nearest to
+/// kSecondToeShare of the breadth, if it lies within 0.1 of that share; else the front border at
+/// that share.
+///
+/// Toes recede towards the little one, so that a toe seldom stands out forwards; they are told
+/// apart by the clefts between them, seen square to the line of their tips. The tip is the foremost
+/// point of the toe so found.
 ///
 /// `outline`: the outline's points from above, x to the toes, medial side on +y, rear end near
 /// x = 0. Nothing where there is no border in front.
