@@ -24,7 +24,8 @@ constexpr std::size_t kFewestRidgePoints = 12;
 constexpr double kArchFrom = 0.35;
 constexpr double kArchTo = 0.60;
 constexpr double kArchPrior = 0.48;
-constexpr double kArchStep = 0.01;
+constexpr double kArchStep = 0.005;
+constexpr double kArchWindow = 0.06;
 constexpr double kTapeBandMm = 2.5;
 
 std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double place, double width) {
@@ -91,6 +92,19 @@ std::optional<double> lowest_place(const std::vector<Vector2d>& lengths) {
   return middle + t * half;
 }
 
+/// The same, refined by a second parabola through the places near the first one's lowest: the tape
+/// grows faster towards the heel than towards the ball.
+std::optional<double> lowest_near(const std::vector<Vector2d>& lengths, double window) {
+  const auto rough = lowest_place(lengths);
+  if (!rough) return std::nullopt;
+  std::vector<Vector2d> close;
+  for (const auto& length : lengths) {
+    if (std::abs(length.x() - *rough) <= window) close.push_back(length);
+  }
+  const auto fine = lowest_place(close);
+  return fine ? fine : rough;
+}
+
 Landmark border_landmark(const FootOutline& outline, const Vector2d& flat, double confidence,
                          const char* rule) {
   return {{flat.x(), flat.y(), outline.border_height(flat)}, confidence, rule};
@@ -145,7 +159,7 @@ std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landm
       lengths.emplace_back(point->x(), *tape);
     }
   }
-  const auto lowest = lowest_place(lengths);
+  const auto lowest = lowest_near(lengths, kArchWindow * outline.length_mm());
   const auto point = on_border(lowest.value_or(kArchPrior * outline.length_mm()));
   if (!point) return std::nullopt;
   return lowest ? border_landmark(outline, *point, 0.7,
