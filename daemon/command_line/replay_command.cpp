@@ -18,12 +18,14 @@ using json = nlohmann::ordered_json;
 
 constexpr const char* kExamples = R"(Prints {"results": [...]}, one object for each foot. Examples:
   instep replay visit
-  instep replay visit --out results --side left)";
+  instep replay visit --out results --side left
+  instep replay visit --poses trust        (the cameras are calibrated))";
 
 struct ReplayCommand {
   std::string recording;
   std::string out;
   std::string side = "auto";
+  std::string poses = "auto";
 };
 
 Result<Capture> read_capture(const std::string& folder) {
@@ -64,6 +66,7 @@ Result<void> run(const ReplayCommand& command) {
   PipelineSettings settings;
   settings.station = "replay";
   settings.side = side_from_string(command.side);
+  settings.refine_views = command.poses == "auto" ? !capture->simulated : command.poses == "refine";
   ProgressLine line;
   const auto records =
       measure_capture(*capture, settings, [&](std::string_view stage, double done) {
@@ -95,6 +98,12 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   replay->add_option("--out", command->out, "folder to keep the results in");
   replay->add_option("--side", command->side, "of the foot, if the shape is not to decide")
       ->check(CLI::IsMember({"left", "right", "auto"}))
+      ->capture_default_str();
+  replay
+      ->add_option("--poses", command->poses,
+                   "trust the cameras' poses, or refine them by fitting the views to each other; "
+                   "auto: refine what was not simulated")
+      ->check(CLI::IsMember({"auto", "trust", "refine"}))
       ->capture_default_str();
   replay->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
