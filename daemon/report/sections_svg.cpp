@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMarginPx = 48.0;
-constexpr double kLeastPageWidthPx = 900.0;
+constexpr double kLeastPageWidthPx = 1060.0;
 constexpr double kPixelsPerMm = 3.0;
 constexpr double kBetweenPx = 56.0;
 constexpr double kPlanTopPx = 120.0;
