@@ -13,7 +13,7 @@
 namespace instep {
 namespace {
 
-constexpr double kStepInSpacings = 0.7;
+constexpr double kStepInSpacings = 0.6;
 /// Points further from the contour or the plane than this many spacings are no evidence for it.
 constexpr double kEvidenceInSpacings = 2.5;
 /// The surface bridges no wider hole, against the length of the contour.

@@ -264,8 +264,8 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   Eigen::AlignedBox3d box;
   for (const auto& place : slab.places) box.extend(place);
   const double size = box.diagonal().norm();
-  const double crowd =
-      std::clamp(kAveragedSigmas * noise.sigma, kFinest * size, kWidestAverage * size);
+  double crowd = std::min(kAveragedSigmas * noise.sigma, kWidestAverage * size);
+  if (spacing < kFinest * size) crowd = std::max(crowd, kFinest * size);
   if (crowd > spacing) {
     spacing = crowd;
     slab = without_strays(slab_of(cloud, plane, kBandInSpacings * spacing));

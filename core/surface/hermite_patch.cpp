@@ -126,7 +126,8 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
   turn_into_basis(qr, terms, system);
   Eigen::VectorXd data(2 * count);
   data << Eigen::VectorXd::Zero(count), Eigen::VectorXd::Ones(count);
-  data.applyOnTheLeft(qr.householderQ().adjoint());
+  const auto basis = qr.householderQ().setLength(terms);
+  data.applyOnTheLeft(basis.adjoint());
 
   const Eigen::Index free = 2 * count - terms;
   const Eigen::MatrixXd coupling = system.bottomLeftCorner(free, terms);
@@ -142,7 +143,7 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
           .triangularView<Eigen::Upper>()
           .solve(data.head(terms) - coupling.transpose() * weights.tail(free));
   patch.polynomial_ = qr.colsPermutation() * coefficients;
-  weights.applyOnTheLeft(qr.householderQ());
+  weights.applyOnTheLeft(basis);
   if (!weights.allFinite() || !patch.polynomial_.allFinite()) return std::nullopt;
   patch.value_weights_ = weights.head(count);
   patch.slope_weights_ = weights.tail(count);

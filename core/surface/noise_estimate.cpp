@@ -10,21 +10,21 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbourhoods = 30;
+constexpr std::size_t kNeighbourhoods = 40;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 /// The shape between the neighbourhoods may be rougher than they are: measured on scanned feet,
 /// where the plain estimate flattens bends.
 constexpr double kAllowance = 4.0;
 constexpr double kLeastRoughness = 1e-12;
-constexpr std::size_t kPoints = 48;
+constexpr std::size_t kPoints = 60;
 /// Terms of a quadratic in two variables: curvature is shape, not roughness.
 constexpr Eigen::Index kTerms = 6;
 /// A neighbourhood whose thickness is at most this part of its width is flat enough. One that is
 /// not is taken larger, where noise is thicker than the spacing, or smaller, where it bends too
 /// much or reaches across a thin part; the flattest counts.
 constexpr double kFlatEnough = 0.15;
-constexpr std::array<std::size_t, 6> kTriedPoints = {48, 30, 20, 96, 192, 384};
+constexpr std::array<std::size_t, 6> kTriedPoints = {60, 30, 20, 120, 240, 480};
 
 /// A neighbourhood in the basis where kernel and noise are both diagonal.
 struct Spectrum {
