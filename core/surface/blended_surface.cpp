@@ -12,7 +12,7 @@ constexpr std::size_t kPatchPoints = 80;
 /// A patch counts up to this part of its radius, beyond which it has no points on all sides.
 constexpr double kReach = 0.75;
 /// A place needs a patch centred within this part of the patch's radius.
-constexpr double kNearEnough = 0.45;
+constexpr double kNearEnough = 0.35;
 
 struct Weight {
   double value = 0.0;
