@@ -7,7 +7,8 @@ namespace instep {
 namespace {
 
 constexpr int kMostCorrections = 12;
-constexpr double kOnTheLine = 1e-12;
+/// A last move of Newton that is shorter, in steps, leaves an error of its square.
+constexpr double kLastMove = 1e-5;
 /// A step that turns further is halved, down to this part of the full step.
 constexpr double kLargestTurn = 0.2;
 constexpr double kShortestStep = 1.0 / 64.0;
@@ -40,9 +41,7 @@ std::optional<Place> correct(BlendedSurface& surface, const Eigen::Vector2d& sta
     const Eigen::Vector2d move = -field->value / slope.squaredNorm() * slope;
     point += move;
     if (!((point - start).norm() <= reach)) return std::nullopt;
-    if (move.norm() < kOnTheLine || (i > 6 && move.norm() < 1e-6 * reach)) {
-      return Place{point, slope.normalized()};
-    }
+    if (move.norm() < kLastMove * reach) return Place{point, slope.normalized()};
   }
   return std::nullopt;
 }

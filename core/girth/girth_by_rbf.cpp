@@ -13,7 +13,9 @@
 namespace instep {
 namespace {
 
-constexpr double kStepInSpacings = 0.4;
+/// Steps in spacings: short ones place the patches evenly, longer ones read the finished field.
+constexpr double kDraftStep = 0.4;
+constexpr double kReadingStep = 0.6;
 /// Points further from the contour or the plane than this many spacings are no evidence for it.
 constexpr double kEvidenceInSpacings = 2.5;
 /// The surface bridges no wider hole, against the length of the contour.
@@ -42,11 +44,12 @@ std::vector<Contour> trace_all(const PlaneBand& band, BlendedSurface& surface) {
     });
     if (known) continue;
     if (++starts > kMostStarts || contours.size() >= kMostLoops) break;
-    const double step = kStepInSpacings * band.spacing;
     // The first round places the patches, the second reads the finished field.
-    const auto draft = trace_contour(surface, start, step, kWidestBridge, 12.0);
+    const auto draft =
+        trace_contour(surface, start, kDraftStep * band.spacing, kWidestBridge, 12.0);
     if (!draft) continue;
-    auto contour = trace_contour(surface, draft->points.front(), step, kWidestBridge, 12.0);
+    auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.spacing,
+                                 kWidestBridge, 12.0);
     if (contour && signed_area(contour->points) > 0.0) contours.push_back(std::move(*contour));
   }
   return contours;

@@ -24,6 +24,8 @@ constexpr double kDuplicate = 0.02;
 /// Noisy points are averaged over this many standard deviations, up to this part of the section.
 constexpr double kAveragedSigmas = 4.0;
 constexpr double kWidestAverage = 0.018;
+/// Points nearer than this part of the section tell no more about it than their average.
+constexpr double kFinest = 0.007;
 
 constexpr double kNormalReachInSigmas = 5.0;
 constexpr std::size_t kFewestNormalPoints = 16;
@@ -47,16 +49,15 @@ Slab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width)
   return slab;
 }
 
-double middle(std::vector<double> values) {
+/// The middle one; puts the values in another order.
+double middle(std::vector<double>& values) {
   const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), half, values.end());
   return *half;
 }
 
 /// Side of the square that a point has for itself, by the distance to its k-th neighbour.
-double own_spacing(const std::vector<Eigen::Vector3d>& places, const PointIndex& index,
-                   std::size_t point) {
-  const auto nearest = index.nearest(places[point], kSpacingNeighbours + 1);
+double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
   const auto found = static_cast<double>(nearest.size() - 1);
   return std::sqrt(nearest.back().squared_distance * std::numbers::pi / std::max(found, 1.0));
 }
@@ -65,9 +66,9 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places, const PointIndex& 
   std::vector<double> spacings;
   const std::size_t stride = std::max<std::size_t>(1, places.size() / 400);
   for (std::size_t i = 0; i < places.size(); i += stride) {
-    spacings.push_back(own_spacing(places, index, i));
+    spacings.push_back(own_spacing(index.nearest(places[i], kSpacingNeighbours + 1)));
   }
-  return middle(std::move(spacings));
+  return middle(spacings);
 }
 
 /// Size of the cloud as the plane sees it, so that it turns with the two.
@@ -96,18 +97,20 @@ Result<std::pair<Slab, double>> wide_enough_slab(const PointCloud& cloud, const 
 /// Leaves out points that are far from all others, compared with their neighbours.
 Slab without_strays(const Slab& slab) {
   const PointIndex index(slab.places);
+  std::vector<std::vector<PointIndex::Neighbour>> nearest;
   std::vector<double> spacings;
+  nearest.reserve(slab.places.size());
   spacings.reserve(slab.places.size());
-  for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    spacings.push_back(own_spacing(slab.places, index, i));
+  for (const auto& place : slab.places) {
+    nearest.push_back(index.nearest(place, kSpacingNeighbours + 1));
+    spacings.push_back(own_spacing(nearest.back()));
   }
   Slab kept;
+  std::vector<double> around;
   for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    std::vector<double> around;
-    for (const auto& neighbour : index.nearest(slab.places[i], kSpacingNeighbours + 1)) {
-      around.push_back(spacings[neighbour.index]);
-    }
-    if (spacings[i] > kStrayRatio * middle(std::move(around))) continue;
+    around.clear();
+    for (const auto& neighbour : nearest[i]) around.push_back(spacings[neighbour.index]);
+    if (spacings[i] > kStrayRatio * middle(around)) continue;
     kept.indices.push_back(slab.indices[i]);
     kept.places.push_back(slab.places[i]);
   }
@@ -251,7 +254,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   if (own_sigma) {
     std::vector<double> sigmas;
     for (const std::size_t index : slab.indices) sigmas.push_back(cloud.sigma_mm[index]);
-    sigma_mm = middle(std::move(sigmas));
+    sigma_mm = middle(sigmas);
   }
   const NoiseEstimate noise = estimate_noise(slab.places, PointIndex(slab.places),
                                              along_the_plane(slab, spacing), sigma_mm);
@@ -260,8 +263,9 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
 
   Eigen::AlignedBox3d box;
   for (const auto& place : slab.places) box.extend(place);
-  const double crowd =
-      std::min(kAveragedSigmas * noise.sigma, kWidestAverage * box.diagonal().norm());
+  const double size = box.diagonal().norm();
+  double crowd = std::min(kAveragedSigmas * noise.sigma, kWidestAverage * size);
+  if (spacing < kFinest * size) crowd = std::max(crowd, kFinest * size);
   if (crowd > spacing) {
     spacing = crowd;
     slab = without_strays(slab_of(cloud, plane, kBandInSpacings * spacing));

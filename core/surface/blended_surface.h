@@ -28,11 +28,6 @@ class BlendedSurface {
   /// Nothing outside all patches.
   std::optional<FieldValue> at(const Eigen::Vector3d& place) const;
 
-  /// Standard deviation of the error of the sum of `weights` times the field at `places`: noise
-  /// propagated exactly through all patches, and what the points leave open about the shape.
-  double deviation_of(const std::vector<Eigen::Vector3d>& places,
-                      const std::vector<double>& weights) const;
-
   /// Distance from the place to the nearest point.
   double distance_to_data(const Eigen::Vector3d& place) const;
 
@@ -44,7 +39,6 @@ class BlendedSurface {
   PointIndex index_;
   std::vector<LocalRoughness> roughness_;
   std::vector<HermitePatch> patches_;
-  std::vector<std::vector<std::size_t>> members_;  ///< points of each patch
 };
 
 }  // namespace instep

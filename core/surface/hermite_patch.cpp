@@ -1,5 +1,7 @@
 #include "core/surface/hermite_patch.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +23,8 @@ constexpr double kSlopeToValueSmoothing = 10.0;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
 
-/// The kernel r^3 between all data: values first, then slopes along the normals.
+/// The kernel r^3 between all data: values first, then slopes along the normals. Only the lower
+/// triangle is set.
 Eigen::MatrixXd kernel_matrix(const Eigen::Matrix3Xd& positions, const Eigen::Matrix3Xd& normals) {
   const Eigen::Index count = positions.cols();
   Eigen::MatrixXd kernel(2 * count, 2 * count);
@@ -32,11 +35,10 @@ Eigen::MatrixXd kernel_matrix(const Eigen::Matrix3Xd& positions, const Eigen::Ma
       const double along_i = offset.dot(normals.col(i));
       const double along_j = offset.dot(normals.col(j));
       const double both = r > 0.0 ? along_i * along_j / r : 0.0;
-      kernel(i, j) = kernel(j, i) = r * r * r;
-      kernel(count + i, j) = kernel(j, count + i) = 3.0 * r * along_i;
-      kernel(count + j, i) = kernel(i, count + j) = -3.0 * r * along_j;
-      kernel(count + i, count + j) = kernel(count + j, count + i) =
-          -3.0 * (both + r * normals.col(i).dot(normals.col(j)));
+      kernel(i, j) = r * r * r;
+      kernel(count + i, j) = 3.0 * r * along_i;
+      kernel(count + j, i) = -3.0 * r * along_j;
+      kernel(count + i, count + j) = -3.0 * (both + r * normals.col(i).dot(normals.col(j)));
     }
   }
   return kernel;
@@ -70,6 +72,27 @@ Eigen::MatrixXd polynomial_block(const Eigen::Matrix3Xd& positions,
   return block;
 }
 
+/// Q^T system Q for the Q of `qr`, of which only the lower triangle is read and written. All
+/// `terms` reflections at once, as the product I - V T V^T (Schreiber and Van Loan 1989): one after
+/// the other they would pass through the system each on its own.
+void turn_into_basis(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr, Eigen::Index terms,
+                     Eigen::MatrixXd& system) {
+  Eigen::MatrixXd v = qr.matrixQR().leftCols(terms).triangularView<Eigen::UnitLower>();
+  Eigen::MatrixXd t = Eigen::MatrixXd::Zero(terms, terms);
+  for (Eigen::Index i = 0; i < terms; ++i) {
+    t(i, i) = qr.hCoeffs()[i];
+    t.col(i).head(i) =
+        -t(i, i) * (t.topLeftCorner(i, i) * (v.leftCols(i).transpose() * v.col(i))).eval();
+  }
+  const Eigen::MatrixXd turned = system.selfadjointView<Eigen::Lower>() * (v * t);
+  const Eigen::MatrixXd both = t.transpose() * (v.transpose() * turned);
+  Eigen::MatrixXd left(v.rows(), 2 * terms);
+  Eigen::MatrixXd right(v.rows(), 2 * terms);
+  right << turned - 0.5 * v * both, v;
+  left << v, right.leftCols(terms);
+  system.triangularView<Eigen::Lower>() -= left * right.transpose();
+}
+
 }  // namespace
 
 std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& points,
@@ -100,29 +123,28 @@ std::optional<HermitePatch> HermitePatch::fit(const std::vector<OrientedPoint>& 
   if (terms < 4 || 2 * count < terms + 4) return std::nullopt;
   Eigen::MatrixXd system = kernel_matrix(patch.positions_, patch.normals_);
   system.diagonal() += smoothing;
-  system.applyOnTheLeft(qr.householderQ().adjoint());
-  system.applyOnTheRight(qr.householderQ());
+  turn_into_basis(qr, terms, system);
   Eigen::VectorXd data(2 * count);
   data << Eigen::VectorXd::Zero(count), Eigen::VectorXd::Ones(count);
-  data.applyOnTheLeft(qr.householderQ().adjoint());
+  const auto basis = qr.householderQ().setLength(terms);
+  data.applyOnTheLeft(basis.adjoint());
 
   const Eigen::Index free = 2 * count - terms;
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(system.bottomRightCorner(free, free));
+  const Eigen::MatrixXd coupling = system.bottomLeftCorner(free, terms);
+  Eigen::Ref<Eigen::MatrixXd> definite = system.bottomRightCorner(free, free);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(definite);
   if (cholesky.info() != Eigen::Success) return std::nullopt;
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(2 * count);
   weights.tail(free) = cholesky.solve(data.tail(free));
   Polynomial coefficients = Polynomial::Zero();
-  coefficients.head(terms) = qr.matrixQR()
-                                 .topLeftCorner(terms, terms)
-                                 .triangularView<Eigen::Upper>()
-                                 .solve(data.head(terms) - system.topRows(terms) * weights);
+  coefficients.head(terms) =
+      qr.matrixQR()
+          .topLeftCorner(terms, terms)
+          .triangularView<Eigen::Upper>()
+          .solve(data.head(terms) - coupling.transpose() * weights.tail(free));
   patch.polynomial_ = qr.colsPermutation() * coefficients;
-  weights.applyOnTheLeft(qr.householderQ());
+  weights.applyOnTheLeft(basis);
   if (!weights.allFinite() || !patch.polynomial_.allFinite()) return std::nullopt;
-  patch.unit_ = unit;
-  patch.basis_ = qr;
-  patch.system_ = std::move(system);
-  patch.cholesky_ = cholesky;
   patch.value_weights_ = weights.head(count);
   patch.slope_weights_ = weights.tail(count);
   return patch;
@@ -142,51 +164,6 @@ FieldValue HermitePatch::at(const Eigen::Vector3d& position) const {
                 3.0 * r * slope_weights_[j] * normals_.col(j);
   }
   return {radius_ * value, gradient};
-}
-
-Eigen::VectorXd HermitePatch::kernel_at(const Eigen::Vector3d& place) const {
-  const Eigen::Index count = positions_.cols();
-  Eigen::VectorXd kernel(2 * count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const Eigen::Vector3d offset = place - positions_.col(j);
-    const double r = offset.norm();
-    kernel[j] = r * r * r;
-    kernel[count + j] = -3.0 * r * offset.dot(normals_.col(j));
-  }
-  return kernel;
-}
-
-FieldReading HermitePatch::read(const std::vector<Eigen::Vector3d>& places,
-                                const Eigen::VectorXd& weights) const {
-  const Eigen::Index count = positions_.cols();
-  Eigen::VectorXd kernel = Eigen::VectorXd::Zero(2 * count);
-  Polynomial polynomial = Polynomial::Zero();
-  double own = 0.0;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const double weight = weights[static_cast<Eigen::Index>(k)];
-    const Eigen::Vector3d place = (places[k] - centre_) / radius_;
-    kernel += weight * kernel_at(place);
-    polynomial += weight * monomials(place);
-    for (std::size_t l = 0; l < k; ++l) {
-      const double r = (places[k] - places[l]).norm() / radius_;
-      own += 2.0 * weight * weights[static_cast<Eigen::Index>(l)] * r * r * r;
-    }
-  }
-  const Eigen::Index terms = basis_.rank();
-  const Eigen::Index free = 2 * count - terms;
-  const auto upper = basis_.matrixQR().topLeftCorner(terms, terms).triangularView<Eigen::Upper>();
-  const Eigen::VectorXd determined =
-      (basis_.colsPermutation().transpose() * polynomial).head(terms);
-  const Eigen::VectorXd rotated = basis_.householderQ().adjoint() * kernel;
-  Eigen::VectorXd solution(2 * count);
-  solution.head(terms) = upper.adjoint().solve(determined);
-  solution.tail(free) = cholesky_.solve(rotated.tail(free) - system_.bottomLeftCorner(free, terms) *
-                                                                 solution.head(terms));
-  const Eigen::VectorXd multipliers =
-      upper.solve(rotated.head(terms) - system_.topRows(terms) * solution);
-  const double variance = own - solution.dot(rotated) - multipliers.dot(determined);
-  const Eigen::VectorXd data_weights = basis_.householderQ() * solution;
-  return {data_weights.head(count), std::max(variance, 0.0) * unit_ * radius_ * radius_};
 }
 
 }  // namespace instep

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <optional>
 #include <vector>
 
@@ -20,12 +18,6 @@ struct OrientedPoint {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
   double variance = 0.0;
-};
-
-/// A weighted sum of a field's values at some places, seen as an estimate.
-struct FieldReading {
-  Eigen::VectorXd point_weights;  ///< how much a shift of each point along its normal moves it
-  double variance = 0.0;          ///< of its error, noise and unknown shape together
 };
 
 /// A field over a small neighbourhood that is near zero on its points and grows at unit rate along
@@ -50,19 +42,11 @@ class HermitePatch {
 
   FieldValue at(const Eigen::Vector3d& position) const;
 
-  /// The kriging weights and variance of the sum of `weights` times the field at `places`.
-  /// O(points^2).
-  FieldReading read(const std::vector<Eigen::Vector3d>& places,
-                    const Eigen::VectorXd& weights) const;
-
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
 
  private:
   HermitePatch() = default;
-
-  /// Kernel between all data and one place.
-  Eigen::VectorXd kernel_at(const Eigen::Vector3d& place) const;
 
   Eigen::Vector3d centre_;
   double radius_ = 1.0;
@@ -71,12 +55,6 @@ class HermitePatch {
   Eigen::VectorXd value_weights_;
   Eigen::VectorXd slope_weights_;
   Polynomial polynomial_;
-
-  // What remains of the solution, for read().
-  double unit_ = 1.0;  ///< variance of the scaled field at scaled distance one
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> basis_;
-  Eigen::MatrixXd system_;
-  Eigen::LLT<Eigen::MatrixXd> cholesky_;
 };
 
 }  // namespace instep

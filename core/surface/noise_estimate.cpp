@@ -154,7 +154,7 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
     const Eigen::Vector3d& place = points[places[i]];
     auto spectrum = spectrum_of(flattest_view(points, index, place).points);
     if (!spectrum) continue;
-    variances.push_back(own_variance(*spectrum));
+    if (!sigma) variances.push_back(own_variance(*spectrum));
     spectra.push_back(std::move(*spectrum));
     estimate.roughness.push_back({place, 0.0});
   }

@@ -1,11 +1,11 @@
-// Errors of the girth methods over shapes with known sections, densities and noise, and the time a
-// girth takes.
+// Errors of the girth methods over shapes with known sections, densities and noise, and the
+// processor time a girth takes.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -35,10 +35,10 @@ bool g_verbose = false;
 
 void measure(Tally& tally, const PointCloud& cloud, const test::KnownSection& section,
              const std::string& label) {
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const auto girth = girth_by_rbf(cloud, section.plane);
-  const auto end = std::chrono::steady_clock::now();
-  const double ms = std::chrono::duration<double, std::milli>(end - begin).count();
+  const std::clock_t end = std::clock();
+  const double ms = 1e3 * static_cast<double>(end - begin) / CLOCKS_PER_SEC;
   tally.milliseconds.push_back(ms);
   if (!girth) {
     ++tally.refused;

@@ -109,6 +109,52 @@ TEST(GirthByRbf, CountsPlatformPointsAsShapeButNotAsEvidence) {
   EXPECT_NEAR(girth->largest_gap_mm, 2 * 40 * std::acos(30.0 / 40.0), 3.0);
 }
 
+/// A foot's section, 80 mm wide: a flat sole of platform points, a seen dome from 40 mm up the
+/// sides, and between them a rounded rim of `radius` that nothing saw.
+PointCloud foot_without_rim(double radius, std::uint64_t seed) {
+  PointCloud cloud;
+  test::RandomNumbers random(seed);
+  const auto add = [&](const Vector3d& position, const Vector3d& normal, double sigma,
+                       PointOrigin origin) {
+    cloud.positions.push_back(position);
+    cloud.normals.push_back(normal);
+    cloud.sigma_mm.push_back(sigma);
+    cloud.origins.push_back(origin);
+  };
+  for (int i = 0; i < 7000; ++i) {
+    const double angle = random.uniform(0, M_PI);
+    const Vector3d place(40 * std::cos(angle), 50 * std::sin(angle), 0);
+    const Vector3d normal = Vector3d(place.x() / 1600, place.y() / 2500, 0).normalized();
+    add(place + Vector3d(0, radius, random.uniform(-30, 30)) + 0.07 * random.normal() * normal,
+        normal, 0.07, PointOrigin::kSeen);
+  }
+  for (double x = radius - 40; x <= 40 - radius; x += 1.0) {
+    for (double z = -30; z <= 30; z += 1.0) {
+      add({x, 0, z}, {0, -1, 0}, 0.5, PointOrigin::kPlatform);
+    }
+  }
+  return cloud;
+}
+
+TEST(GirthByRbf, BridgesAWideUnseenRimWithoutOvershoot) {
+  const double radius = 5.0;
+  const double dome = 0.5 * test::true_girth(test::elliptic_cylinder(40, 50), level_plane());
+  const double truth = dome + 2 * (40 - radius) + M_PI * radius;
+  const double chords = dome + 2 * (40 - radius) + 2 * M_SQRT2 * radius;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const auto girth = girth_by_rbf(foot_without_rim(radius, seed), level_plane());
+    ASSERT_TRUE(girth) << girth.error().line();
+    double overshoot = 0.0;
+    for (const auto& place : girth->contour) {
+      overshoot = std::max({overshoot, std::abs(place.x()) - 40, -place.y()});
+    }
+    EXPECT_LT(overshoot, 0.2) << "seed " << seed;
+    // No tape is longer than the round rim, none shorter than a straight line across it.
+    EXPECT_LT(girth->stretched_mm, truth + 0.3) << "seed " << seed;
+    EXPECT_GT(girth->stretched_mm, chords - 0.3) << "seed " << seed;
+  }
+}
+
 TEST(GirthByRbf, UsesTheNormalsAndTheNoiseOfTheCloud) {
   PointCloud cloud = cylinder(3000, 0.3);
   for (const auto& position : cloud.positions) {
