@@ -197,15 +197,15 @@ void finish_foot(const ViewedCloud& points, const FusionSettings& settings, Fuse
   if (coverage < kLeastCoverage) {
     scene.warnings.push_back(name + " was not seen from all sides");
   }
-  std::size_t added = 0;
-  if (settings.close_soles) {
-    added = close_sole(foot, scene.standing_height_mm, settings.sole).points_added;
-  }
-  if (added > 0) {
+  const SoleClosure closure = settings.close_soles
+                                  ? close_sole(foot, scene.standing_height_mm, settings.sole)
+                                  : SoleClosure{};
+  if (closure.points_added > 0) {
     scene.warnings.push_back("no camera saw the sole of " + name +
-                             "; it is closed by the platform");
+                             "; it is closed by the platform, which it is taken to meet up to " +
+                             in_millimetres(closure.widest_inset_mm) + " inside the seen skin");
   }
-  scene.diagnostics.platform_points.push_back(added);
+  scene.diagnostics.platform_points.push_back(closure.points_added);
   scene.feet.push_back(std::move(foot));
 }
 
