@@ -9,8 +9,9 @@
 namespace instep {
 
 /// Where the cameras of a station stand: evenly round the platform's centre, all looking at a point
-/// above it, upright. Low enough to see the walls of a foot nearly down to its rim, high enough to
-/// see its back over the toes.
+/// above it, upright. Those at the sides stand low enough to see the walls of a foot nearly down to
+/// its rim and in under its arch, those before and behind it high enough to see its back over the
+/// toes, and the platform.
 struct LayoutSettings {
   int cameras = 4;             ///< 1..16
   int width_px = 640;          ///< 16..4096
@@ -18,8 +19,8 @@ struct LayoutSettings {
   double distance_mm = 500.0;  ///< 200..3000, from the eye to the point looked at
   double target_height_mm = 60.0;
   /// Above the horizon; cameras alternate between the two.
-  double low_elevation_deg = 20.0;
-  double high_elevation_deg = 30.0;
+  double low_elevation_deg = 10.0;
+  double high_elevation_deg = 35.0;
   /// Of the first camera, counter-clockwise seen from above, 0 = in front of the toes (+x).
   double first_azimuth_deg = 0.0;
 };

@@ -14,11 +14,13 @@ using Eigen::Vector3d;
 constexpr double kWallCellMm = 6.0;     // within it the lowest seen points are one piece of wall
 constexpr double kLowestLayerMm = 1.5;  // above the lowest point, still taken as lowest
 constexpr double kSeenSoleHeightMm = 25.0;
-constexpr double kSeenSoleNormal = -0.8;   // z of the normal of a sole seen from below
-constexpr double kLeastLean = 0.15;        // sine of a wall's lean that is not its noise
-constexpr double kRadiusOfLean = 60.0;     // mm of radius that a full lean allows
-constexpr double kLeastClearingMm = 12.0;  // radius, so that discs of neighbouring cells overlap
-constexpr int kMostCells = 4000;           // a side; a foot needs some 200
+constexpr double kSeenSoleNormal = -0.8;    // z of the normal of a sole seen from below
+constexpr double kLeastLean = 0.15;         // sine of a wall's lean that is not its noise
+constexpr double kRadiusOfLean = 60.0;      // mm of radius that a lean allows
+constexpr double kWidestRoundingMm = 12.0;  // a contact no further in lies below a rounded edge
+constexpr double kNarrowestArchMm = 24.0;   // and one at least so far beyond an arch
+constexpr double kClearingMm = 12.0;        // radius, so that discs of neighbouring cells overlap
+constexpr int kMostCells = 4000;            // a side; a foot needs some 200
 
 /// A map of the platform from above.
 struct Plan {
@@ -163,10 +165,24 @@ double contact_distance(const WallFoot& wall, double height, const SoleSettings&
   // An upright wall whose foot was hidden says nothing of its rounding; one that leans in, as under
   // an arch, does.
   const double largest =
-      settings.usual_radius_mm + kRadiusOfLean * std::max(0.0, down - kLeastLean);
-  const double radius = std::min(above / (1.0 - down), largest);
-  return std::clamp(settings.inset_factor * radius * out, settings.least_inset_mm,
-                    settings.most_inset_mm);
+      settings.usual_radius_mm + kRadiusOfLean * std::max(0.0, down - kLeastLean) / (1.0 - down);
+  const double distance = std::min(above / (1.0 - down), largest) * out;
+  const double arch =
+      std::clamp((distance - kWidestRoundingMm) / (kNarrowestArchMm - kWidestRoundingMm), 0.0, 1.0);
+  const double factor = std::lerp(settings.inset_factor, settings.arch_factor, arch);
+  return std::clamp(factor * distance, settings.least_inset_mm, settings.most_inset_mm);
+}
+
+/// Clears the ground between a wall and its contact line, which the last disc touches from outside,
+/// and some ground outside the wall. Discs, not one large one: the contact beside an arch stays.
+void clear_hollow(const Plan& plan, const WallFoot& wall, double inset, Mask& closing) {
+  const Vector2d out = wall.normal.head<2>().normalized();
+  const auto clear = [&](double distance) {
+    plan.disc(wall.position.head<2>() - (distance - kClearingMm) * out, kClearingMm,
+              [&](std::size_t cell) { closing[cell] = 0; });
+  };
+  for (double distance = inset; distance > kClearingMm; distance -= kWallCellMm) clear(distance);
+  clear(std::min(inset, kClearingMm));
 }
 
 /// Where a camera saw the sole itself, with a margin.
@@ -201,11 +217,8 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
       inverted(grown(plan, inverted(print), settings.least_inset_mm + settings.spacing_mm));
   for (const auto& wall : wall_feet(foot, standing_height_mm, settings)) {
     const double inset = contact_distance(wall, standing_height_mm, settings);
-    // A disc that touches the contact line from outside also clears what lies outside the wall.
-    const double radius = std::max(inset, kLeastClearingMm);
-    const Vector2d out = wall.normal.head<2>().normalized();
-    const Vector2d centre = wall.position.head<2>() + (radius - inset) * out;
-    plan.disc(centre, radius, [&](std::size_t cell) { closing[cell] = 0; });
+    closure.widest_inset_mm = std::max(closure.widest_inset_mm, inset);
+    clear_hollow(plan, wall, inset, closing);
   }
   PointCloud sole;
   double cells = 0.0;

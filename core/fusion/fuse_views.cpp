@@ -4,8 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 
-#include "core/fusion/seen_through.h"
+#include "core/fusion/working_view.h"
 
 namespace instep {
 namespace {
@@ -18,98 +19,42 @@ constexpr double kLowestShare = 0.002;  // of a scene's points below which they 
 constexpr int kSectors = 72;
 constexpr double kLeastCoverage = 0.9;
 
-/// One view on its way to points.
-struct WorkingView {
-  std::string id;
-  std::shared_ptr<const Deprojector> rays;
-  FusedDepth depth;
-  RigidTransform station_from_camera;
-  std::vector<Eigen::Vector3f> grid;  ///< camera frame, one a pixel
-
-  Vector3d in_station(std::size_t pixel) const {
-    return station_from_camera * grid[pixel].cast<double>();
-  }
-};
-
 std::string in_millimetres(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f mm", value);
   return text;
 }
 
-Result<WorkingView> open_view(const View& view, const FusionSettings& settings, FusedScene& scene) {
-  const auto& [geometry, depth, rays] = view;
-  if (!is_rigid(geometry.station_from_camera.matrix()) ||
-      geometry.station_from_camera.translation().cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
-    return fail(ErrorCode::kInvalidInput, "the pose of camera " + geometry.id + " is not sound",
-                "calibrate the station");
-  }
-  WorkingView working{geometry.id, rays, depth, geometry.station_from_camera, {}};
-  if (!working.rays) {
-    auto made = Deprojector::create(geometry.intrinsics);
-    if (!made) {
-      auto error = made.error();
-      error.message = "camera " + geometry.id + ": " + error.message;
-      return tl::make_unexpected(error);
+/// Checks and cleans each view; the first that is not sound fails all.
+Result<std::vector<WorkingView>> open_views(const std::vector<View>& views,
+                                            const FusionSettings& settings, const Workers& workers,
+                                            FusedScene& scene) {
+  std::vector<std::optional<Result<WorkingView>>> opened(views.size());
+  workers(views.size(), [&](std::size_t i) { opened[i] = open_view(views[i], settings.surface); });
+  std::vector<WorkingView> working;
+  for (auto& view : opened) {
+    if (!*view) return tl::make_unexpected(view->error());
+    working.push_back(std::move(**view));
+    const WorkingView& last = working.back();
+    scene.diagnostics.pixels += last.pixels;
+    scene.diagnostics.flying_pixels += last.flying_pixels;
+    if (last.depth.moved) {
+      scene.warnings.push_back("the foot moved by about " + in_millimetres(last.depth.movement_mm) +
+                               " while camera " + last.id + " looked; stand still and repeat");
     }
-    working.rays = std::make_shared<const Deprojector>(std::move(*made));
-  }
-  const auto& lens = working.rays->intrinsics();
-  const auto pixels = static_cast<std::size_t>(lens.width) * static_cast<std::size_t>(lens.height);
-  if (depth.width != lens.width || depth.height != lens.height || depth.depth_mm.size() != pixels ||
-      depth.sigma_mm.size() != pixels) {
-    return fail(ErrorCode::kCorruptData,
-                "the depth image of camera " + geometry.id + " does not have the camera's size",
-                "check the camera's resolution in the configuration");
-  }
-  const auto holds_data = [](float depth_mm) { return depth_mm > 0.0F; };
-  scene.diagnostics.pixels += static_cast<std::size_t>(
-      std::count_if(depth.depth_mm.begin(), depth.depth_mm.end(), holds_data));
-  scene.diagnostics.flying_pixels += drop_flying_pixels(lens, settings.surface, working.depth);
-  working.rays->deproject(working.depth.depth_mm, working.grid);
-  if (depth.moved) {
-    scene.warnings.push_back("the foot moved by about " + in_millimetres(depth.movement_mm) +
-                             " while camera " + geometry.id + " looked; stand still and repeat");
   }
   return working;
-}
-
-/// Pixels, `stride` apart both ways, whose points pass `wanted(point in the station, sigma)`.
-template <typename Wanted>
-std::vector<std::uint32_t> pixels_where(const WorkingView& view, int stride, const Wanted& wanted) {
-  std::vector<std::uint32_t> pixels;
-  for (int v = 0; v < view.depth.height; v += stride) {
-    for (int u = 0; u < view.depth.width; u += stride) {
-      const auto pixel = static_cast<std::size_t>(v * view.depth.width + u);
-      if (!(view.depth.depth_mm[pixel] > 0.0F)) continue;
-      if (wanted(view.in_station(pixel), view.depth.sigma_mm[pixel])) {
-        pixels.push_back(static_cast<std::uint32_t>(pixel));
-      }
-    }
-  }
-  return pixels;
-}
-
-bool in_region(const Vector3d& point, const FusionSettings& settings) {
-  const double height = point.z() - settings.platform_height_mm.value_or(0.0);
-  return point.head<2>().norm() <= settings.region_radius_mm &&
-         std::abs(height) <= settings.region_height_mm;
-}
-
-PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_t>& pixels,
-                         const FusionSettings& settings) {
-  return transformed(view.station_from_camera,
-                     surface_points(*view.rays, view.depth, pixels, settings.surface));
 }
 
 /// Drops the views in which nothing is left, with a warning each.
 void drop_blind_views(std::vector<WorkingView>& views, const FusionSettings& settings,
                       FusedScene& scene) {
   std::erase_if(views, [&](const WorkingView& view) {
-    const auto seen = pixels_where(view, kPlatformStride, [&](const Vector3d& point, double) {
-      return in_region(point, settings);
+    bool sees = false;
+    visit_pixels(view, kPlatformStride, [&](std::size_t, const Vector3d& point) {
+      sees = sees || in_region(point, settings);
     });
-    if (!seen.empty()) return false;
+    if (sees) return false;
     scene.warnings.push_back("camera " + view.id + " saw nothing near the platform");
     return true;
   });
@@ -120,10 +65,11 @@ void refine_poses(std::vector<WorkingView>& views, const FusionSettings& setting
                   FusedScene& scene) {
   std::vector<PointCloud> clouds;
   for (const auto& view : views) {
-    const auto pixels = pixels_where(view, kPoseStride, [&](const Vector3d& point, double) {
-      return in_region(point, settings);
+    std::vector<std::uint32_t> pixels;
+    visit_pixels(view, kPoseStride, [&](std::size_t pixel, const Vector3d& point) {
+      if (in_region(point, settings)) pixels.push_back(static_cast<std::uint32_t>(pixel));
     });
-    clouds.push_back(station_cloud(view, pixels, settings));
+    clouds.push_back(station_cloud(view, pixels, settings.surface));
   }
   const auto registration = register_views(clouds, settings.registration);
   scene.diagnostics.registration_before_mm = registration.residual_before_mm;
@@ -152,9 +98,8 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
                          FusedScene& scene) {
   std::vector<Vector3d> points;
   for (const auto& view : views) {
-    (void)pixels_where(view, kPlatformStride, [&](const Vector3d& point, double) {
+    visit_pixels(view, kPlatformStride, [&](std::size_t, const Vector3d& point) {
       if (in_region(point, settings)) points.push_back(point);
-      return false;
     });
   }
   auto search = settings.platform;
@@ -176,49 +121,27 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
   scene.standing_height_mm = settings.platform_height_mm.value_or(points[lowest].z());
 }
 
-/// The points above the platform and below the ceiling, of all views.
+/// The points of the feet, of all views.
 ViewedCloud gather_feet(const std::vector<WorkingView>& views, const FusionSettings& settings,
-                        FusedScene& scene) {
+                        const Workers& workers, FusedScene& scene) {
+  std::vector<FootPoints> found(views.size());
+  workers(views.size(), [&](std::size_t i) { found[i] = foot_points(views, i, settings, scene); });
   ViewedCloud gathered;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto pixels = pixels_where(views[i], 1, [&](const Vector3d& point, double sigma_mm) {
-      const double height = point.z() - scene.standing_height_mm;
-      if (!in_region(point, settings) || height > settings.foot_ceiling_mm) return false;
-      if (!scene.diagnostics.platform_found) return true;
-      // Depth errs along the line of sight; only its upright part lifts a platform point.
-      const Vector3d sight = (point - views[i].station_from_camera.translation()).normalized();
-      const double upright = 4.0 * sigma_mm * std::abs(sight.z());
-      const bool above = height > std::max(settings.platform_clearance_mm, upright);
-      if (!above) ++scene.diagnostics.platform_pixels;
-      return above;
-    });
-    const PointCloud cloud = station_cloud(views[i], pixels, settings);
-    scene.diagnostics.grazing_pixels += pixels.size() - cloud.size();
-    gathered.cloud.append(cloud);
-    gathered.views.resize(gathered.cloud.size(), static_cast<std::uint16_t>(i));
+  for (const auto& [points, platform_pixels, grazing_pixels, seen_through] : found) {
+    gathered.cloud.append(points.cloud);
+    gathered.views.insert(gathered.views.end(), points.views.begin(), points.views.end());
+    scene.diagnostics.platform_pixels += platform_pixels;
+    scene.diagnostics.grazing_pixels += grazing_pixels;
+    scene.diagnostics.outliers += seen_through;
   }
   return gathered;
 }
 
-ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& indices) {
-  ViewedCloud part;
-  part.cloud = points.cloud.subset(indices);
-  for (const std::size_t index : indices) part.views.push_back(points.views[index]);
-  return part;
-}
-
-void drop_outliers(const std::vector<WorkingView>& views, const FusionSettings& settings,
-                   ViewedCloud& points, FusedScene& scene) {
-  std::vector<PosedDepth> posed;
-  for (const auto& view : views) {
-    posed.push_back({&view.rays->intrinsics(), &view.depth, view.station_from_camera});
-  }
-  const double margin = settings.seen_through_mm + 2.0 * scene.diagnostics.registration_after_mm;
+void drop_outliers(const FusionSettings& settings, ViewedCloud& points, FusedScene& scene) {
   const std::size_t before = points.cloud.size();
-  points = subset(points, points_not_seen_through(points, posed, margin));
   points = subset(points, crowded_points(points.cloud, settings.outliers));
   points = subset(points, clustered_points(points.cloud, settings.outliers));
-  scene.diagnostics.outliers = before - points.cloud.size();
+  scene.diagnostics.outliers += before - points.cloud.size();
 }
 
 /// Share of the directions round the middle of a foot in which its wall was seen.
@@ -274,31 +197,29 @@ void finish_foot(const ViewedCloud& points, const FusionSettings& settings, Fuse
   if (coverage < kLeastCoverage) {
     scene.warnings.push_back(name + " was not seen from all sides");
   }
-  std::size_t added = 0;
-  if (settings.close_soles) {
-    added = close_sole(foot, scene.standing_height_mm, settings.sole).points_added;
-  }
-  if (added > 0) {
+  const SoleClosure closure = settings.close_soles
+                                  ? close_sole(foot, scene.standing_height_mm, settings.sole)
+                                  : SoleClosure{};
+  if (closure.points_added > 0) {
     scene.warnings.push_back("no camera saw the sole of " + name +
-                             "; it is closed by the platform");
+                             "; it is closed by the platform, which it is taken to meet up to " +
+                             in_millimetres(closure.widest_inset_mm) + " inside the seen skin");
   }
-  scene.diagnostics.platform_points.push_back(added);
+  scene.diagnostics.platform_points.push_back(closure.points_added);
   scene.feet.push_back(std::move(foot));
 }
 
 }  // namespace
 
-Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings) {
+Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings,
+                              const Workers& workers) {
   if (views.empty()) {
     return fail(ErrorCode::kInvalidInput, "there is no view to fuse", "connect a camera");
   }
   FusedScene scene;
-  std::vector<WorkingView> working;
-  for (const auto& view : views) {
-    auto opened = open_view(view, settings, scene);
-    if (!opened) return tl::make_unexpected(opened.error());
-    working.push_back(std::move(*opened));
-  }
+  auto opened = open_views(views, settings, workers, scene);
+  if (!opened) return tl::make_unexpected(opened.error());
+  auto& working = *opened;
   drop_blind_views(working, settings, scene);
   if (working.empty()) {
     return fail(ErrorCode::kInsufficientData, "no camera saw anything near the platform",
@@ -307,8 +228,8 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   if (settings.refine_views) refine_poses(working, settings, scene);
   scene.diagnostics.views_used = working.size();
   find_standing_plane(working, settings, scene);
-  ViewedCloud points = gather_feet(working, settings, scene);
-  drop_outliers(working, settings, points, scene);
+  ViewedCloud points = gather_feet(working, settings, workers, scene);
+  drop_outliers(settings, points, scene);
   const auto feet = pick_feet(points, settings, scene);
   if (feet.empty()) {
     return fail(ErrorCode::kInsufficientData, "no foot stands on the platform",

@@ -16,6 +16,7 @@
 #include "core/fusion/surface_points.h"
 #include "core/fusion/temporal_fusion.h"
 #include "core/fusion/thin.h"
+#include "core/fusion/workers.h"
 #include "core/geometry/point_cloud.h"
 #include "core/result.h"
 
@@ -25,7 +26,8 @@ namespace instep {
 struct View {
   CameraGeometry geometry;
   FusedDepth depth;
-  /// The camera's rays, if the caller keeps them; else they are computed anew (2 to 20 ms).
+  /// The camera's rays, if the caller keeps them; else they are computed anew (2 to 20 ms), in the
+  /// view's own job.
   std::shared_ptr<const Deprojector> rays;
 };
 
@@ -79,12 +81,13 @@ struct FusedScene {
 };
 
 /// From one depth image a camera to the clouds of the feet, each with normals, sigma, view
-/// directions and origins. Pure computation on the calling thread; the same views give the same
-/// bytes.
+/// directions and origins. Pure computation; the same views give the same bytes. What concerns one
+/// view alone is a job of its own for `workers`, the rest runs on the calling thread.
 ///
 /// Fails with kInvalidInput where a pose or lens is not sound or there is no view, kCorruptData
 /// where a depth image does not fit its camera, kInsufficientData where no camera saw anything or
 /// no foot stands there. A camera that saw nothing while others did is a warning.
-Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings = {});
+Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings = {},
+                              const Workers& workers = one_after_the_other);
 
 }  // namespace instep

@@ -132,7 +132,7 @@ bool stands_out(const Candidate& plane, const std::vector<Eigen::Vector3d>& poin
 
 }  // namespace
 
-RigidTransform Platform::level_from_station() const {
+RigidTransform FoundPlatform::level_from_station() const {
   const auto turn = Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ());
   RigidTransform level = RigidTransform::Identity();
   level.linear() = turn.toRotationMatrix();
@@ -140,8 +140,8 @@ RigidTransform Platform::level_from_station() const {
   return level;
 }
 
-std::optional<Platform> find_platform(const std::vector<Eigen::Vector3d>& points,
-                                      const PlatformSettings& settings) {
+std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& points,
+                                           const PlatformSettings& settings) {
   const auto sample = even_sample(points, kLargestSample);
   const auto layer_points = within_search(sample, settings);
   if (layer_points.size() < settings.least_points) return std::nullopt;
@@ -169,7 +169,8 @@ std::optional<Platform> find_platform(const std::vector<Eigen::Vector3d>& points
     return std::nullopt;
   }
   const double variance = plane->normal.dot(layer.covariance * plane->normal);
-  return Platform{plane->centre, plane->normal, std::sqrt(std::max(0.0, variance)), layer.count};
+  return FoundPlatform{plane->centre, plane->normal, std::sqrt(std::max(0.0, variance)),
+                       layer.count};
 }
 
 }  // namespace instep

@@ -20,7 +20,7 @@ struct PlatformSettings {
 };
 
 /// The plane that people stand on, in the station frame.
-struct Platform {
+struct FoundPlatform {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< middle of its points
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double scatter_mm = 0.0;  ///< standard deviation of its points across it
@@ -40,7 +40,7 @@ struct Platform {
 ///
 /// No platform is an answer and not a fault: it may be out of view or cut away. Uses an even sample
 /// of 40,000 points at most; some 10 ms.
-std::optional<Platform> find_platform(const std::vector<Eigen::Vector3d>& points,
-                                      const PlatformSettings& settings);
+std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& points,
+                                           const PlatformSettings& settings);
 
 }  // namespace instep

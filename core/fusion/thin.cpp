@@ -160,6 +160,13 @@ class Thinning {
 
 }  // namespace
 
+ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& indices) {
+  ViewedCloud part;
+  part.cloud = points.cloud.subset(indices);
+  for (const std::size_t index : indices) part.views.push_back(points.views[index]);
+  return part;
+}
+
 PointCloud thin(const ViewedCloud& points, const ThinSettings& settings) {
   if (points.cloud.empty()) return {};
   return Thinning(points, settings).run();

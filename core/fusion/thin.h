@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct ViewedCloud {
   PointCloud cloud;                  ///< with normals, sigma and view directions
   std::vector<std::uint16_t> views;  ///< one a point
 };
+
+ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& indices);
 
 /// Fewer points, each standing for the disc of radius `spacing_mm` round it: of the given points
 /// some are chosen that keep this distance on the surface, and each takes the mean of the points

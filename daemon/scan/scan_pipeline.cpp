@@ -1,7 +1,9 @@
 #include "daemon/scan/scan_pipeline.h"
 
 #include <algorithm>
+#include <functional>
 #include <future>
+#include <optional>
 #include <utility>
 
 #include "core/foot/align_feet.h"
@@ -35,19 +37,23 @@ Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& 
   return fusion.result();
 }
 
-/// Cameras are independent of each other, so each is fused on a thread of its own.
-Result<std::vector<FusedDepth>> fuse_frames_of_each_camera(const Capture& capture) {
-  std::vector<std::future<Result<FusedDepth>>> running;
-  for (const auto& camera : capture.cameras) {
-    running.push_back(std::async(std::launch::async,
-                                 [&capture, &camera] { return fuse_camera(capture, camera); }));
+/// Cameras are independent of each other, so each has a thread of its own.
+void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::vector<std::future<void>> running;
+  for (std::size_t job = 0; job < count; ++job) {
+    running.push_back(std::async(std::launch::async, [&work, job] { work(job); }));
   }
-  std::vector<Result<FusedDepth>> fused;
-  for (auto& one : running) fused.push_back(one.get());
+  for (auto& one : running) one.get();
+}
+
+Result<std::vector<FusedDepth>> fuse_frames_of_each_camera(const Capture& capture) {
+  std::vector<std::optional<Result<FusedDepth>>> fused(capture.cameras.size());
+  one_thread_each(fused.size(),
+                  [&](std::size_t i) { fused[i] = fuse_camera(capture, capture.cameras[i]); });
   std::vector<FusedDepth> images;
   for (auto& image : fused) {
-    if (!image) return tl::make_unexpected(image.error());
-    images.push_back(std::move(*image));
+    if (!*image) return tl::make_unexpected(image->error());
+    images.push_back(std::move(**image));
   }
   return images;
 }
@@ -79,7 +85,7 @@ Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> im
   fusion.point_spacing_mm = settings.point_spacing_mm;
   fusion.platform_height_mm = capture.platform_height_mm;
   fusion.refine_views = settings.refine_views;
-  return fuse_views(views, fusion);
+  return fuse_views(views, fusion, one_thread_each);
 }
 
 /// The part of the truth that is about one foot: see Capture::truth.

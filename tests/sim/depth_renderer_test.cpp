@@ -29,6 +29,7 @@ class Ball final : public Solid {
 
 CameraGeometry camera_with_lens(const std::array<double, 5>& distortion) {
   LayoutSettings layout;
+  layout.low_elevation_deg = 20.0;  // high enough to see the tops of solids
   layout.width_px = 160;
   layout.height_px = 120;
   layout.cameras = 5;

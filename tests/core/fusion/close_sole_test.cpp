@@ -112,6 +112,43 @@ TEST(CloseSole, KeepsOutOfTheHollowUnderALeaningWall) {
   }
 }
 
+TEST(CloseSole, SpansAnArchWithoutTakingTheContactBesideIt) {
+  // A long foot whose wall stands at y = 0 and bends inward below in an arc: in the middle with a
+  // radius of 60 mm, elsewhere of 6 mm, seen down to 45 degrees below the horizon.
+  PointCloud cloud;
+  const auto add_wall = [&](double x, double radius, double step_deg) {
+    const Vector3d centre(x, radius, radius);
+    for (double degree = 0; degree <= 45; degree += step_deg) {
+      const double phi = degree * std::numbers::pi / 180;
+      const Vector3d normal(0, -std::cos(phi), -std::sin(phi));
+      add(cloud, centre + radius * normal, normal);
+    }
+    for (double z = radius; z < kHeight; z += 1) add(cloud, {x, 0, z}, -Vector3d::UnitY());
+  };
+  for (double x = -100; x <= 100; x += 1) {
+    std::abs(x) < 25 ? add_wall(x, 60, 1) : add_wall(x, 6, 5);
+    for (double z = 0; z < kHeight; z += 1) add(cloud, {x, 100, z}, Vector3d::UnitY());
+  }
+  for (double y = 0; y <= 100; y += 1) {
+    for (double z = 0; z < kHeight; z += 1) {
+      add(cloud, {-100, y, z}, -Vector3d::UnitX());
+      add(cloud, {100, y, z}, Vector3d::UnitX());
+    }
+  }
+  const auto closure = close_sole(cloud, 0.0);
+  EXPECT_NEAR(closure.widest_inset_mm, 60 * std::cos(std::numbers::pi / 4), 3.0);
+  double under_arch = 100.0;
+  double beside = 100.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.was_seen(i)) continue;
+    const auto& point = cloud.positions[i];
+    if (std::abs(point.x()) < 10) under_arch = std::min(under_arch, point.y());
+    if (std::abs(point.x()) > 50 && std::abs(point.x()) < 80) beside = std::min(beside, point.y());
+  }
+  EXPECT_NEAR(under_arch, 60.0, 4.0);
+  EXPECT_LT(beside, 10.0);
+}
+
 TEST(CloseSole, BearsNoPointsAndPointsWithoutNormals) {
   PointCloud none;
   EXPECT_EQ(close_sole(none, 0.0).points_added, 0U);

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <thread>
+#include <vector>
 
 #include "tests/support/ray_cast_scene.h"
 
@@ -238,6 +241,25 @@ TEST(FuseViews, IsTheSameEveryTime) {
     EXPECT_EQ(once->feet[i].positions, again->feet[i].positions);
     EXPECT_EQ(once->feet[i].sigma_mm, again->feet[i].sigma_mm);
   }
+}
+
+TEST(FuseViews, IsTheSameWithAThreadForEachView) {
+  const Workers threads = [](std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::vector<std::thread> running;
+    for (std::size_t job = count; job-- > 0;) running.emplace_back([&work, job] { work(job); });
+    for (auto& thread : running) thread.join();
+  };
+  const auto alone = fuse_views(good_views(), at_zero());
+  const auto together = fuse_views(good_views(), at_zero(), threads);
+  ASSERT_TRUE(alone && together);
+  ASSERT_EQ(alone->feet.size(), together->feet.size());
+  for (std::size_t i = 0; i < alone->feet.size(); ++i) {
+    EXPECT_EQ(alone->feet[i].positions, together->feet[i].positions);
+    EXPECT_EQ(alone->feet[i].sigma_mm, together->feet[i].sigma_mm);
+  }
+  EXPECT_EQ(alone->diagnostics.outliers, together->diagnostics.outliers);
+  EXPECT_EQ(alone->diagnostics.platform_pixels, together->diagnostics.platform_pixels);
+  EXPECT_EQ(alone->warnings, together->warnings);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::vector<Vector3d> platform_points(double height, double tilt_deg, double sig
   return points;
 }
 
-double tilt_error_deg(const Platform& platform, double tilt_deg) {
+double tilt_error_deg(const FoundPlatform& platform, double tilt_deg) {
   const Vector3d truth(0, -std::sin(tilt_deg * kDegree), std::cos(tilt_deg * kDegree));
   return std::acos(std::min(1.0, platform.normal.dot(truth))) / kDegree;
 }
@@ -86,7 +86,7 @@ TEST(FindPlatform, RespectsTheLimitsOfHeightAndTilt) {
 }
 
 TEST(Platform, LevelsTheStationAboutItsCentre) {
-  Platform platform;
+  FoundPlatform platform;
   platform.centre = {30, -20, 7};
   platform.normal = Vector3d(0.03, -0.05, 1).normalized();
   const auto level = platform.level_from_station();

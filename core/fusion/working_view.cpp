@@ -1,0 +1,93 @@
+#include "core/fusion/working_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Depth errs along the line of sight; only its upright part lifts a point off the platform.
+bool stands_above_platform(const WorkingView& view, std::size_t pixel, const Vector3d& point,
+                           double height, double clearance_mm) {
+  if (height <= clearance_mm) return false;
+  const Vector3d sight = (point - view.station_from_camera.translation()).normalized();
+  return height > 4.0 * double{view.depth.sigma_mm[pixel]} * std::abs(sight.z());
+}
+
+}  // namespace
+
+Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings) {
+  const auto& [geometry, depth, rays] = view;
+  if (!is_rigid(geometry.station_from_camera.matrix()) ||
+      geometry.station_from_camera.translation().cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
+    return fail(ErrorCode::kInvalidInput, "the pose of camera " + geometry.id + " is not sound",
+                "calibrate the station");
+  }
+  WorkingView working{geometry.id, rays, depth, geometry.station_from_camera};
+  if (!working.rays) {
+    auto made = Deprojector::create(geometry.intrinsics);
+    if (!made) {
+      auto error = made.error();
+      error.message = "camera " + geometry.id + ": " + error.message;
+      return tl::make_unexpected(error);
+    }
+    working.rays = std::make_shared<const Deprojector>(std::move(*made));
+  }
+  const auto& lens = working.rays->intrinsics();
+  const auto pixels = static_cast<std::size_t>(lens.width) * static_cast<std::size_t>(lens.height);
+  if (depth.width != lens.width || depth.height != lens.height || depth.depth_mm.size() != pixels ||
+      depth.sigma_mm.size() != pixels) {
+    return fail(ErrorCode::kCorruptData,
+                "the depth image of camera " + geometry.id + " does not have the camera's size",
+                "check the camera's resolution in the configuration");
+  }
+  const auto holds_data = [](float depth_mm) { return depth_mm > 0.0F; };
+  working.pixels = static_cast<std::size_t>(
+      std::count_if(depth.depth_mm.begin(), depth.depth_mm.end(), holds_data));
+  working.flying_pixels = drop_flying_pixels(lens, settings, working.depth);
+  return working;
+}
+
+bool in_region(const Vector3d& point, const FusionSettings& settings) {
+  const double height = point.z() - settings.platform_height_mm.value_or(0.0);
+  return point.head<2>().squaredNorm() <= settings.region_radius_mm * settings.region_radius_mm &&
+         std::abs(height) <= settings.region_height_mm;
+}
+
+PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_t>& pixels,
+                         const SurfaceSettings& settings) {
+  return transformed(view.station_from_camera,
+                     surface_points(*view.rays, view.depth, pixels, settings));
+}
+
+FootPoints foot_points(const std::vector<WorkingView>& views, std::size_t number,
+                       const FusionSettings& settings, const FusedScene& scene) {
+  const WorkingView& view = views[number];
+  FootPoints found;
+  std::vector<std::uint32_t> pixels;
+  visit_pixels(view, 1, [&](std::size_t pixel, const Vector3d& point) {
+    const double height = point.z() - scene.standing_height_mm;
+    if (height > settings.foot_ceiling_mm || !in_region(point, settings)) return;
+    if (scene.diagnostics.platform_found &&
+        !stands_above_platform(view, pixel, point, height, settings.platform_clearance_mm)) {
+      ++found.platform_pixels;
+      return;
+    }
+    pixels.push_back(static_cast<std::uint32_t>(pixel));
+  });
+  ViewedCloud seen;
+  seen.cloud = station_cloud(view, pixels, settings.surface);
+  seen.views.assign(seen.cloud.size(), static_cast<std::uint16_t>(number));
+  found.grazing_pixels = pixels.size() - seen.cloud.size();
+
+  std::vector<PosedDepth> posed;
+  for (const auto& other : views) posed.push_back(other.posed());
+  const double margin = settings.seen_through_mm + 2.0 * scene.diagnostics.registration_after_mm;
+  found.points = subset(seen, points_not_seen_through(seen, posed, margin));
+  found.seen_through = seen.cloud.size() - found.points.cloud.size();
+  return found;
+}
+
+}  // namespace instep

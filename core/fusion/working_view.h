@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/fusion/fuse_views.h"
+#include "core/fusion/seen_through.h"
+#include "core/geometry/rigid_transform.h"
+
+namespace instep {
+
+/// One view on its way to points: its doubtful pixels gone, its pose as good as is known by now.
+struct WorkingView {
+  std::string id;
+  std::shared_ptr<const Deprojector> rays;
+  FusedDepth depth;
+  RigidTransform station_from_camera;
+  std::size_t pixels = 0;         ///< with data, as it came
+  std::size_t flying_pixels = 0;  ///< dropped
+
+  Eigen::Vector3d in_station(std::size_t pixel) const {
+    const Eigen::Vector3f own = rays->ray(pixel) * depth.depth_mm[pixel];
+    return station_from_camera * own.cast<double>();
+  }
+
+  PosedDepth posed() const { return {&rays->intrinsics(), &depth, station_from_camera}; }
+};
+
+/// Checks a view, makes its rays if it has none, and drops the pixels that lie on no surface.
+Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings);
+
+/// Calls `visit(pixel, point in the station)` for pixels with data, `stride` apart both ways, row
+/// by row.
+template <typename Visit>
+void visit_pixels(const WorkingView& view, int stride, const Visit& visit) {
+  for (int v = 0; v < view.depth.height; v += stride) {
+    for (int u = 0; u < view.depth.width; u += stride) {
+      const auto pixel = static_cast<std::size_t>(v * view.depth.width + u);
+      if (view.depth.depth_mm[pixel] > 0.0F) visit(pixel, view.in_station(pixel));
+    }
+  }
+}
+
+/// Whether a point of the station lies near enough to the platform to matter.
+bool in_region(const Eigen::Vector3d& point, const FusionSettings& settings);
+
+/// The points of some pixels, in the station frame.
+PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_t>& pixels,
+                         const SurfaceSettings& settings);
+
+/// What one view shows of the feet.
+struct FootPoints {
+  ViewedCloud points;  ///< above the platform and below the ceiling, seen through by no other view
+  std::size_t platform_pixels = 0;
+  std::size_t grazing_pixels = 0;
+  std::size_t seen_through = 0;
+};
+
+/// Needs the standing height of `scene` and whether the platform was found. Changes nothing, so
+/// that several threads may each do one view.
+FootPoints foot_points(const std::vector<WorkingView>& views, std::size_t number,
+                       const FusionSettings& settings, const FusedScene& scene);
+
+}  // namespace instep
