@@ -39,7 +39,7 @@ TEST(ProgressWatch, NamesTheBusyThreadThatStandsStill) {
 
 TEST(ProgressWatch, ForgivesAThreadThatMovesAgain) {
   ProgressWatch watch;
-  for (const std::uint64_t progress : {7, 7, 8}) watch.note("scan", true, progress);
+  for (const std::uint64_t progress : {7U, 7U, 8U}) watch.note("scan", true, progress);
   EXPECT_TRUE(watch.all_moved());
   EXPECT_EQ(watch.hung(), "");
 }
