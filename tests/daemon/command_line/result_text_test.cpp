@@ -23,7 +23,7 @@ json result() {
 TEST(ResultText, SaysEachMeasureWithItsInterval) {
   const auto text = result_text(result());
   EXPECT_THAT(text, HasSubstr("left foot\n"));
-  EXPECT_THAT(text, HasSubstr("  foot_length                  251.0 mm   +-0.6\n"));
+  EXPECT_THAT(text, HasSubstr("  foot_length                  251.0 mm    +-0.6\n"));
   EXPECT_THAT(text, HasSubstr("  ball_girth                   240.0 mm\n"));
   EXPECT_THAT(text, HasSubstr("note: ball_girth: few points\n"));
   EXPECT_THAT(text, Not(HasSubstr("truth")));
@@ -37,7 +37,7 @@ TEST(ResultText, PutsTheTruthAndTheErrorBesideAMeasure) {
   EXPECT_THAT(text, HasSubstr("left foot, simulated\n"));
   EXPECT_THAT(text, HasSubstr("95 %    truth   error\n"));
   EXPECT_THAT(text,
-              HasSubstr("  foot_length                  251.0 mm   +-0.6    250.5   +0.50\n"));
+              HasSubstr("  foot_length                  251.0 mm    +-0.6    250.5   +0.50\n"));
 }
 
 TEST(ResultText, LeavesOutWhatIsOfTheWrongShape) {
