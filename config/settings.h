@@ -61,7 +61,7 @@ struct SimulatedStationSettings {
   int height_px = 480;  ///< 48 to 960
   SimulatedNoise noise = SimulatedNoise::kTypical;
   SimulatedPacing pacing = SimulatedPacing::kRealTime;
-  bool truth = true;  ///< works out the true measures at start-up: a second or two a foot
+  bool truth = true;  ///< results carry the true measures, worked out beside the first scan
   std::filesystem::path fault_script;  ///< empty = nothing goes wrong
 };
 

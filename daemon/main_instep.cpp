@@ -23,7 +23,13 @@ JSON alone goes to stdout. Exit codes: 0 done, 1 it could not be done, 2 wrong u
 int explain_wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
   std::string command = "instep";
   for (const auto* chosen : app.get_subcommands()) command += " " + chosen->get_name();
-  instep::print_error({instep::ErrorCode::kInvalidInput, instep::Remedy::kOperator, error.what(),
+  std::string what = error.what();
+  // Of an unknown command the parser says only that it found none.
+  const auto unknown = app.remaining();
+  if (app.get_subcommands().empty() && !unknown.empty()) {
+    what = "there is no command or option " + unknown.front();
+  }
+  instep::print_error({instep::ErrorCode::kInvalidInput, instep::Remedy::kOperator, what,
                        "see " + command + " --help"});
   return instep::kWrongUsage;
 }

@@ -10,21 +10,26 @@ tests/install-dependencies.sh
 
 say "build"
 cmake --preset release >/dev/null
-cmake --build --preset release
+cmake --build --preset release --target instepd instep
 
 folder=$(mktemp -d "${TMPDIR:-/tmp}/instep-demo-XXXXXX")
+export INSTEP_CONFIG="$PWD/config/instep.toml"
 export INSTEP_STORE="$folder/scans" INSTEP_SOCKET="$folder/control.sock" INSTEP_PEDAL="$folder/pedal"
 export PATH="$PWD/build/release/bin:$PATH"
 
 say "start the daemon on the simulated station"
-instepd --config config/instep.toml 2>"$folder/instepd.log" &
+instepd 2>"$folder/instepd.log" &
 daemon=$!
 stop_daemon() {
   kill -TERM "$daemon" 2>/dev/null || return 0
   wait "$daemon" || true
 }
-trap stop_daemon EXIT
-instep status --wait-ready 30 || { cat "$folder/instepd.log" >&2; exit 1; }
+end_early() {
+  cat "$folder/instepd.log" >&2
+  stop_daemon
+}
+trap end_early EXIT
+instep status --wait-ready 30
 
 say "press the pedal"
 echo tap >"$INSTEP_PEDAL"
@@ -37,6 +42,6 @@ say "the result, as a shop would find it"
 find "$INSTEP_STORE" -type f -printf '%m %s bytes %p\n' | sort -k4
 
 say "stop"
-stop_daemon
 trap - EXIT
+stop_daemon
 echo "The daemon has stopped; its log is $folder/instepd.log"

@@ -114,6 +114,10 @@ std::optional<Subject> subject_from_string(std::string_view name) {
 }
 
 Result<std::vector<SubjectTruth>> SimulatedStation::truth() const {
+  return subjects_truth(scene);
+}
+
+Result<std::vector<SubjectTruth>> subjects_truth(const Scene& scene) {
   std::vector<SubjectTruth> truths;
   for (const PlacedSolid& placed : scene.solids) {
     if (const auto* foot = dynamic_cast<const FootSolid*>(placed.solid.get())) {

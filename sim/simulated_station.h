@@ -50,10 +50,13 @@ struct SimulatedStation {
   std::unique_ptr<SimulatedPedal> pedal;
   double platform_height_mm = 0.0;
 
-  /// The truth about what stands there, the left foot first; empty for a last. Cost: a second or
-  /// two a foot, so ask only when it is wanted.
+  /// subjects_truth() of its scene.
   Result<std::vector<SubjectTruth>> truth() const;
 };
+
+/// The truth about what stands in a scene, the left foot first; empty for a last. Cost: a second or
+/// two a foot, so ask only when it is wanted.
+Result<std::vector<SubjectTruth>> subjects_truth(const Scene& scene);
 
 /// Builds it. The same settings give the same feet, frames and truth. Fails with kInvalidInput on
 /// settings out of range or a fault script that cannot be read, and as SimulatedPedal::open().

@@ -11,7 +11,9 @@
 
 namespace instep {
 
-const char* program_version() { return INSTEP_VERSION; }
+const char* program_version() {
+  return INSTEP_VERSION;
+}
 
 void print_error(const Error& error) {
   std::string line = error.line();

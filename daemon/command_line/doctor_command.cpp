@@ -8,29 +8,31 @@
 #include <vector>
 
 #include "config/settings_search.h"
+#include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
 #include "daemon/command_line/doctor_checks.h"
 
 namespace instep {
 namespace {
 
-void print_text(const std::vector<DoctorCheck>& checks) {
+std::string as_text(const std::vector<DoctorCheck>& checks) {
+  std::string text;
   for (const auto& check : checks) {
-    fmt::print("{:<5} {:<9} {}\n", check.good ? "ok" : "WRONG", check.name, check.finding);
-    if (!check.good) fmt::print("      {:<9} -> {}\n", "", check.remedy);
+    text += fmt::format("{:<5} {:<9} {}\n", check.good ? "ok" : "WRONG", check.name, check.finding);
+    if (!check.good) text += fmt::format("      {:<9} -> {}\n", "", check.remedy);
   }
+  return text;
 }
 
-void print_json(const std::vector<DoctorCheck>& checks) {
-  nlohmann::json list = nlohmann::json::array();
+nlohmann::ordered_json as_json(const std::vector<DoctorCheck>& checks) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const auto& check : checks) {
     list.push_back({{"name", check.name},
                     {"good", check.good},
                     {"finding", check.finding},
                     {"remedy", check.remedy}});
   }
-  const nlohmann::json report = {{"checks", list}};
-  fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return {{"checks", list}};
 }
 
 }  // namespace
@@ -46,14 +48,15 @@ void add_doctor_command(CLI::App& app, int& exit_code) {
                   kEnvironmentHelp);
   command->callback([format, &exit_code] {
     const auto checks = examine_machine();
-    *format == "json" ? print_json(checks) : print_text(checks);
     const auto wrong =
         std::count_if(checks.begin(), checks.end(), [](const auto& one) { return !one.good; });
-    if (wrong > 0) {
-      fmt::print(stderr, "instep: {} of {} checks failed: do what stands behind the arrows\n",
-                 wrong, checks.size());
+    auto outcome = *format == "json" ? print_json(as_json(checks)) : print_text(as_text(checks));
+    if (outcome && wrong > 0) {
+      outcome = fail(ErrorCode::kInvalidInput,
+                     fmt::format("{} of {} checks failed", wrong, checks.size()),
+                     "do what stands behind the arrows");
     }
-    exit_code = wrong > 0 ? 1 : 0;
+    exit_code = finish_command(outcome);
   });
 }
 

@@ -1,25 +1,23 @@
 #include "daemon/command_line/girth_command.h"
 
-#include <fmt/core.h>
-
 #include <CLI/CLI.hpp>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/report/result_json.h"
+#include "daemon/report/text_report.h"
 
 namespace instep {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using json = nlohmann::ordered_json;
 
 constexpr const char* kExamples =
     R"(The plane is given by three points, in millimetres. Examples:
@@ -33,12 +31,6 @@ struct GirthCommand {
   std::string method = "rbf";
   std::optional<double> sigma_mm;
   std::string format;
-};
-
-struct Timing {
-  double read_ms = 0.0;
-  double measure_ms = 0.0;
-  double total_ms = 0.0;
 };
 
 double milliseconds_since(Clock::time_point start) {
@@ -84,59 +76,25 @@ Result<Girth> measure(const GirthCommand& command, const CloudFile& file, const 
   return girth_by_section(file.mesh, plane);
 }
 
-json or_null(const std::optional<double>& value) {
-  return value ? json(*value) : json();
-}
-
-json to_json(const GirthCommand& command, const Girth& girth, const Timing& timing) {
-  return {{"method", command.method},
-          {"stretched_mm", girth.stretched_mm},
-          {"contact_mm", girth.contact_mm},
-          {"stretched_u95_mm", or_null(girth.stretched_u95_mm)},
-          {"contact_u95_mm", or_null(girth.contact_u95_mm)},
-          {"points", girth.points},
-          {"band_points", girth.band_points},
-          {"sigma_mm", girth.sigma_mm},
-          {"largest_gap_mm", girth.largest_gap_mm},
-          {"warnings", girth.warnings},
-          {"elapsed_ms",
-           {{"read", timing.read_ms}, {"measure", timing.measure_ms}, {"total", timing.total_ms}}}};
-}
-
-std::string length_line(const char* name, double value_mm, const std::optional<double>& u95_mm) {
-  return u95_mm ? fmt::format("{:<10} {:8.2f} mm  +- {:.2f} mm (95 %)\n", name, value_mm, *u95_mm)
-                : fmt::format("{:<10} {:8.2f} mm\n", name, value_mm);
-}
-
-std::string to_text(const GirthCommand& command, const Girth& girth, const Timing& timing) {
-  std::string text = length_line("stretched", girth.stretched_mm, girth.stretched_u95_mm) +
-                     length_line("contact", girth.contact_mm, girth.contact_u95_mm);
-  text += fmt::format("{} of {} points near the plane, noise {:.2f} mm, largest gap {:.1f} mm\n",
-                      girth.band_points, girth.points, girth.sigma_mm, girth.largest_gap_mm);
-  text += fmt::format("method {}, {:.0f} ms\n", command.method, timing.total_ms);
-  for (const auto& warning : girth.warnings) text += "note: " + warning + "\n";
-  return text;
-}
-
 Result<void> run(const GirthCommand& command) {
   const auto start = Clock::now();
-  Timing timing;
+  GirthTimes times;
   const auto plane = plane_of(command);
   if (!plane) return tl::make_unexpected(plane.error());
   const auto file = read_cloud(command.cloud);
   if (!file) return tl::make_unexpected(file.error());
-  timing.read_ms = milliseconds_since(start);
+  times.read_ms = milliseconds_since(start);
 
   const auto measuring = Clock::now();
   auto girth = measure(command, *file, *plane);
   if (!girth) return tl::make_unexpected(girth.error());
-  timing.measure_ms = milliseconds_since(measuring);
-  timing.total_ms = milliseconds_since(start);
+  times.measure_ms = milliseconds_since(measuring);
+  times.total_ms = milliseconds_since(start);
 
   girth->warnings.insert(girth->warnings.begin(), file->notes.begin(), file->notes.end());
   const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
-  return as_text ? print_text(to_text(command, *girth, timing))
-                 : print_json(to_json(command, *girth, timing));
+  return as_text ? print_text(girth_text(command.method, *girth))
+                 : print_json(girth_json(command.method, *girth, times));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "config/settings.h"
 #include "config/settings_file.h"
+#include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/capture_recording.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/station/devices.h"
@@ -23,6 +24,12 @@ struct RecordCommand {
   std::optional<std::size_t> frames;
   std::optional<double> seconds;
 };
+
+std::string check_seconds(const std::string& text) {
+  const auto seconds = number_in(text);
+  return seconds && *seconds >= 0.001 && *seconds <= 600.0 ? ""
+                                                           : "needs a number from 0.001 to 600";
+}
 
 RecordingLength length_of(const RecordCommand& command) {
   constexpr std::size_t kUsualFrames = 15;
@@ -42,10 +49,13 @@ Result<void> run(const RecordCommand& command) {
   const auto devices = open_devices(*settings);
   if (!devices) return tl::make_unexpected(devices.error());
   Recording header;
-  header.platform_height_mm = settings->station.platform_height_mm
-                                  ? settings->station.platform_height_mm
-                                  : devices->platform_height_mm;
+  header.platform_height_mm = devices->platform_height_mm;
   header.simulated = devices->simulated;
+  if (devices->work_out_truth) {
+    auto truth = devices->work_out_truth();
+    if (!truth) return tl::make_unexpected(truth.error());
+    header.truth = std::move(*truth);
+  }
   ProgressLine line;
   const auto recording =
       capture_recording(devices->cameras, header, length_of(command), command.folder,
@@ -68,8 +78,7 @@ void add_record_command(CLI::App& app, int& exit_code) {
       ->required();
   record->add_option("--frames", command->frames, "of each camera (15 if nothing is said)")
       ->check(CLI::Range(1, 10000));
-  record->add_option("--seconds", command->seconds, "of the cameras' time")
-      ->check(CLI::Range(0.001, 600.0));
+  record->add_option("--seconds", command->seconds, "of the cameras' time")->check(check_seconds);
   record->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

@@ -38,6 +38,7 @@ Result<Capture> read_capture(const std::string& folder) {
   capture.frames = std::move(*frames);
   capture.platform_height_mm = recording->platform_height_mm;
   capture.simulated = recording->simulated;
+  capture.truth = recording->truth;
   capture.calibration = "recording";
   return capture;
 }

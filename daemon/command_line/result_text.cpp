@@ -19,17 +19,23 @@ std::optional<double> number(const json& object, const char* key) {
   return object[key].get<double>();
 }
 
+std::string heading(bool with_truth) {
+  return fmt::format("  {:<26}{:>8}    {:>8}", "measure", "value", "95 %") +
+         (with_truth ? fmt::format("{:>9}{:>8}", "truth", "error") : "") + "\n";
+}
+
 std::string measure_line(const json& measure, const json& truth) {
   const std::string id = text(measure, "id");
   const bool is_angle = measure.contains("value_deg");
   const auto value = number(measure, is_angle ? "value_deg" : "value_mm");
-  if (!value) return fmt::format("  {:<26}         -\n", id);
+  if (!value) return fmt::format("  {:<26}       -\n", id);
   const auto interval = number(measure, "u95_mm");
   std::string line = fmt::format("  {:<26}{:>8.1f} {}{:>8}", id, *value, is_angle ? "deg" : "mm ",
                                  interval ? fmt::format("+-{:.1f}", *interval) : "");
   if (const auto known = number(truth, id.c_str())) {
-    line += fmt::format("   truth{:>8.1f}   error{:>6.2f}", *known, *value - *known);
+    line += fmt::format("{:>9.1f}{:>+8.2f}", *known, *value - *known);
   }
+  line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }
 
@@ -50,7 +56,8 @@ std::string result_text(const json& result) {
   const json truth = result.value("truth", json::object());
   std::string report =
       fmt::format("scan {}\n{} foot{}\n", text(result, "id"), text(result, "side"),
-                  result.value("simulated", json(false)) == json(true) ? ", simulated" : "");
+                  result.value("simulated", json(false)) == json(true) ? ", simulated" : "") +
+      heading(truth.is_object() && !truth.empty());
   std::string notes = warning_lines(result, "");
   for (const auto& measure : measures) {
     if (!measure.is_object()) continue;

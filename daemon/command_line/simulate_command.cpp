@@ -6,6 +6,7 @@
 
 #include "daemon/command_line/capture_recording.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/station/devices.h"
 #include "sim/simulated_station.h"
 
 namespace instep {
@@ -25,6 +26,12 @@ struct SimulateCommand {
   std::size_t frames = 15;
 };
 
+/// The parser alone would take -1 for the largest number there is.
+std::string check_seed(const std::string& text) {
+  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return whole ? "" : "needs a whole number, 0 or more";
+}
+
 Result<SimulatedStation> build(const SimulateCommand& command) {
   SimulationSettings settings;
   settings.seed = command.seed;
@@ -36,17 +43,6 @@ Result<SimulatedStation> build(const SimulateCommand& command) {
   return build_station(settings);
 }
 
-/// The truth of a single body by its measures' ids; of two feet with "left_" or "right_" before.
-std::map<std::string, double> by_id(const std::vector<SubjectTruth>& bodies) {
-  std::map<std::string, double> truth;
-  for (const auto& body : bodies) {
-    const bool several = bodies.size() > 1 && body.side.has_value();
-    const std::string prefix = several ? std::string(to_string(*body.side)) + "_" : "";
-    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
-  }
-  return truth;
-}
-
 Result<void> run(const SimulateCommand& command) {
   const auto station = build(command);
   if (!station) return tl::make_unexpected(station.error());
@@ -54,7 +50,7 @@ Result<void> run(const SimulateCommand& command) {
   if (!truth) return tl::make_unexpected(truth.error());
   Recording header;
   header.platform_height_mm = station->platform_height_mm;
-  header.truth = by_id(*truth);
+  header.truth = truth_by_id(*truth);
   header.simulated = true;
   ProgressLine line;
   const auto recording =
@@ -77,6 +73,7 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<SimulateCommand>();
   simulate->add_option("--out", command->folder, "folder to make")->required();
   simulate->add_option("--seed", command->seed, "of shape, stance and noise")
+      ->check(check_seed)
       ->capture_default_str();
   simulate->add_option("--subject", command->subject, "what stands on the platform")
       ->check(CLI::IsMember({"foot", "feet", "cylinder", "last"}))

@@ -1,14 +1,12 @@
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "config/settings_search.h"
+#include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
 #include "daemon/command_line/station_talk.h"
 
@@ -38,11 +36,8 @@ CLI::App* add_command(CLI::App& app, int& exit_code, const char* name, const cha
                       std::function<Result<void>(const Options&)> act) {
   auto* command = app.add_subcommand(name, what);
   command->footer(std::string("Example:\n  ") + example + "\n\n" + kEnvironmentHelp);
-  command->callback([options, act = std::move(act), &exit_code] {
-    const auto outcome = act(*options);
-    exit_code = outcome ? 0 : 1;
-    if (!outcome) fmt::print(stderr, "instep: {}\n", outcome.error().line());
-  });
+  command->callback(
+      [options, act = std::move(act), &exit_code] { exit_code = finish_command(act(*options)); });
   return command;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "daemon/command_line/command_output.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
@@ -38,20 +39,11 @@ Result<json> ask_daemon(const std::string& verb, const std::string& id = {}) {
   return client->ask(verb, id);
 }
 
-void print_json(const json& value) {
-  fmt::print("{}\n", value.dump(2, ' ', false, json::error_handler_t::replace));
-}
-
 Result<void> print_scan(ControlClient& client, const std::string& id, bool as_json) {
   const auto shown = client.ask("show", id);
   if (!shown) return tl::make_unexpected(shown.error());
   const json& result = shown->at("result");
-  if (as_json) {
-    print_json(result);
-  } else {
-    fmt::print("{}", result_text(result));
-  }
-  return {};
+  return as_json ? print_json(result) : print_text(result_text(result));
 }
 
 /// The result or failure that the next scan ends with.
@@ -78,14 +70,14 @@ std::string status_line(const json& status) {
   return line;
 }
 
-void print_status(const json& status) {
-  fmt::print("{}\n", status_line(status));
+std::string status_text(const json& status) {
+  std::string lines = status_line(status) + "\n";
   for (const auto& camera : status.value("cameras", json::array())) {
-    fmt::print("  camera {:<12} {}\n", text(camera, "id"),
-               camera.value("ok", false) ? "ok" : text(camera, "trouble"));
+    lines += fmt::format("  camera {:<12} {}\n", text(camera, "id"),
+                         camera.value("ok", false) ? "ok" : text(camera, "trouble"));
   }
-  fmt::print("  scans {}, ignored presses {}\n", status.value("scans", 0),
-             status.value("ignored_presses", 0));
+  return lines + fmt::format("  scans {}, ignored presses {}\n", status.value("scans", 0),
+                             status.value("ignored_presses", 0));
 }
 
 /// The live line of a terminal: a bar while a scan runs.
@@ -152,12 +144,12 @@ Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json
     const bool ready = status && text(*status, "state") == "ready";
     if (!wait_ready || ready) {
       if (!status) return tl::make_unexpected(status.error());
-      as_json ? print_json(*status) : print_status(*status);
-      return {};
+      return as_json ? print_json(*status) : print_text(status_text(*status));
     }
     if (steady_clock::now() >= deadline) {
       if (!status) return tl::make_unexpected(status.error());
-      return fail(ErrorCode::kTimeout, "the station is not ready but " + status_line(*status), "");
+      return fail(ErrorCode::kTimeout, "the station is not ready but " + status_line(*status),
+                  "see what it waits for: instep status");
     }
     ::usleep(50 * 1000);
   }
@@ -166,7 +158,7 @@ Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json
 Result<void> watch_station(std::optional<seconds> until_result) {
   auto client = reach_daemon();
   if (!client) return tl::make_unexpected(client.error());
-  const bool in_terminal = ::isatty(STDOUT_FILENO) == 1;
+  const bool in_terminal = stdout_is_terminal();
   const auto first = client->ask("watch");
   if (!first) return tl::make_unexpected(first.error());
   tell(*first, in_terminal);
@@ -189,12 +181,10 @@ Result<void> list_scans(bool as_json) {
   const auto answer = ask_daemon("list");
   if (!answer) return tl::make_unexpected(answer.error());
   const json scans = answer->value("scans", json::array());
-  if (as_json) {
-    print_json({{"scans", scans}});
-  } else {
-    for (const auto& scan : scans) fmt::print("{}\n", text(scan, "id"));
-  }
-  return {};
+  if (as_json) return print_json({{"scans", scans}});
+  std::string ids;
+  for (const auto& scan : scans) ids += text(scan, "id") + "\n";
+  return print_text(ids);
 }
 
 Result<void> show_scan(const std::string& id, bool as_json) {
@@ -226,14 +216,12 @@ Result<void> export_scan(const std::string& id, const std::filesystem::path& out
                 "the scan could not be copied to " + to.string() + ": " + failed.message(),
                 "check that you may read " + from.string() + " and write there");
   }
-  fmt::print("{}\n", to.string());
-  return {};
+  return print_text(to.string() + "\n");
 }
 
 Result<void> delete_scan(const std::string& id) {
   const auto answer = ask_daemon("delete", id);
   if (!answer) return tl::make_unexpected(answer.error());
-  fmt::print(stderr, "deleted scan {}\n", id);
   return {};
 }
 

@@ -150,6 +150,7 @@ Json result_json(const ScanRecord& record) {
   warnings.insert(warnings.end(), record.foot.warnings.begin(), record.foot.warnings.end());
   foot["warnings"] = warnings;
   json.update(foot);
+  if (!record.truth.empty()) json["truth"] = numbers(record.truth);
   return json;
 }
 

@@ -29,7 +29,8 @@ Json girth_json(const std::string& method, const Girth& girth, const GirthTimes&
 /// were withheld and why, sizes, warnings.
 Json foot_json(const FootScan& foot, const MeasureSet& measures);
 
-/// A whole result, as result.json holds it: what came how and when, then the object of foot_json().
+/// A whole result, as result.json holds it: what came how and when, then the object of foot_json(),
+/// then `truth` (measure id -> value) if the scan was simulated.
 Json result_json(const ScanRecord& record);
 
 }  // namespace instep

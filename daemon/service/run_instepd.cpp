@@ -76,8 +76,11 @@ int run_instepd(int argc, char** argv) {
   app.add_flag("--check", only_check, "Say what the settings mean, or every error, and end");
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);  // --help or --version
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    fmt::print(stderr, "instepd: {}: see instepd --help\n", error.what());
+    return 2;
   }
   SettingsPlaces places{std::nullopt, running_program_folder(), INSTEP_SOURCE_DIR};
   if (!asked.empty()) places.asked = asked;

@@ -52,15 +52,6 @@ Result<std::string> read_fault_script(const std::filesystem::path& path) {
   return text;
 }
 
-/// Two feet are told apart by their side before each id.
-void add_truth(const std::vector<SubjectTruth>& bodies, std::map<std::string, double>& truth) {
-  for (const auto& body : bodies) {
-    const bool apart = bodies.size() > 1 && body.side;
-    const std::string prefix = apart ? std::string(to_string(*body.side)) + "_" : "";
-    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
-  }
-}
-
 Result<void> add_simulated(const SimulatedStationSettings& chosen, Devices& devices) {
   auto script = read_fault_script(chosen.fault_script);
   if (!script) return tl::make_unexpected(script.error());
@@ -79,9 +70,9 @@ Result<void> add_simulated(const SimulatedStationSettings& chosen, Devices& devi
   if (!station) return tl::make_unexpected(station.error());
   for (auto& camera : station->cameras) devices.cameras.push_back(std::move(camera));
   if (chosen.truth) {
-    const auto truth = station->truth();
-    if (!truth) return tl::make_unexpected(truth.error());
-    add_truth(*truth, devices.truth);
+    devices.work_out_truth = [scene = station->scene] {
+      return subjects_truth(scene).map(truth_by_id);
+    };
   }
   devices.platform_height_mm = station->platform_height_mm;
   devices.calibration = "simulated: exact poses";
@@ -100,7 +91,9 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
     devices.cameras.push_back(std::move(*camera));
   }
   devices.platform_height_mm = recording->platform_height_mm;
-  devices.truth = recording->truth;
+  if (!recording->truth.empty()) {
+    devices.work_out_truth = [truth = recording->truth] { return truth; };
+  }
   devices.calibration = "as the recording says";
   devices.simulated = devices.simulated || recording->simulated;
   return {};
@@ -119,6 +112,16 @@ Result<void> check_names(const Devices& devices) {
 }
 
 }  // namespace
+
+std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies) {
+  std::map<std::string, double> truth;
+  for (const auto& body : bodies) {
+    const bool apart = bodies.size() > 1 && body.side;
+    const std::string prefix = apart ? std::string(to_string(*body.side)) + "_" : "";
+    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
+  }
+  return truth;
+}
 
 Result<Devices> open_devices(const Settings& settings) {
   Devices devices;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "core/result.h"
 #include "drivers/depth_camera.h"
 #include "drivers/pedal.h"
+#include "sim/simulated_station.h"
 
 namespace instep {
 
@@ -19,8 +21,14 @@ struct Devices {
   std::optional<double> platform_height_mm;  ///< as the cameras' source says it
   std::string calibration;                   ///< where the cameras' poses come from
   bool simulated = false;
-  std::map<std::string, double> truth;  ///< as Capture::truth
+  /// Gives what Capture::truth holds; empty if nothing is known. May take seconds, so call it where
+  /// nobody waits. Needs nothing of these devices, which may be gone by then.
+  std::function<Result<std::map<std::string, double>>()> work_out_truth;
 };
+
+/// The true measures of what stands there, as Capture::truth holds them: two feet are told apart by
+/// their side before each id.
+std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies);
 
 /// The one place that knows the camera families: a new one is a new case here. May take some
 /// seconds (a simulated station builds its foot). Fails with what the family says; worth another

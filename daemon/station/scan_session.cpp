@@ -12,6 +12,7 @@ namespace {
 /// Of the whole scan, the part that is over when all frames are there.
 constexpr double kCaptureShare = 0.3;
 constexpr double kMeasureShare = 0.6;
+constexpr std::chrono::milliseconds kTruthLook{20};
 
 class ScanSession {
  public:
@@ -45,8 +46,18 @@ class ScanSession {
     capture.platform_height_mm = tools_.platform_height_mm;
     capture.simulated = tools_.simulated;
     capture.calibration = tools_.calibration;
-    capture.truth = tools_.truth;
+    if (auto known = wait_for_truth(); !known) return tl::make_unexpected(known.error());
+    if (tools_.truth.valid()) capture.truth = tools_.truth.get();
     return capture;
+  }
+
+  /// Only the first scans of a simulated station ever wait here.
+  Result<void> wait_for_truth() {
+    while (tools_.truth.valid() && tools_.truth.wait_for(kTruthLook) != std::future_status::ready) {
+      progress_.step();
+      if (cancelled_) return fail(ErrorCode::kCancelled, "the scan was cancelled", "");
+    }
+    return {};
   }
 
   Result<std::vector<ScanRecord>> measure(const Capture& capture) {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -39,7 +40,8 @@ struct ScanTools {
   std::optional<double> platform_height_mm;
   std::string calibration;
   bool simulated = false;
-  std::map<std::string, double> truth;
+  /// As Capture::truth, once it is known; invalid if it never is. A scan that comes earlier waits.
+  std::shared_future<std::map<std::string, double>> truth;
   MeasureCapture measure;
   std::shared_ptr<ResultStore> store;
 };

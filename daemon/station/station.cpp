@@ -149,7 +149,20 @@ void Station::take_devices(Result<Devices> devices) {
   for (const auto& camera : cameras_->descriptions()) {
     camera_status_.push_back({camera.geometry.id, camera.model, std::nullopt});
   }
+  work_out_truth();
   check_cameras();
+}
+
+/// On a thread of its own: it takes seconds, and the station is ready without it.
+void Station::work_out_truth() {
+  truth_ = {};
+  if (!devices_.work_out_truth) return;
+  const auto promise = std::make_shared<std::promise<std::map<std::string, double>>>();
+  truth_ = promise->get_future().share();
+  truth_thread_.post([promise, work = devices_.work_out_truth](TaskProgress&) {
+    // A subject whose truth cannot be told is measured all the same.
+    promise->set_value(work().value_or(std::map<std::string, double>()));
+  });
 }
 
 void Station::check_cameras() {
@@ -230,7 +243,7 @@ ScanTools Station::tools() const {
   tools.platform_height_mm = devices_.platform_height_mm;
   tools.calibration = devices_.calibration;
   tools.simulated = devices_.simulated;
-  tools.truth = devices_.truth;
+  tools.truth = truth_;
   tools.measure = measure_;
   tools.store = store_;
   return tools;

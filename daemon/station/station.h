@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <future>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,6 +83,7 @@ class Station {
   void act(StationAction action);
   void open_devices_again();
   void take_devices(Result<Devices> devices);
+  void work_out_truth();
   void check_cameras();
   void camera_answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome);
   void end_check();
@@ -107,6 +110,7 @@ class Station {
   std::optional<Error> open_trouble_;
 
   Devices devices_;  ///< without its cameras, which the set owns
+  std::shared_future<std::map<std::string, double>> truth_;
   std::shared_ptr<CameraSet> cameras_;
   std::vector<CameraStatus> camera_status_;
   std::vector<bool> unanswered_;
@@ -115,6 +119,7 @@ class Station {
   EventLoop::Timer check_deadline_;
   BackOff back_off_;
 
+  TaskThread truth_thread_{"truth"};
   TaskThread scan_thread_{"scan"};
   std::shared_ptr<std::atomic<bool>> cancelled_;
   ScanOutcome outcome_;

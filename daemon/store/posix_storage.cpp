@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <memory>
+
+#include "drivers/files/descriptor.h"
+#include "drivers/files/file_bytes.h"
 
 namespace instep {
 namespace {
@@ -27,51 +29,35 @@ tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::pa
   return tl::make_unexpected(storage_error(errno, doing, path));
 }
 
-/// An open descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return number_; }
-
- private:
-  int number_;
-};
-
 }  // namespace
 
 Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
-  const std::string message = doing + " " + path.string() +
-                              " failed: " + (error_number == 0 ? "" : std::strerror(error_number));
-  switch (error_number) {
-    case ENOSPC:
-    case EDQUOT:
-      return {
-          ErrorCode::kNoSpace, Remedy::kOperator, message,
-          "make room on the disk of the results, or let store.keep_days do it; then scan again"};
-    case EACCES:
-    case EPERM:
-    case EROFS:
-      return {ErrorCode::kPermissionDenied, Remedy::kOperator, message,
-              "let the user of the station write there (instep doctor says how)"};
-    case ENOENT:
-      return {ErrorCode::kNotFound, Remedy::kOperator, message, "check store.root"};
+  Error error = file_error(error_number, doing, path);
+  switch (error.code) {
+    case ErrorCode::kNoSpace:
+      error.advice =
+          "make room on the disk of the results, or let store.keep_days do it; then scan again";
+      break;
+    case ErrorCode::kPermissionDenied:
+      error.advice = "let the user of the station write there (instep doctor says how)";
+      break;
+    case ErrorCode::kNotFound:
+      error.advice = "check store.root";
+      break;
     default:
-      return {ErrorCode::kIo, Remedy::kOperator, message, "check the disk of the results"};
+      error.advice = "check the disk of the results";
+      break;
   }
+  return error;
 }
 
 Result<Storage::File> PosixStorage::create_file(const std::filesystem::path& path) {
   const int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW;
   const int file = uninterrupted([&] { return ::open(path.c_str(), flags, kFileMode); });
-  if (file < 0) return failed("making", path);
+  if (file < 0) return failed("make", path);
   // What the umask took away of the group's right to read is given back.
   if (::fchmod(file, kFileMode) != 0) {
-    const auto error = failed("giving rights to", path);
+    const auto error = failed("give rights to", path);
     ::close(file);
     return error;
   }
@@ -80,12 +66,12 @@ Result<Storage::File> PosixStorage::create_file(const std::filesystem::path& pat
 
 Result<std::size_t> PosixStorage::write(File file, std::string_view bytes) {
   const auto written = uninterrupted([&] { return ::write(file, bytes.data(), bytes.size()); });
-  if (written < 0) return failed("writing", "a result");
+  if (written < 0) return failed("write", "a result");
   return static_cast<std::size_t>(written);
 }
 
 Result<void> PosixStorage::sync(File file) {
-  if (uninterrupted([&] { return ::fsync(file); }) != 0) return failed("flushing", "a result");
+  if (uninterrupted([&] { return ::fsync(file); }) != 0) return failed("flush", "a result");
   return {};
 }
 
@@ -95,40 +81,40 @@ void PosixStorage::close(File file) {
 
 Result<void> PosixStorage::make_folder(const std::filesystem::path& path) {
   if (::mkdir(path.c_str(), kFolderMode) == 0) {
-    if (::chmod(path.c_str(), kFolderMode) != 0) return failed("giving rights to", path);
+    if (::chmod(path.c_str(), kFolderMode) != 0) return failed("give rights to", path);
     return {};
   }
   struct stat there {};
   if (errno == EEXIST && ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) return {};
-  return failed("making", path);
+  return failed("make", path);
 }
 
 Result<void> PosixStorage::rename(const std::filesystem::path& from,
                                   const std::filesystem::path& to) {
-  if (::rename(from.c_str(), to.c_str()) != 0) return failed("renaming", from);
+  if (::rename(from.c_str(), to.c_str()) != 0) return failed("rename", from);
   return {};
 }
 
 Result<void> PosixStorage::remove_file(const std::filesystem::path& path) {
-  if (::unlink(path.c_str()) != 0) return failed("deleting", path);
+  if (::unlink(path.c_str()) != 0) return failed("delete", path);
   return {};
 }
 
 Result<void> PosixStorage::remove_folder(const std::filesystem::path& path) {
-  if (::rmdir(path.c_str()) != 0) return failed("deleting", path);
+  if (::rmdir(path.c_str()) != 0) return failed("delete", path);
   return {};
 }
 
 Result<void> PosixStorage::sync_folder(const std::filesystem::path& path) {
   const Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() < 0) return failed("opening", path);
-  if (uninterrupted([&] { return ::fsync(folder.get()); }) != 0) return failed("flushing", path);
+  if (!folder.is_open()) return failed("open", path);
+  if (uninterrupted([&] { return ::fsync(folder.number()); }) != 0) return failed("flush", path);
   return {};
 }
 
 Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::path& path) {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(path.c_str()), &::closedir);
-  if (!folder) return failed("listing", path);
+  if (!folder) return failed("list", path);
   std::vector<Entry> entries;
   errno = 0;
   while (const dirent* entry = ::readdir(folder.get())) {
@@ -142,7 +128,7 @@ Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::pa
     entries.push_back({name, is_folder});
     errno = 0;
   }
-  if (errno != 0) return failed("listing", path);
+  if (errno != 0) return failed("list", path);
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.name < b.name; });
   return entries;
@@ -150,12 +136,13 @@ Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::pa
 
 Result<std::string> PosixStorage::read(const std::filesystem::path& path, std::size_t most) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-  if (file.get() < 0) return failed("reading", path);
+  if (!file.is_open()) return failed("read", path);
   std::string content;
   std::string block(1 << 16, '\0');
   while (true) {
-    const auto got = uninterrupted([&] { return ::read(file.get(), block.data(), block.size()); });
-    if (got < 0) return failed("reading", path);
+    const auto got =
+        uninterrupted([&] { return ::read(file.number(), block.data(), block.size()); });
+    if (got < 0) return failed("read", path);
     if (got == 0) return content;
     content.append(block, 0, static_cast<std::size_t>(got));
     if (content.size() > most) {

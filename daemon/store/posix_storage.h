@@ -20,7 +20,8 @@ class PosixStorage : public Storage {
   Result<std::string> read(const std::filesystem::path& path, std::size_t most) override;
 };
 
-/// The Error for a failed system call on `path`: `doing` as in "writing".
+/// file_error() of drivers/files/file_bytes.h, with the advice that fits the results' disk; `doing`
+/// as in "write".
 Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path);
 
 }  // namespace instep

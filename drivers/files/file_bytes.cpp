@@ -9,32 +9,10 @@
 #include <cstdio>
 #include <system_error>
 
+#include "drivers/files/descriptor.h"
+
 namespace instep {
 namespace {
-
-/// An open file that is closed at the end of the scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-
-  /// Closes now, since that may report an error of an earlier write.
-  bool close() {
-    const int number = number_;
-    number_ = -1;
-    return ::close(number) == 0;
-  }
-
- private:
-  int number_;
-};
 
 Result<std::size_t> checked_size(int descriptor, const std::filesystem::path& path,
                                  std::size_t most_bytes) {

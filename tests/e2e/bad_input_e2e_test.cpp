@@ -73,7 +73,12 @@ TEST_F(BadInput, SoundCloudIsMeasuredAsJsonAlone) {
 TEST_F(BadInput, WrongUsageIsTwo) {
   const auto cloud = file("c.xyz", cylinder());
   expect_failure({}, 2, "see instep --help");
-  expect_failure({"grith"}, 2, "--help");
+  expect_failure({"grith"}, 2, "no command or option grith");
+  expect_failure({"--colour"}, 2, "no command or option --colour");
+  expect_failure({"simulate", "--out", folder_.path() / "new", "--seed", "-1"}, 2, "--seed");
+  expect_failure({"record", "--out", folder_.path() / "new", "--config", "x", "--seconds", "nan"},
+                 2, "--seconds");
+  EXPECT_FALSE(fs::exists(folder_.path() / "new"));
   expect_failure({"girth"}, 2, "see instep girth --help");
   expect_failure({"girth", cloud}, 2, "--plane");
   expect_failure({"girth", cloud, "--plane", kPlane, "--colour"}, 2, "--colour");
@@ -126,6 +131,15 @@ TEST_F(BadInput, BadRecordingsAreOne) {
   expect_failure({"replay", visit}, 1, "damaged PNG");
   std::ofstream(frame, std::ios::binary) << "no PNG at all";
   expect_failure({"replay", visit}, 1, "damaged PNG");
+  std::ifstream stream(visit / "recording.json");
+  const std::string header{std::istreambuf_iterator<char>(stream), {}};
+  for (const char* fx : {"1e30", "-1", "\"wide\"", "null", "NaN"}) {
+    auto bent = header;
+    const auto begin = bent.find(':', bent.find("\"fx\"")) + 1;
+    bent.replace(begin, bent.find_first_of(",}\n", begin) - begin, fx);
+    std::ofstream(visit / "recording.json") << bent;
+    expect_failure({"replay", visit}, 1, "recording.json");
+  }
   std::ofstream(visit / "recording.json") << "{\"format\": \"instep-recording\", \"version\": 1}";
   expect_failure({"replay", visit}, 1, "\"cameras\" is missing");
   std::ofstream(visit / "recording.json") << "[1, 2";

@@ -224,7 +224,7 @@ TEST(Station, NamesAFullDiskAndRecoversFromIt) {
   std::ofstream(disk / "filler") << std::string(9 << 20, 'x');
   station.set_store(disk / "scans");
   station.start();
-  EXPECT_TRUE(station.wait_for("STATUS=", kLong));
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
   const auto full = station.run_instep("scan");
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_THAT(full.text, HasSubstr("make room on the disk")) << station.log();

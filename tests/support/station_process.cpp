@@ -56,6 +56,13 @@ std::string StationProcess::small_settings() {
          "[simulation]\nwidth_px = 320\nheight_px = 240\npacing = \"fast\"\ntruth = false\n";
 }
 
+std::string StationProcess::tiny_settings() {
+  return "[[camera]]\nkind = \"simulated\"\n"
+         "[capture]\nframes_per_camera = 2\nwarmup_frames = 0\n"
+         "[simulation]\nwidth_px = 160\nheight_px = 120\ncameras = 3\npacing = \"fast\"\n"
+         "truth = false\n";
+}
+
 void StationProcess::start(std::optional<std::chrono::microseconds> watchdog) {
   {
     // What an earlier run has said is not about this one.
@@ -73,7 +80,7 @@ void StationProcess::start(std::optional<std::chrono::microseconds> watchdog) {
   std::vector<char*> pointers;
   for (auto& variable : environment) pointers.push_back(variable.data());
   pointers.push_back(nullptr);
-  const std::string program = std::string(INSTEP_BINARIES) + "/instepd";
+  const std::string program = programs_ / "instepd";
   const std::string log = folder() / "instepd.log";
 
   process_ = ::fork();
@@ -134,7 +141,7 @@ StationProcess::Output StationProcess::run_instep(const std::string& arguments) 
   const std::string command = "INSTEP_SOCKET=" + (folder() / "control.sock").string() +
                               " INSTEP_STORE=" + store_.string() +
                               " INSTEP_CONFIG=" + (folder() / "instep.toml").string() + " " +
-                              INSTEP_BINARIES + "/instep " + arguments + " 2>&1";
+                              (programs_ / "instep").string() + " " + arguments + " 2>&1";
   Output output;
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return output;

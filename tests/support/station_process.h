@@ -27,7 +27,11 @@ class StationProcess {
   StationProcess& operator=(const StationProcess&) = delete;
 
   void write_settings(const std::string& toml) const;
+  /// Runs the programs of that folder; those of this build if it is never called.
+  void set_programs(const std::filesystem::path& folder) { programs_ = folder; }
   static std::string small_settings();
+  /// The smallest station that still gives a result: for tests that start it hundreds of times.
+  static std::string tiny_settings();
 
   void start(std::optional<std::chrono::microseconds> watchdog = std::nullopt);
   void signal(int number) const;
@@ -57,6 +61,7 @@ class StationProcess {
  private:
   TemporaryFolder folder_;
   std::filesystem::path store_;
+  std::filesystem::path programs_ = INSTEP_BINARIES;
   /// Reads notifications as they come: a full socket would hold up the daemon.
   void read_notifications();
   void take_waiting();
