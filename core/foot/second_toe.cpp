@@ -17,6 +17,7 @@ constexpr double kCleftMm = 1.0;  ///< depth from which a cleft parts two toes
 constexpr std::size_t kFewestToes = 2;
 constexpr double kFurthestShareOff = 0.1;
 constexpr double kHalfToeMm = 6.0;
+constexpr double kTipDepthMm = 1.0;  ///< how far behind the tip its flanks are felt
 
 struct BallBorders {
   double medial = 0.0;
@@ -72,6 +73,26 @@ std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vec
   return found;
 }
 
+/// The foremost point of the toe that shows at `toe`. A tip is round, so that its very foremost
+/// place wanders with the noise: the middle between its flanks does not.
+Vector2d foremost_of_toe(const BorderProfile& forwards, const Vector2d& toe) {
+  const auto tip = forwards.furthest(toe.y() - kHalfToeMm, toe.y() + kHalfToeMm);
+  const bool is_summit = tip && std::abs(tip->place - toe.y()) < 0.9 * kHalfToeMm;
+  if (!is_summit) return toe;
+  const auto flank = [&](double step) -> std::optional<double> {
+    for (double off = 0.0; std::abs(off) < 1.5 * kHalfToeMm; off += step) {
+      const auto reach = forwards.reach(tip->place + off);
+      if (!reach) return std::nullopt;
+      if (*reach < tip->reach - kTipDepthMm) return tip->place + off;
+    }
+    return std::nullopt;
+  };
+  const auto medial = flank(0.1);
+  const auto lateral = flank(-0.1);
+  const double place = medial && lateral ? 0.5 * (*medial + *lateral) : tip->place;
+  return {tip->reach, place};
+}
+
 }  // namespace
 
 std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, double length_mm) {
@@ -94,9 +115,7 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
       });
   if (toes.size() >= kFewestToes &&
       std::abs(nearest->y() - expected) < kFurthestShareOff * ball->breadth) {
-    const auto tip = forwards.furthest(nearest->y() - kHalfToeMm, nearest->y() + kHalfToeMm);
-    const bool is_summit = tip && std::abs(tip->place - nearest->y()) < 0.9 * kHalfToeMm;
-    return SecondToe{is_summit ? Vector2d(tip->reach, tip->place) : *nearest, true};
+    return SecondToe{foremost_of_toe(forwards, *nearest), true};
   }
   const auto reach = forwards.reach(expected);
   if (!reach) return std::nullopt;
