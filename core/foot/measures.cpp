@@ -1,16 +1,21 @@
 #include "core/foot/measures.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
 
 #include "core/foot/foot_lengths.h"
 #include "core/foot/foot_tapes.h"
+#include "core/foot/standing_girth.h"
 
 namespace instep {
 namespace {
 
 constexpr double kPoorConfidence = 0.35;
+// Girths of feet are 0.85 to 1.2 of their length; far beyond that the surface went astray.
+constexpr double kLeastGirthShare = 0.65;
+constexpr double kMostGirthShare = 1.45;
 
 struct LengthRule {
   const char* id;
@@ -88,11 +93,29 @@ Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
   return measure;
 }
 
+bool stands_on_platform(const PointCloud& cloud) {
+  return std::any_of(cloud.origins.begin(), cloud.origins.end(),
+                     [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
+}
+
+Result<void> check_share(double girth_mm, const FootScan& foot) {
+  const auto length = foot_length(foot);
+  if (!length) return tl::unexpected(length.error());
+  const double share = girth_mm / *length;
+  if (share >= kLeastGirthShare && share <= kMostGirthShare) return {};
+  return fail(ErrorCode::kInsufficientData, "the surface there is no foot's",
+              "scan again, with the foot in full view of all cameras");
+}
+
 Result<Measure> take(const GirthRule& rule, const FootScan& foot, const MeasureOptions& options) {
   const auto plane = rule.tape(foot);
   if (!plane) return tl::unexpected(plane.error());
   auto girth = options.girth(foot.cloud, *plane, options.girth_options);
   if (!girth) return tl::unexpected(girth.error());
+  if (stands_on_platform(foot.cloud)) girth = standing_girth(*std::move(girth), *plane);
+  if (auto sane = check_share(girth->stretched_mm, foot); !sane) {
+    return tl::unexpected(sane.error());
+  }
   Measure measure;
   measure.id = rule.id;
   measure.value_mm = girth->stretched_mm;

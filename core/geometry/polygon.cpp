@@ -56,4 +56,20 @@ double signed_area(const std::vector<Eigen::Vector2d>& polygon) {
   return 0.5 * twice;
 }
 
+std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,
+                                     const Eigen::Vector2d& inward, double level) {
+  std::vector<Eigen::Vector2d> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d& from = polygon[i];
+    const Eigen::Vector2d& to = polygon[(i + 1) % polygon.size()];
+    const double from_height = inward.dot(from) - level;
+    const double to_height = inward.dot(to) - level;
+    if (from_height >= 0.0) kept.push_back(from);
+    if ((from_height >= 0.0) != (to_height >= 0.0)) {
+      kept.push_back(from + (to - from) * (from_height / (from_height - to_height)));
+    }
+  }
+  return kept;
+}
+
 }  // namespace instep

@@ -17,4 +17,9 @@ double perimeter(const std::vector<Eigen::Vector2d>& polygon);
 /// Area of a closed polygon, positive if it runs counter-clockwise.
 double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 
+/// The part of a closed polygon where `inward` . p >= `level`, the cut edges joined by straight
+/// lines (Sutherland and Hodgman). Empty if nothing is left.
+std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,
+                                     const Eigen::Vector2d& inward, double level);
+
 }  // namespace instep

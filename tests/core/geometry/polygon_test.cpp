@@ -52,5 +52,20 @@ TEST(ConvexHull, GivesBackWhatHasNoArea) {
   EXPECT_DOUBLE_EQ(perimeter(segment), 6.0);
 }
 
+TEST(Clipped, CutsACircleAtAChord) {
+  const int sides = 3600;
+  std::vector<Vector2d> circle;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    circle.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  // Above y = -1/2 two thirds of the circle are left, and a chord of length sqrt(3).
+  const auto above = clipped(circle, Vector2d::UnitY(), -0.5);
+  EXPECT_NEAR(perimeter(above), 4.0 / 3.0 * std::numbers::pi + std::sqrt(3.0), 1e-5);
+  for (const auto& point : above) EXPECT_GE(point.y(), -0.5 - 1e-12);
+  EXPECT_EQ(clipped(circle, Vector2d::UnitY(), -2.0).size(), circle.size());
+  EXPECT_TRUE(clipped(circle, Vector2d::UnitY(), 2.0).empty());
+}
+
 }  // namespace
 }  // namespace instep
