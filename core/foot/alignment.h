@@ -28,7 +28,7 @@ struct AlignmentOptions {
 ///
 /// A leg above the foot, an open sole and a cut at any height above the instep are fine. Fails with
 /// kInsufficientData under 200 points and with kInvalidInput, saying why, for what is no whole
-/// foot. A mirrored cloud gives the mirrored result. O(n log n), some 50 ms for 200,000 points.
+/// foot. A mirrored cloud gives the mirrored result. O(n log n).
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
 
 }  // namespace instep
