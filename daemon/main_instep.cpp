@@ -3,6 +3,7 @@
 #include <exception>
 #include <string>
 
+#include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
 

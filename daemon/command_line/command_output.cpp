@@ -11,10 +11,6 @@
 
 namespace instep {
 
-const char* program_version() {
-  return INSTEP_VERSION;
-}
-
 void print_error(const Error& error) {
   std::string line = error.line();
   std::replace_if(

@@ -13,16 +13,14 @@ inline constexpr int kDone = 0;
 inline constexpr int kNotDone = 1;
 inline constexpr int kWrongUsage = 2;
 
-/// Such as "0.1.0".
-const char* program_version();
-
 /// Prints "instep: message: advice" as exactly one line on stderr, whatever the message holds.
 void print_error(const Error& error);
 
 /// Prints text to stdout. Fails if stdout takes it not: a full disk, a closed pipe.
 Result<void> print_text(std::string_view text);
 
-/// Prints one JSON object, in the order of its keys, and a line end to stdout. Names that are no UTF-8 are mended.
+/// Prints one JSON object, in the order of its keys, and a line end to stdout. Names that are no
+/// UTF-8 are mended.
 Result<void> print_json(const nlohmann::ordered_json& object);
 
 /// The exit code for the outcome of a command, whose error is printed.
@@ -33,8 +31,7 @@ bool stdout_is_terminal();
 bool stderr_is_terminal();
 
 /// Shows how far a long command is, on one line of stderr that is written over and cleared at
-/// the end; silent where
-/// stderr is no terminal.
+/// the end; silent where stderr is no terminal.
 class ProgressLine {
  public:
   ProgressLine() = default;

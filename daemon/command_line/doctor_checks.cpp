@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "daemon/build_facts.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/station/devices.h"
@@ -103,7 +104,7 @@ DoctorCheck check_cameras(const Result<json>& status, const Settings& settings) 
 DoctorCheck library_versions() {
   return good("software",
               fmt::format("instep {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
-                          INSTEP_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                          program_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
                           FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
                           NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH,
                           EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));

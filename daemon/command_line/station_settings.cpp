@@ -4,11 +4,12 @@
 
 #include "config/settings_file.h"
 #include "config/settings_search.h"
+#include "daemon/build_facts.h"
 
 namespace instep {
 
 Result<FoundSettings> find_station_settings() {
-  const SettingsPlaces places{std::nullopt, running_program_folder(), INSTEP_SOURCE_DIR};
+  const SettingsPlaces places{std::nullopt, running_program_folder(), source_folder()};
   const auto file = find_settings(places, process_environment);
   if (!file) return tl::make_unexpected(file.error());
   auto settings = load_settings(*file);

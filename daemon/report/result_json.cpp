@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "daemon/build_facts.h"
+
 namespace instep {
 namespace {
 
@@ -138,7 +140,7 @@ Json result_json(const ScanRecord& record) {
   Json json{{"id", record.id},
             {"time", utc(record.time)},
             {"station", record.station},
-            {"software", {{"name", "instep"}, {"version", INSTEP_VERSION}}}};
+            {"software", {{"name", "instep"}, {"version", program_version()}}}};
   json["devices"] = Json::array();
   for (const auto& device : record.devices) json["devices"].push_back(device_json(device));
   json["calibration"] = record.calibration;

@@ -14,6 +14,7 @@
 
 #include "config/settings_file.h"
 #include "config/settings_search.h"
+#include "daemon/build_facts.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/service/log.h"
 #include "daemon/service/station_service.h"
@@ -50,7 +51,7 @@ int serve(const std::filesystem::path& file, const Settings& settings) {
   ::umask(0027);
   keep_signals_for_the_loop();
   set_up_log(settings.log.level);
-  log_info(fmt::format("instepd {} with {}", INSTEP_VERSION, file.string()));
+  log_info(fmt::format("instepd {} with {}", program_version(), file.string()));
   auto service = StationService::create(
       settings, [file] { return read_settings(file); }, measure_capture);
   if (!service) return complain(service.error());
@@ -67,7 +68,7 @@ int run_instepd(int argc, char** argv) {
   CLI::App app(
       "The daemon of an Instep scanning station: waits for the pedal, reads the cameras, "
       "measures, stores.");
-  app.set_version_flag("--version", INSTEP_VERSION);
+  app.set_version_flag("--version", program_version());
   app.footer(std::string(kEnvironmentHelp) +
              "\nSignals: TERM ends it within a second, HUP reads the settings again.");
   std::string asked;
@@ -82,7 +83,7 @@ int run_instepd(int argc, char** argv) {
     fmt::print(stderr, "instepd: {}: see instepd --help\n", error.what());
     return 2;
   }
-  SettingsPlaces places{std::nullopt, running_program_folder(), INSTEP_SOURCE_DIR};
+  SettingsPlaces places{std::nullopt, running_program_folder(), source_folder()};
   if (!asked.empty()) places.asked = asked;
   const auto file = find_settings(places, process_environment);
   if (!file) return complain(file.error());

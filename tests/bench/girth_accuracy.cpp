@@ -16,6 +16,7 @@
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/places.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -33,7 +34,7 @@ TEST(SettingsFile, HasTheDocumentedDefaultsWhenOnlyACameraIsNamed) {
 }
 
 TEST(SettingsFile, ShippedFileIsSoundAndSaysTheDefaults) {
-  const auto shipped = load_settings(INSTEP_SOURCES "/config/instep.toml");
+  const auto shipped = load_settings(test::source_tree() / "config/instep.toml");
   ASSERT_TRUE(shipped) << shipped.error().line();
   EXPECT_EQ(describe(*shipped), describe(read(kCamera).settings));
 }
@@ -117,7 +118,7 @@ TEST(SettingsFile, FailsInOneErrorOnFilesThatCannotBeRead) {
 }
 
 TEST(SettingsFile, NeverThrowsOnDamagedFiles) {
-  std::ifstream stream(INSTEP_SOURCES "/config/instep.toml");
+  std::ifstream stream(test::source_tree() / "config/instep.toml");
   const std::string shipped((std::istreambuf_iterator<char>(stream)), {});
   std::mt19937_64 random(5);
   for (int i = 0; i < 2000; ++i) {

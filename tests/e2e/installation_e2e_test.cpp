@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/places.h"
 #include "tests/support/station_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -42,7 +43,7 @@ ShellRun shell(const std::string& command) {
 }
 
 ShellRun install(const std::string& environment, const std::string& options) {
-  const fs::path build = fs::path(INSTEP_BINARIES).parent_path();
+  const fs::path build = test::built_programs().parent_path();
   return shell(environment + " cmake --install " + build.string() + " " + options);
 }
 

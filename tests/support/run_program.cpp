@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep::test {
@@ -25,7 +26,7 @@ std::string text_of(const std::string& file) {
 
 ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
-  const std::string program = std::string(INSTEP_BINARIES) + "/" + name;
+  const std::string program = built_programs() / name;
   const std::string output = folder.path() / "output";
   const std::string errors = folder.path() / "errors";
   std::vector<std::string> words = arguments;

@@ -15,6 +15,8 @@
 
 #include "tests/support/random_numbers.h"
 
+#include "tests/support/places.h"
+
 namespace instep::test {
 namespace {
 
@@ -145,10 +147,6 @@ PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_m
                               sigma_mm * random.normal() * ab.cross(ac).normalized());
   }
   return cloud;
-}
-
-std::filesystem::path trial_data() {
-  return INSTEP_SHARED_DATA;
 }
 
 }  // namespace instep::test

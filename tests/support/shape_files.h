@@ -39,7 +39,4 @@ std::vector<KnownSection> known_sections(const std::string& folder);
 PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
                      std::uint64_t seed);
 
-/// The folder of the trial data; it does not exist on every machine.
-std::filesystem::path trial_data();
-
 }  // namespace instep::test

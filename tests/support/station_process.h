@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "daemon/control/control_client.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep::test {
@@ -61,7 +62,7 @@ class StationProcess {
  private:
   TemporaryFolder folder_;
   std::filesystem::path store_;
-  std::filesystem::path programs_ = INSTEP_BINARIES;
+  std::filesystem::path programs_ = built_programs();
   /// Reads notifications as they come: a full socket would hold up the daemon.
   void read_notifications();
   void take_waiting();

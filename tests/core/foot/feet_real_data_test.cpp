@@ -6,6 +6,7 @@
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
 #include "tests/support/foot_body.h"
+#include "tests/support/places.h"
 #include "tests/support/shape_files.h"
 
 namespace instep {

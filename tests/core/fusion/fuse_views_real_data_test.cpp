@@ -5,6 +5,7 @@
 #include "core/fusion/fuse_views.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/rectangle.h"
+#include "tests/support/places.h"
 #include "tests/support/recorded_frames.h"
 
 namespace instep {
@@ -12,7 +13,7 @@ namespace {
 
 /// One camera carried round two standing feet in 8 steps; one frame each, nominal poses.
 TEST(FuseViewsOfARealCamera, GivesTwoCleanFeetThatAgree) {
-  const std::string folder = std::string(INSTEP_SHARED_DATA) + "/d435-two-feet";
+  const auto folder = test::trial_data() / "d435-two-feet";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
   const auto recorded = read_recorded_frames(folder);
   std::vector<View> views;

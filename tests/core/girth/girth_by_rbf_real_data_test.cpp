@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/girth/girth.h"
+#include "tests/support/places.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/girth/girth.h"
+#include "tests/support/places.h"
 #include "tests/support/shape_files.h"
 
 namespace instep {
