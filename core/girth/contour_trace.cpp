@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace instep {
 namespace {
@@ -12,6 +13,13 @@ constexpr double kLastMove = 1e-5;
 /// A step that turns further is halved, down to this part of the full step.
 constexpr double kLargestTurn = 0.2;
 constexpr double kShortestStep = 1.0 / 64.0;
+/// At a crease the line is looked for round the last point, from outside inwards, in steps of the
+/// angle.
+constexpr double kCreaseStep = 1.0 / 64.0;
+constexpr int kCreaseAngles = 48;
+constexpr double kSharpestCrease = 2.8;
+/// Most steps against those that the longest line would take.
+constexpr double kMostSteps = 8.0;
 /// Least slope within the plane: below it the surface runs along the plane.
 constexpr double kLeastSlope = 0.05;
 
@@ -50,13 +58,44 @@ std::optional<Place> correct(BlendedSurface& surface, const Eigen::Vector2d& sta
 std::optional<Place> advance(BlendedSurface& surface, const Place& from, double step) {
   const Eigen::Vector2d along(-from.outward.y(), from.outward.x());
   for (double length = step; length >= kShortestStep * step; length *= 0.5) {
+    const bool shortest = length < 2.0 * kShortestStep * step;
     const auto next = correct(surface, from.point + length * along, 0.7 * length);
     if (!next) continue;
-    const bool shortest = length < 2.0 * kShortestStep * step;
     const double turn = std::abs(turn_between(from.outward, next->outward));
     if (turn <= kLargestTurn || (shortest && turn < 1.5)) return next;
   }
   return std::nullopt;
+}
+
+/// One very short step round a corner of the line: on a small circle round it, the place where the
+/// field first changes from outside to inside, coming from the direction that points outwards.
+std::optional<Place> turn_corner(BlendedSurface& surface, const Place& from, double radius) {
+  const Eigen::Vector2d along(-from.outward.y(), from.outward.x());
+  const auto on_circle = [&](double angle) -> Eigen::Vector2d {
+    return from.point + radius * (std::cos(angle) * from.outward + std::sin(angle) * along);
+  };
+  const auto value_at = [&](double angle) {
+    const Eigen::Vector2d point = on_circle(angle);
+    const auto field = surface.at({point.x(), point.y(), 0.0});
+    return field ? field->value : 1.0;
+  };
+  const double first = 0.5 * std::numbers::pi - kSharpestCrease;
+  const double step = 2.0 * kSharpestCrease / kCreaseAngles;
+  double outside = std::max(first, 0.05);
+  if (!(value_at(outside) > 0.0)) return std::nullopt;
+  double inside = outside;
+  while (inside < 0.5 * std::numbers::pi + kSharpestCrease && value_at(inside) > 0.0) {
+    outside = inside;
+    inside += step;
+  }
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (outside + inside);
+    (value_at(middle) > 0.0 ? outside : inside) = middle;
+  }
+  const Eigen::Vector2d point = on_circle(inside);
+  const auto field = surface.at({point.x(), point.y(), 0.0});
+  if (!field || !(field->gradient.head<2>().norm() > kLeastSlope)) return std::nullopt;
+  return Place{point, field->gradient.head<2>().normalized()};
 }
 
 }  // namespace
@@ -96,10 +135,18 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
   Contour contour;
   Place here = *first;
   double way = 0.0;
-  while (way < longest) {
+  const auto most = static_cast<std::size_t>(kMostSteps * longest / step);
+  while (way < longest && contour.points.size() < most) {
     contour.points.push_back(here.point);
     contour.outward.push_back(here.outward);
-    const auto next = advance(surface, here, step);
+    const std::size_t patches = surface.patches();
+    auto next = advance(surface, here, step);
+    if (!next && surface.patches() > patches) {
+      // A new patch has moved the line from under the last point.
+      const auto moved = correct(surface, here.point, step);
+      if (moved) next = advance(surface, *moved, step);
+    }
+    if (!next) next = turn_corner(surface, here, kCreaseStep * step);
     if (!next) return std::nullopt;
     const double length = (next->point - here.point).norm();
     way += length;

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 24;
 /// Half-width of the band in spacings: a patch reaches five to each side.
-constexpr double kBandInSpacings = 7.0;
+constexpr double kBandInSpacings = 9.0;
 /// Neighbours that tell the spacing, and how much sparser than its surroundings a stray point is.
 constexpr std::size_t kSpacingNeighbours = 8;
 constexpr double kStrayRatio = 2.5;
 /// Points nearer than this part of the spacing count as one.
 constexpr double kDuplicate = 0.02;
 /// Noisy points are averaged over this many standard deviations, up to this part of the section.
-constexpr double kAveragedSigmas = 4.0;
+constexpr double kAveragedSigmas = 2.0;
 constexpr double kWidestAverage = 0.018;
 /// Points nearer than this part of the section tell no more about it than their average.
 constexpr double kFinest = 0.007;

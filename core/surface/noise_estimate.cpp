@@ -15,7 +15,7 @@ constexpr std::size_t kNeighbourhoods = 40;
 constexpr double kRoughnessSpread = 2.0;
 /// The shape between the neighbourhoods may be rougher than they are: measured on scanned feet,
 /// where the plain estimate flattens bends.
-constexpr double kAllowance = 4.0;
+constexpr double kAllowance = 1.0;
 constexpr double kLeastRoughness = 1e-12;
 constexpr std::size_t kPoints = 60;
 /// Terms of a quadratic in two variables: curvature is shape, not roughness.

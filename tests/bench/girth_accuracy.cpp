@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/point_index.h"
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/places.h"
@@ -97,6 +98,37 @@ PointCloud sample(const PointCloud& cloud, std::size_t count, double sigma, std:
   return part;
 }
 
+/// Points of a mesh that keep about the same distance from each other: random ones, from which each
+/// that lies too near an earlier one is left out. The distance is found by halving.
+PointCloud even_points_on(const TriangleMesh& mesh, std::size_t count, double sigma,
+                          std::uint64_t seed) {
+  const PointCloud crowd = test::points_on(mesh, 12 * count, 0.0, seed);
+  const PointIndex index(crowd.positions);
+  std::vector<std::size_t> kept;
+  double near = 0.0;
+  double far = 20.0;
+  for (int round = 0; round < 12; ++round) {
+    const double distance = 0.5 * (near + far);
+    std::vector<bool> gone(crowd.size(), false);
+    kept.clear();
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+      if (gone[i]) continue;
+      kept.push_back(i);
+      if (kept.size() > count) break;
+      for (const auto& neighbour : index.within(crowd.positions[i], distance)) {
+        gone[neighbour.index] = true;
+      }
+    }
+    (kept.size() > count ? near : far) = distance;
+  }
+  PointCloud even = crowd.subset(kept);
+  test::RandomNumbers random(seed + 1000);
+  for (auto& position : even.positions) {
+    position += sigma * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  }
+  return even;
+}
+
 void shapes() {
   std::map<std::string, Tally> tallies;
   for (const auto& section : test::known_sections("shapes")) {
@@ -131,13 +163,13 @@ void lasts() {
 
 void feet() {
   for (const double sigma : {0.0, 0.5}) {
-    for (const std::size_t count : {6000U, 4260U, 1080U}) {
+    for (const std::size_t count : {17000U, 4260U, 1080U}) {
       Tally tally;
       for (const auto& section : test::known_sections("feet")) {
         if (!section.file.ends_with(".stl")) continue;
         const auto shape = test::read_shape(test::trial_data() / "feet" / section.file, 1000.0);
         for (const std::uint64_t seed : {1U, 2U}) {
-          auto cloud = test::points_on(shape.mesh, count, sigma, seed);
+          auto cloud = even_points_on(shape.mesh, count, sigma, seed);
           measure(tally, cloud, section, section.file + " " + section.name);
         }
       }
@@ -147,6 +179,8 @@ void feet() {
 }
 
 void analytic() {
+  const std::vector<std::string> names = {"circle",    "ellipse",      "cone",
+                                          "ellipsoid", "superellipse", "bent tube"};
   const std::vector<test::AnalyticShape> bodies = {
       test::elliptic_cylinder(40, 40), test::elliptic_cylinder(48, 28), test::cone(38, 0.25),
       test::ellipsoid(50, 35, 70),     test::superellipse(42, 38, 3.0), test::bent_tube(90, 35)};
@@ -158,7 +192,8 @@ void analytic() {
         const double truth = test::true_girth(body, plane);
         for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
           const auto cloud = test::random_points(body, count, -30, 30, sigma, seed);
-          measure(tally, cloud, {"", "", plane, sigma, truth, truth}, "");
+          measure(tally, cloud, {"", "", plane, sigma, truth, truth},
+                  names[static_cast<std::size_t>(&body - bodies.data())]);
         }
       }
       print(fmt::format("analytic {} s {}", count, sigma), tally);

@@ -1,0 +1,180 @@
+#include "core/surface/creased_patch.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace instep {
+namespace {
+
+/// Sheets whose middles turn less (radians) are not worth a closer look.
+constexpr double kLeastTurn = 0.35;
+constexpr std::size_t kFewestOnASheet = 6;
+constexpr int kRounds = 6;
+/// Points nearest to both sheets, round which the crease is looked for.
+constexpr std::size_t kPointsAtCrease = 6;
+
+/// Which of the two sheets each point lies on.
+using Sides = std::vector<bool>;
+
+/// The plane of the points on one side.
+struct Sheet {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+
+  double height(const Eigen::Vector3d& place) const { return normal.dot(place - middle); }
+};
+
+Sheet sheet_of(const std::vector<OrientedPoint>& points, const Sides& sides, bool side) {
+  Sheet sheet;
+  Eigen::Vector3d facing = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (sides[i] != side) continue;
+    sheet.middle += points[i].position;
+    facing += points[i].normal;
+    ++sheet.count;
+  }
+  if (sheet.count < kFewestOnASheet) return sheet;
+  sheet.middle /= static_cast<double>(sheet.count);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (sides[i] != side) continue;
+    const Eigen::Vector3d arm = points[i].position - sheet.middle;
+    spread += arm * arm.transpose();
+  }
+  sheet.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  if (sheet.normal.dot(facing) < 0.0) sheet.normal *= -1.0;
+  return sheet;
+}
+
+/// The direction in which the normals differ most.
+Eigen::Vector3d direction_of_bend(const std::vector<OrientedPoint>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& point : points) mean += point.normal;
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& point : points) {
+    const Eigen::Vector3d arm = point.normal - mean;
+    spread += arm * arm.transpose();
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+}
+
+/// Two clusters of the normals along that direction.
+Sides split_by_normals(const std::vector<OrientedPoint>& points) {
+  const Eigen::Vector3d across = direction_of_bend(points);
+  std::vector<double> bends;
+  for (const auto& point : points) bends.push_back(across.dot(point.normal));
+  const auto [least, most] = std::minmax_element(bends.begin(), bends.end());
+  double limit = 0.5 * (*least + *most);
+  for (int round = 0; round < kRounds; ++round) {
+    std::array<double, 2> sums{};
+    std::array<double, 2> counts{};
+    for (const double bend : bends) {
+      sums[bend > limit] += bend;
+      counts[bend > limit] += 1.0;
+    }
+    if (counts[0] == 0.0 || counts[1] == 0.0) break;
+    limit = 0.5 * (sums[0] / counts[0] + sums[1] / counts[1]);
+  }
+  Sides sides;
+  for (const double bend : bends) sides.push_back(bend > limit);
+  return sides;
+}
+
+struct TwoSheets {
+  Sheet first;
+  Sheet second;
+  Sides sides;
+  bool convex = true;
+};
+
+/// Gives each point to the sheet that bounds the body there, until nothing changes.
+std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
+  TwoSheets sheets;
+  sheets.sides = split_by_normals(points);
+  for (int round = 0; round < kRounds; ++round) {
+    sheets.first = sheet_of(points, sheets.sides, false);
+    sheets.second = sheet_of(points, sheets.sides, true);
+    if (std::min(sheets.first.count, sheets.second.count) < kFewestOnASheet) return std::nullopt;
+    sheets.convex =
+        sheets.second.height(sheets.first.middle) + sheets.first.height(sheets.second.middle) < 0.0;
+    const Sides before = sheets.sides;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double over_first = sheets.first.height(points[i].position);
+      const double over_second = sheets.second.height(points[i].position);
+      sheets.sides[i] = sheets.convex ? over_second > over_first : over_second < over_first;
+    }
+    if (sheets.sides == before) return sheets;
+  }
+  const auto on_second =
+      static_cast<std::size_t>(std::count(sheets.sides.begin(), sheets.sides.end(), true));
+  if (std::min(on_second, points.size() - on_second) < kFewestOnASheet) return std::nullopt;
+  return sheets;
+}
+
+/// The middle of the points that lie nearest to both patches.
+Eigen::Vector3d near_crease(const std::vector<OrientedPoint>& points, const HeightPatch& first,
+                            const HeightPatch& second) {
+  std::vector<std::pair<double, std::size_t>> off;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d& place = points[i].position;
+    off.emplace_back(std::abs(first.at(place).value) + std::abs(second.at(place).value), i);
+  }
+  std::sort(off.begin(), off.end());
+  off.resize(std::min(kPointsAtCrease, off.size()));
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const auto& [distance, index] : off) middle += points[index].position;
+  return middle / static_cast<double>(off.size());
+}
+
+/// The angle between the two patches at the place, found by Newton's steps, where both vanish.
+double turn_at_crease(Eigen::Vector3d place, const HeightPatch& first, const HeightPatch& second) {
+  double turn = 0.0;
+  for (int step = 0; step < 4; ++step) {
+    const FieldValue one = first.at(place);
+    const FieldValue two = second.at(place);
+    const double cosine = one.gradient.normalized().dot(two.gradient.normalized());
+    turn = std::acos(std::clamp(cosine, -1.0, 1.0));
+    Eigen::Matrix<double, 2, 3> slopes;
+    slopes << one.gradient.transpose(), two.gradient.transpose();
+    const Eigen::Matrix2d square = slopes * slopes.transpose();
+    if (!(square.determinant() > 1e-4)) break;
+    place -= slopes.transpose() * square.inverse() * Eigen::Vector2d(one.value, two.value);
+  }
+  return turn;
+}
+
+}  // namespace
+
+CreasedPatch::CreasedPatch(HeightPatch first, HeightPatch second, bool convex, double turn)
+    : first_(std::move(first)), second_(std::move(second)), convex_(convex), turn_(turn) {}
+
+std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& points,
+                                              const Eigen::Vector3d& centre, double radius,
+                                              double roughness) {
+  if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
+  const auto sheets = two_sheets(points);
+  if (!sheets) return std::nullopt;
+  const double cosine = sheets->first.normal.dot(sheets->second.normal);
+  if (!(cosine < std::cos(kLeastTurn))) return std::nullopt;
+  std::array<std::vector<OrientedPoint>, 2> parts;
+  for (std::size_t i = 0; i < points.size(); ++i) parts[sheets->sides[i]].push_back(points[i]);
+  auto first = HeightPatch::fit(parts[0], centre, sheets->first.normal, radius, roughness);
+  auto second = HeightPatch::fit(parts[1], centre, sheets->second.normal, radius, roughness);
+  if (!first || !second) return std::nullopt;
+  const double turn = turn_at_crease(near_crease(points, *first, *second), *first, *second);
+  return CreasedPatch(std::move(*first), std::move(*second), sheets->convex, turn);
+}
+
+FieldValue CreasedPatch::at(const Eigen::Vector3d& position) const {
+  const FieldValue first = first_.at(position);
+  const FieldValue second = second_.at(position);
+  return (second.value > first.value) == convex_ ? second : first;
+}
+
+}  // namespace instep

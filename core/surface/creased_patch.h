@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/surface/height_patch.h"
+#include "core/surface/oriented_point.h"
+
+namespace instep {
+
+/// Two height patches that meet in a crease, such as the featherline of a last: the body is what
+/// lies under both (a convex crease) or under either. A single smooth patch would ring there or
+/// cut the edge off. After the sharp features of multi-level partition of unity implicits (Ohtake
+/// and others 2003), with the points told apart by the patches themselves.
+class CreasedPatch {
+ public:
+  /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six that
+  /// meet in an angle. Two fits and some passes over the points.
+  static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
+                                         const Eigen::Vector3d& centre, double radius,
+                                         double roughness);
+
+  FieldValue at(const Eigen::Vector3d& position) const;
+
+  /// Angle between the two sheets' normals where they meet, in radians; near zero where one smooth
+  /// surface was cut in two.
+  double turn() const { return turn_; }
+
+  /// Comparable with that of one HeightPatch over the same points.
+  double misfit() const { return first_.misfit() + second_.misfit(); }
+
+ private:
+  CreasedPatch(HeightPatch first, HeightPatch second, bool convex, double turn);
+
+  HeightPatch first_;
+  HeightPatch second_;
+  bool convex_;
+  double turn_;
+};
+
+}  // namespace instep

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/surface/oriented_point.h"
+
+namespace instep {
+
+/// Points of a small piece of surface as heights over a plane: the patch's own coordinates, in
+/// which the neighbourhood has radius one.
+struct HeightSamples {
+  Eigen::Matrix2Xd places;    ///< on the plane
+  Eigen::VectorXd heights;    ///< over it
+  Eigen::VectorXd variances;  ///< of the heights
+
+  Eigen::Index size() const { return heights.size(); }
+};
+
+/// `axes`: rows are two directions on the plane and the one over it. `radius` > 0.
+HeightSamples samples_over(const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
+                           const Eigen::Vector3d& centre, double radius);
+
+/// Coefficients of 1, x, y, xx, xy, yy.
+using Quadratic = Eigen::Matrix<double, 6, 1>;
+
+/// The first `terms` (3 or 6) of those monomials, one place a row.
+Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms);
+
+/// The quadratic that fits best. At least six samples.
+Quadratic least_squares(const HeightSamples& samples);
+
+/// What is left of the heights over `trend`, averaged over square cells, weighted by certainty: at
+/// most 64 samples, however many came. As the trend is taken out first, a cell's average is not
+/// bent by the curvature of the surface across it.
+HeightSamples averaged_rest(const HeightSamples& samples, const Quadratic& trend);
+
+}  // namespace instep
