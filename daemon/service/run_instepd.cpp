@@ -1,6 +1,7 @@
 #include "daemon/service/run_instepd.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -42,6 +43,13 @@ void keep_signals_for_the_loop() {
   ::signal(SIGPIPE, SIG_IGN);
 }
 
+/// The C library gives each new thread a heap of its own and, but for the first heap, never returns
+/// the free top of one. A scan's threads come and go, and left some 80 MiB behind that way. With a
+/// single heap malloc_trim() returns it all; the threads hardly ever allocate at the same time.
+void keep_to_one_heap() {
+  ::mallopt(M_ARENA_MAX, 1);
+}
+
 int check(const std::filesystem::path& file, const Settings& settings) {
   fmt::print("settings {}\n{}", file.string(), describe(settings));
   return 0;
@@ -49,6 +57,7 @@ int check(const std::filesystem::path& file, const Settings& settings) {
 
 int serve(const std::filesystem::path& file, const Settings& settings) {
   ::umask(0027);
+  keep_to_one_heap();
   keep_signals_for_the_loop();
   set_up_log(settings.log.level);
   log_info(fmt::format("instepd {} with {}", program_version(), file.string()));

@@ -135,6 +135,37 @@ TEST(Station, EndsWithinASecondOfSigtermInTheMiddleOfAScan) {
   }
 }
 
+/// Of its memory, what is in RAM.
+double resident_mb(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) * 1024.0 / 1.0e6;
+  }
+  return 0.0;
+}
+
+TEST(Station, RestsIn40MbAfterScansOfWholeFrames) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer keeps memory of its own";
+#endif
+  StationProcess station;
+  station.write_settings(
+      "[[camera]]\nkind = \"simulated\"\n"
+      "[capture]\nframes_per_camera = 15\nwarmup_frames = 0\n"
+      "[simulation]\nwidth_px = 640\nheight_px = 480\ncameras = 4\npacing = \"fast\"\n"
+      "truth = false\n");
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  for (int scan = 0; scan < 3; ++scan) {
+    const auto output = station.run_instep("scan");
+    ASSERT_EQ(output.exit_code, 0) << output.text;
+    const double resident = resident_mb(station.process());
+    EXPECT_GT(resident, 1.0);
+    EXPECT_LT(resident, 40.0);
+  }
+}
+
 TEST(Station, KeepsItsSettingsWhenTheNewOnesAreFaulty) {
   StationProcess station;
   station.start();
