@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <string>
 
 #include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
+#include "daemon/standard_streams.h"
 
 namespace {
 
@@ -19,6 +21,13 @@ constexpr const char* kExamples = R"(Examples:
   instep girth --help                                           all about one command
 
 JSON alone goes to stdout. Exit codes: 0 done, 1 it could not be done, 2 wrong usage.)";
+
+/// Prints what --help or --version ask for.
+int print_asked(const CLI::App& app, const CLI::Success& asked) {
+  std::ostringstream text;
+  app.exit(asked, text, text);
+  return instep::finish_command(instep::print_text(text.str()));
+}
 
 /// What a wrong usage is answered with: one line that says where help is.
 int explain_wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -38,6 +47,7 @@ int explain_wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  instep::fill_closed_standard_streams();
   int exit_code = instep::kDone;
   CLI::App app(kDescription, "instep");
   try {
@@ -50,7 +60,7 @@ int main(int argc, char** argv) {
     instep::add_doctor_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);  // --help or --version
+    return print_asked(app, success);
   } catch (const CLI::ParseError& error) {
     return explain_wrong_usage(app, error);
   } catch (const std::exception& error) {

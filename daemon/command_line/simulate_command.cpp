@@ -1,6 +1,7 @@
 #include "daemon/command_line/simulate_command.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,10 +27,14 @@ struct SimulateCommand {
   std::size_t frames = 15;
 };
 
-/// The parser alone would take -1 for the largest number there is.
+/// The parser alone would take -1, and what is too large, for the largest number there is.
 std::string check_seed(const std::string& text) {
-  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return whole ? "" : "needs a whole number, 0 or more";
+  std::uint64_t seed = 0;
+  const auto end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seed);
+  return stop == end && error == std::errc{}
+             ? ""
+             : "needs a whole number from 0 to 18446744073709551615";
 }
 
 Result<SimulatedStation> build(const SimulateCommand& command) {

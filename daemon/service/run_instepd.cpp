@@ -11,11 +11,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "config/settings_file.h"
 #include "config/settings_search.h"
 #include "daemon/build_facts.h"
+#include "daemon/command_line/command_output.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/service/log.h"
 #include "daemon/service/station_service.h"
@@ -32,6 +34,11 @@ Result<Settings> read_settings(const std::filesystem::path& file) {
 int complain(const Error& error) {
   fmt::print(stderr, "instepd: {}\n", error.line());
   return 1;
+}
+
+int print(const std::string& text) {
+  const auto printed = print_text(text);
+  return printed ? 0 : complain(printed.error());
 }
 
 /// The event loop takes signals from a descriptor, so no thread may take them otherwise.
@@ -51,8 +58,7 @@ void keep_to_one_heap() {
 }
 
 int check(const std::filesystem::path& file, const Settings& settings) {
-  fmt::print("settings {}\n{}", file.string(), describe(settings));
-  return 0;
+  return print(fmt::format("settings {}\n{}", file.string(), describe(settings)));
 }
 
 int serve(const std::filesystem::path& file, const Settings& settings) {
@@ -87,7 +93,9 @@ int run_instepd(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);  // --help or --version
+    std::ostringstream text;  // of --help or --version
+    app.exit(success, text, text);
+    return print(text.str());
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "instepd: {}: see instepd --help\n", error.what());
     return 2;
