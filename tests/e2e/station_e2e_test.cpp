@@ -103,6 +103,45 @@ TEST(Station, IsReachedByEveryCommand) {
   EXPECT_EQ(leftovers(station.store()), 0U);
 }
 
+TEST(Station, FailsInOneLineThatHelpsWhenACommandCannotBeDone) {
+  StationProcess station;
+  station.start();
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0);
+  ASSERT_EQ(station.run_instep("scan").exit_code, 0);
+  const auto expect_failure = [&](const std::string& command, const std::string& said) {
+    const auto output = station.run_instep(command);
+    EXPECT_EQ(output.exit_code, 1) << command;
+    EXPECT_THAT(output.text, HasSubstr(said)) << command;
+    EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
+  };
+  expect_failure("show ../../../etc/passwd", "instep list");
+  expect_failure("delete ../x", "instep list");
+  expect_failure("delete latest", "instep list");
+  expect_failure("cancel", "instep scan");
+  expect_failure("export latest --out /proc/none", "check the name");
+  expect_failure("export latest --out ''", "choose another name");
+  for (const auto* command : {"list", "show latest", "status", "watch --until-result 30"}) {
+    EXPECT_EQ(station.run_instep(command + std::string(" >/dev/full")).exit_code, 1) << command;
+  }
+}
+
+TEST(Station, ExportsAScanWholeOrNotAtAll) {
+  StationProcess station;
+  station.start();
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0);
+  ASSERT_EQ(station.run_instep("scan").exit_code, 0);
+  const auto disk = station.folder() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) {
+    GTEST_SKIP() << "needs the right to mount a small disk";
+  }
+  const auto full = station.run_instep("export latest --out " + disk.string());
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.text, HasSubstr("free some disk space"));
+  EXPECT_TRUE(std::filesystem::is_empty(disk));
+  ::umount(disk.c_str());
+}
+
 TEST(Station, IsSaidNotToRunByEveryCommandInOneLine) {
   const StationProcess station;
   for (const auto* command : {"scan", "status", "watch", "list", "show", "export latest",
