@@ -18,9 +18,13 @@ constexpr const char* kExamples = R"(Examples:
   instep girth foot.ply --plane 160,-5,22,160,-5,62,170,-44,22   one girth of a cloud
   instep measure foot.ply                                       all measures of a foot
   instep simulate --out visit && instep replay visit            the whole chain, no hardware
+  instep scan                                                   measure who stands on the station
+  instep doctor                                                 what is wrong with this machine
   instep girth --help                                           all about one command
 
-JSON alone goes to stdout. Exit codes: 0 done, 1 it could not be done, 2 wrong usage.)";
+scan, cancel, status, watch, list, show, export and delete ask the station's daemon, instepd; the
+others need none. Results go to stdout, as JSON for programs; errors go to stderr, one line that
+says what to do. Exit codes: 0 done, 1 it could not be done, 2 wrong usage.)";
 
 /// Prints what --help or --version ask for.
 int print_asked(const CLI::App& app, const CLI::Success& asked) {

@@ -82,7 +82,8 @@ int serve(const std::filesystem::path& file, const Settings& settings) {
 int run_instepd(int argc, char** argv) {
   CLI::App app(
       "The daemon of an Instep scanning station: waits for the pedal, reads the cameras, "
-      "measures, stores.");
+      "measures, stores.",
+      "instepd");
   app.set_version_flag("--version", program_version());
   app.footer(std::string(kEnvironmentHelp) +
              "\nSignals: TERM ends it within a second, HUP reads the settings again.");
