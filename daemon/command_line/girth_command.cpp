@@ -104,7 +104,9 @@ void add_girth_command(CLI::App& app, int& exit_code) {
   girth->footer(kExamples);
   const auto command = std::make_shared<GirthCommand>();
   add_cloud_options(*girth, command->cloud);
-  girth->add_option("--plane", command->plane, "X1,Y1,Z1,X2,Y2,Z2,X3,Y3,Z3")
+  girth
+      ->add_option("--plane", command->plane,
+                   "where the tape lies: three points, X1,Y1,Z1,X2,Y2,Z2,X3,Y3,Z3")
       ->required()
       ->check(check_plane);
   girth
