@@ -58,6 +58,10 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
+/// The paper's Method 2 (section 2.2).
+Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
+                            const GirthOptions& options = {});
+
 /// Cuts the faces that a mesh already has; no surface is fitted. All loops are chained; of several
 /// the one round the largest area counts and the others are named in a warning. An open section is
 /// bridged for the stretched length, and the contact length is that of the pieces, with a warning.

@@ -1,0 +1,216 @@
+#include "core/surface/grown_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+#include "core/geometry/point_index.h"
+#include "core/surface/partial_mesh.h"
+
+namespace instep {
+namespace {
+
+using Corner = PartialMesh::Corner;
+using Triangle = PartialMesh::Triangle;
+
+/// Neighbours among which an edge finds its third corner.
+constexpr std::size_t kNeighbours = 20;
+/// Neighbours that tell how coarse the sampling is.
+constexpr std::size_t kSpacingNeighbours = 8;
+/// Longest edge, against the spacing at its ends.
+constexpr double kReach = 4.0;
+/// Cosine of the sharpest bend between neighbouring triangles: 120 degrees.
+constexpr double kSharpestBend = -0.5;
+/// How much a bend counts against a wide angle, and against an early turn.
+constexpr double kBendAgainstAngle = 0.5;
+constexpr double kBendAgainstTurn = 4.0;
+/// Sine of the narrowest angle of a triangle at its third corner.
+constexpr double kNarrowestAngle = 0.02;
+
+/// A third corner for an edge; of one edge the one that suits best comes first.
+struct Candidate {
+  Corner corner;
+  double misfit;  ///< against the other candidates of the edge
+  double delay;   ///< against the candidates of other edges
+};
+
+/// An edge of the border, directed as in its triangle, with what is left to try beyond it.
+struct BorderEdge {
+  Corner from;
+  Corner to;
+  std::vector<Candidate> candidates;  ///< the best is last
+};
+
+/// The first of the points at each place.
+std::vector<Corner> distinct(const std::vector<Eigen::Vector3d>& points) {
+  std::vector<Corner> order(points.size());
+  std::iota(order.begin(), order.end(), Corner{0});
+  const auto key = [&](Corner i) {
+    return std::tuple(points[i].x(), points[i].y(), points[i].z(), i);
+  };
+  std::sort(order.begin(), order.end(), [&](Corner a, Corner b) { return key(a) < key(b); });
+  const auto same = [&](Corner a, Corner b) { return points[a] == points[b]; };
+  order.erase(std::unique(order.begin(), order.end(), same), order.end());
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+class Growth {
+ public:
+  explicit Growth(const std::vector<Eigen::Vector3d>& points) : points_(points), mesh_(points) {
+    const PointIndex index(points);
+    neighbours_.reserve(points.size());
+    spacings_.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::vector<Corner> around;
+      double squared = 0.0;
+      for (const auto& found : index.nearest(points[i], kNeighbours + 1)) {
+        if (found.index == i) continue;
+        around.push_back(static_cast<Corner>(found.index));
+        if (around.size() <= kSpacingNeighbours) squared = found.squared_distance;
+      }
+      const auto counted = static_cast<double>(std::min(around.size(), kSpacingNeighbours));
+      spacings_.push_back(std::sqrt(squared * std::numbers::pi / std::max(counted, 1.0)));
+      neighbours_.push_back(std::move(around));
+    }
+  }
+
+  const std::vector<Triangle>& run() {
+    for (Corner corner = 0; corner < points_.size(); ++corner) {
+      if (plant(corner)) grow();
+    }
+    return mesh_.triangles();
+  }
+
+ private:
+  /// A seed triangle on points that all are far from what is there already.
+  bool plant(Corner corner) {
+    const auto& around = neighbours_[corner];
+    if (around.size() < 2 || mesh_.has_corner(corner)) return false;
+    if (std::any_of(around.begin(), around.end(), [&](Corner c) { return mesh_.has_corner(c); })) {
+      return false;
+    }
+    auto candidates = candidates_of(corner, around.front(), nullptr);
+    if (candidates.empty()) return false;
+    add({corner, around.front(), candidates.back().corner});
+    return true;
+  }
+
+  void grow() {
+    while (!queue_.empty()) {
+      BorderEdge& edge = edges_[queue_.top().second];
+      const std::size_t number = queue_.top().second;
+      queue_.pop();
+      if (mesh_.has_edge(edge.to, edge.from)) continue;
+      const Triangle triangle{edge.to, edge.from, edge.candidates.back().corner};
+      edge.candidates.pop_back();
+      if (mesh_.accepts(triangle, nearby(triangle))) {
+        add(triangle);
+      } else {
+        wait(number);
+      }
+    }
+  }
+
+  void add(const Triangle& triangle) {
+    mesh_.add(triangle);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner from = triangle[k];
+      const Corner to = triangle[(k + 1) % 3];
+      if (mesh_.has_edge(to, from)) continue;
+      edges_.push_back({from, to, candidates_of(from, to, &points_[triangle[(k + 2) % 3]])});
+      wait(edges_.size() - 1);
+    }
+  }
+
+  /// Puts an edge in the queue, if anything is left to try.
+  void wait(std::size_t number) {
+    auto& candidates = edges_[number].candidates;
+    while (!candidates.empty() && mesh_.is_surrounded(candidates.back().corner)) {
+      candidates.pop_back();
+    }
+    if (!candidates.empty()) queue_.emplace(candidates.back().delay, number);
+  }
+
+  std::vector<Corner> nearby(const Triangle& triangle) const {
+    std::vector<Corner> corners;
+    for (const Corner corner : triangle) {
+      corners.insert(corners.end(), neighbours_[corner].begin(), neighbours_[corner].end());
+    }
+    std::sort(corners.begin(), corners.end());
+    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+    return corners;
+  }
+
+  /// Third corners for an edge whose triangle has its own third corner at `behind`; those of a
+  /// seed's edge may lie on any side.
+  std::vector<Candidate> candidates_of(Corner from, Corner to,
+                                       const Eigen::Vector3d* behind) const {
+    const Eigen::Vector3d& a = points_[from];
+    const Eigen::Vector3d& b = points_[to];
+    const Eigen::Vector3d along = (b - a).normalized();
+    const auto across = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d {
+      const Eigen::Vector3d offset = point - a;
+      return (offset - offset.dot(along) * along).normalized();
+    };
+    const double spacing = std::max(spacings_[from], spacings_[to]);
+    std::vector<Candidate> candidates;
+    const auto consider = [&](Corner corner) {
+      if (corner == from || corner == to || mesh_.is_surrounded(corner)) return;
+      const Eigen::Vector3d to_a = a - points_[corner];
+      const Eigen::Vector3d to_b = b - points_[corner];
+      const double length_a = to_a.norm();
+      const double length_b = to_b.norm();
+      const double reach = kReach * std::max(spacing, spacings_[corner]);
+      if (std::max(length_a, length_b) > reach) return;
+      if (to_a.cross(to_b).norm() < kNarrowestAngle * length_a * length_b) return;
+      const double straight = behind ? -across(*behind).dot(across(points_[corner])) : 1.0;
+      if (straight < kSharpestBend) return;
+      const double bend = 1.0 - straight;
+      const double angle_cosine = to_a.dot(to_b) / (length_a * length_b);
+      const double size = (length_a + length_b) / (spacings_[from] + spacings_[to]);
+      candidates.push_back({corner, angle_cosine + kBendAgainstAngle * bend,
+                            size * (1.0 + kBendAgainstTurn * bend)});
+    };
+    for (const Corner corner : neighbours_[from]) consider(corner);
+    for (const Corner corner : neighbours_[to]) {
+      const auto& known = neighbours_[from];
+      if (std::find(known.begin(), known.end(), corner) == known.end()) consider(corner);
+    }
+    std::sort(candidates.begin(), candidates.end(), [](const auto& first, const auto& second) {
+      return std::pair(first.misfit, first.corner) > std::pair(second.misfit, second.corner);
+    });
+    return candidates;
+  }
+
+  const std::vector<Eigen::Vector3d>& points_;
+  PartialMesh mesh_;
+  std::vector<std::vector<Corner>> neighbours_;
+  std::vector<double> spacings_;
+  std::vector<BorderEdge> edges_;
+  using Turn = std::pair<double, std::size_t>;  ///< delay, number of the edge
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+TriangleMesh grow_mesh(const std::vector<Eigen::Vector3d>& points) {
+  const auto used = distinct(points);
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(used.size());
+  for (const Corner corner : used) places.push_back(points[corner]);
+  TriangleMesh mesh{points, {}};
+  if (places.size() < 3) return mesh;
+  Growth growth(places);
+  for (const Triangle& triangle : growth.run()) {
+    mesh.triangles.push_back({used[triangle[0]], used[triangle[1]], used[triangle[2]]});
+  }
+  return mesh;
+}
+
+}  // namespace instep
