@@ -2,11 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 #include "core/geometry/point_index.h"
@@ -26,23 +29,25 @@ constexpr std::size_t kSpacingNeighbours = 8;
 constexpr double kReach = 4.0;
 /// Cosine of the sharpest bend between neighbouring triangles: 120 degrees.
 constexpr double kSharpestBend = -0.5;
-/// How much a bend counts against a wide angle, and against an early turn.
-constexpr double kBendAgainstAngle = 0.5;
-constexpr double kBendAgainstTurn = 4.0;
-/// Sine of the narrowest angle of a triangle at its third corner.
+/// How much a bend weighs: a right angle counts as edges five times as long.
+constexpr double kBendWeight = 4.0;
+/// Sine of the narrowest angle of a triangle at a new corner, and of any angle of a seed triangle:
+/// three points in a line tell no surface.
 constexpr double kNarrowestAngle = 0.02;
+constexpr double kNarrowestSeedAngle = 0.05;
 
-/// A third corner for an edge; of one edge the one that suits best comes first.
+/// A third corner for an edge. The misfit is the length of the two new edges, against what the
+/// sampling round the edge lets expect, and heavier the more the surface would bend.
 struct Candidate {
   Corner corner;
-  double misfit;  ///< against the other candidates of the edge
-  double delay;   ///< against the candidates of other edges
+  double misfit;
 };
 
 /// An edge of the border, directed as in its triangle, with what is left to try beyond it.
 struct BorderEdge {
   Corner from;
   Corner to;
+  Corner behind;                      ///< third corner of its triangle
   std::vector<Candidate> candidates;  ///< the best is last
 };
 
@@ -84,21 +89,34 @@ class Growth {
     for (Corner corner = 0; corner < points_.size(); ++corner) {
       if (plant(corner)) grow();
     }
+    close_small_holes();
     return mesh_.triangles();
   }
 
  private:
-  /// A seed triangle on points that all are far from what is there already.
+  /// A seed triangle far from what is there already: a point, the nearest to it, and the third that
+  /// makes the widest triangle of them.
   bool plant(Corner corner) {
     const auto& around = neighbours_[corner];
     if (around.size() < 2 || mesh_.has_corner(corner)) return false;
     if (std::any_of(around.begin(), around.end(), [&](Corner c) { return mesh_.has_corner(c); })) {
       return false;
     }
-    auto candidates = candidates_of(corner, around.front(), nullptr);
-    if (candidates.empty()) return false;
-    add({corner, around.front(), candidates.back().corner});
+    const auto width = [&](Corner third) { return narrowest_sine(corner, around.front(), third); };
+    const Corner third =
+        *std::max_element(around.begin() + 1, around.end(),
+                          [&](Corner one, Corner other) { return width(one) < width(other); });
+    if (!(width(third) > kNarrowestSeedAngle)) return false;
+    add({corner, around.front(), third});
     return true;
+  }
+
+  double narrowest_sine(Corner a, Corner b, Corner c) const {
+    const std::array<Eigen::Vector3d, 3> sides = {(points_[b] - points_[a]).normalized(),
+                                                  (points_[c] - points_[b]).normalized(),
+                                                  (points_[a] - points_[c]).normalized()};
+    return std::min({sides[0].cross(sides[1]).norm(), sides[1].cross(sides[2]).norm(),
+                     sides[2].cross(sides[0]).norm()});
   }
 
   void grow() {
@@ -117,13 +135,28 @@ class Growth {
     }
   }
 
+  /// Slivers that bend with the surface can seem to overlap a triangle which has room between three
+  /// others.
+  void close_small_holes() {
+    for (const BorderEdge& edge : edges_) {
+      if (mesh_.has_edge(edge.to, edge.from)) continue;
+      for (const Candidate& candidate : candidates_of(edge.from, edge.to, edge.behind)) {
+        const Triangle triangle{edge.to, edge.from, candidate.corner};
+        if (!mesh_.is_hole(triangle)) continue;
+        mesh_.add(triangle);
+        break;
+      }
+    }
+  }
+
   void add(const Triangle& triangle) {
     mesh_.add(triangle);
     for (std::size_t k = 0; k < 3; ++k) {
       const Corner from = triangle[k];
       const Corner to = triangle[(k + 1) % 3];
       if (mesh_.has_edge(to, from)) continue;
-      edges_.push_back({from, to, candidates_of(from, to, &points_[triangle[(k + 2) % 3]])});
+      const Corner behind = triangle[(k + 2) % 3];
+      edges_.push_back({from, to, behind, candidates_of(from, to, behind)});
       wait(edges_.size() - 1);
     }
   }
@@ -134,7 +167,7 @@ class Growth {
     while (!candidates.empty() && mesh_.is_surrounded(candidates.back().corner)) {
       candidates.pop_back();
     }
-    if (!candidates.empty()) queue_.emplace(candidates.back().delay, number);
+    if (!candidates.empty()) queue_.emplace(candidates.back().misfit, number);
   }
 
   std::vector<Corner> nearby(const Triangle& triangle) const {
@@ -147,18 +180,17 @@ class Growth {
     return corners;
   }
 
-  /// Third corners for an edge whose triangle has its own third corner at `behind`; those of a
-  /// seed's edge may lie on any side.
-  std::vector<Candidate> candidates_of(Corner from, Corner to,
-                                       const Eigen::Vector3d* behind) const {
+  /// Third corners beyond an edge whose triangle has its own third corner at `behind`.
+  std::vector<Candidate> candidates_of(Corner from, Corner to, Corner behind) const {
     const Eigen::Vector3d& a = points_[from];
     const Eigen::Vector3d& b = points_[to];
     const Eigen::Vector3d along = (b - a).normalized();
-    const auto across = [&](const Eigen::Vector3d& point) -> Eigen::Vector3d {
-      const Eigen::Vector3d offset = point - a;
+    const auto across = [&](Corner corner) -> Eigen::Vector3d {
+      const Eigen::Vector3d offset = points_[corner] - a;
       return (offset - offset.dot(along) * along).normalized();
     };
-    const double spacing = std::max(spacings_[from], spacings_[to]);
+    const Eigen::Vector3d ahead = -across(behind);
+    const double reach = kReach * std::max(spacings_[from], spacings_[to]);
     std::vector<Candidate> candidates;
     const auto consider = [&](Corner corner) {
       if (corner == from || corner == to || mesh_.is_surrounded(corner)) return;
@@ -166,21 +198,19 @@ class Growth {
       const Eigen::Vector3d to_b = b - points_[corner];
       const double length_a = to_a.norm();
       const double length_b = to_b.norm();
-      const double reach = kReach * std::max(spacing, spacings_[corner]);
       if (std::max(length_a, length_b) > reach) return;
       if (to_a.cross(to_b).norm() < kNarrowestAngle * length_a * length_b) return;
-      const double straight = behind ? -across(*behind).dot(across(points_[corner])) : 1.0;
+      const double straight = ahead.dot(across(corner));
       if (straight < kSharpestBend) return;
-      const double bend = 1.0 - straight;
-      const double angle_cosine = to_a.dot(to_b) / (length_a * length_b);
       const double size = (length_a + length_b) / (spacings_[from] + spacings_[to]);
-      candidates.push_back({corner, angle_cosine + kBendAgainstAngle * bend,
-                            size * (1.0 + kBendAgainstTurn * bend)});
+      candidates.push_back({corner, size * (1.0 + kBendWeight * (1.0 - straight))});
     };
-    for (const Corner corner : neighbours_[from]) consider(corner);
+    const auto& round_from = neighbours_[from];
+    for (const Corner corner : round_from) consider(corner);
     for (const Corner corner : neighbours_[to]) {
-      const auto& known = neighbours_[from];
-      if (std::find(known.begin(), known.end(), corner) == known.end()) consider(corner);
+      const bool known =
+          std::find(round_from.begin(), round_from.end(), corner) != round_from.end();
+      if (!known) consider(corner);
     }
     std::sort(candidates.begin(), candidates.end(), [](const auto& first, const auto& second) {
       return std::pair(first.misfit, first.corner) > std::pair(second.misfit, second.corner);
@@ -193,7 +223,7 @@ class Growth {
   std::vector<std::vector<Corner>> neighbours_;
   std::vector<double> spacings_;
   std::vector<BorderEdge> edges_;
-  using Turn = std::pair<double, std::size_t>;  ///< delay, number of the edge
+  using Turn = std::pair<double, std::size_t>;  ///< misfit, number of the edge
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;
 };
 

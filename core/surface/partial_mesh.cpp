@@ -146,6 +146,15 @@ bool PartialMesh::is_clear_of_others(const Triangle& triangle, const Eigen::Vect
   return true;
 }
 
+bool PartialMesh::is_hole(const Triangle& triangle) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Corner from = triangle[k];
+    const Corner to = triangle[(k + 1) % 3];
+    if (has_edge(from, to) || !has_edge(to, from)) return false;
+  }
+  return true;
+}
+
 bool PartialMesh::accepts(const Triangle& triangle, const std::vector<Corner>& nearby) const {
   for (std::size_t k = 0; k < 3; ++k) {
     if (surrounded_[triangle[k]] || has_edge(triangle[k], triangle[(k + 1) % 3])) return false;

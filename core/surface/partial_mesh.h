@@ -11,7 +11,7 @@ namespace instep {
 /// them. All triangles are wound alike, so that a directed edge belongs to one triangle at most and
 /// the finished surface is a manifold, but for single corners where two parts may touch.
 ///
-/// Borrows the points, which must be finite. What it once refuses it refuses for ever, since it
+/// Borrows the points, which must be finite. What it once does not accept it never will, since it
 /// only grows.
 class PartialMesh {
  public:
@@ -27,9 +27,12 @@ class PartialMesh {
   /// Whether a triangle runs from one corner to the other in this direction.
   bool has_edge(Corner from, Corner to) const;
 
+  /// Whether all three edges run in the other direction, and none in that of the triangle.
+  bool is_hole(const Triangle& triangle) const;
+
   /// Whether a triangle shares no directed edge with the others, overlaps none of them round its
-  /// corners, and neither holds one of the `nearby` corners nor crosses the border there. Corners of
-  /// the triangle itself may be among those nearby. O(nearby).
+  /// corners, and neither holds one of the `nearby` corners nor crosses the border there. Corners
+  /// of the triangle itself may be among those nearby. O(nearby).
   bool accepts(const Triangle& triangle, const std::vector<Corner>& nearby) const;
 
   void add(const Triangle& triangle);

@@ -109,9 +109,10 @@ void add_girth_command(CLI::App& app, int& exit_code) {
       ->required()
       ->check(check_plane);
   girth
-      ->add_option("--method", command->method,
-                   "rbf (the best), hull (of the points near the plane), mesh (grown from the points), "
-                   "section (of the faces)")
+      ->add_option(
+          "--method", command->method,
+          "rbf (the best), hull (of the points near the plane), mesh (grown from the points), "
+          "section (of the faces)")
       ->check(CLI::IsMember({"rbf", "hull", "mesh", "section"}))
       ->capture_default_str();
   girth
