@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <queue>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -89,7 +90,7 @@ class Growth {
     for (Corner corner = 0; corner < points_.size(); ++corner) {
       if (plant(corner)) grow();
     }
-    close_small_holes();
+    grow_into_gaps();
     return mesh_.triangles();
   }
 
@@ -127,7 +128,8 @@ class Growth {
       if (mesh_.has_edge(edge.to, edge.from)) continue;
       const Triangle triangle{edge.to, edge.from, edge.candidates.back().corner};
       edge.candidates.pop_back();
-      if (mesh_.accepts(triangle, nearby(triangle))) {
+      // Slivers that bend with the surface can seem to overlap what has room between three others.
+      if (mesh_.is_hole(triangle) || mesh_.accepts(triangle, around(triangle))) {
         add(triangle);
       } else {
         wait(number);
@@ -135,18 +137,15 @@ class Growth {
     }
   }
 
-  /// Slivers that bend with the surface can seem to overlap a triangle which has room between three
-  /// others.
-  void close_small_holes() {
-    for (const BorderEdge& edge : edges_) {
+  /// The border may have come near to edges that found nothing in reach when they were new.
+  void grow_into_gaps() {
+    for (std::size_t number = 0; number < edges_.size(); ++number) {
+      BorderEdge& edge = edges_[number];
       if (mesh_.has_edge(edge.to, edge.from)) continue;
-      for (const Candidate& candidate : candidates_of(edge.from, edge.to, edge.behind)) {
-        const Triangle triangle{edge.to, edge.from, candidate.corner};
-        if (!mesh_.is_hole(triangle)) continue;
-        mesh_.add(triangle);
-        break;
-      }
+      edge.candidates = candidates_of(edge.from, edge.to, edge.behind);
+      wait(number);
     }
+    grow();
   }
 
   void add(const Triangle& triangle) {
@@ -170,14 +169,17 @@ class Growth {
     if (!candidates.empty()) queue_.emplace(candidates.back().misfit, number);
   }
 
-  std::vector<Corner> nearby(const Triangle& triangle) const {
-    std::vector<Corner> corners;
-    for (const Corner corner : triangle) {
-      corners.insert(corners.end(), neighbours_[corner].begin(), neighbours_[corner].end());
+  /// Neighbours of some corners, ascending; the corners themselves may be among them.
+  std::vector<Corner> around(std::span<const Corner> corners) const {
+    std::vector<Corner> found;
+    for (const Corner corner : corners) {
+      found.insert(found.end(), neighbours_[corner].begin(), neighbours_[corner].end());
+      const auto ends = mesh_.border_at(corner);
+      found.insert(found.end(), ends.begin(), ends.end());
     }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    return corners;
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
   }
 
   /// Third corners beyond an edge whose triangle has its own third corner at `behind`.
@@ -205,13 +207,7 @@ class Growth {
       const double size = (length_a + length_b) / (spacings_[from] + spacings_[to]);
       candidates.push_back({corner, size * (1.0 + kBendWeight * (1.0 - straight))});
     };
-    const auto& round_from = neighbours_[from];
-    for (const Corner corner : round_from) consider(corner);
-    for (const Corner corner : neighbours_[to]) {
-      const bool known =
-          std::find(round_from.begin(), round_from.end(), corner) != round_from.end();
-      if (!known) consider(corner);
-    }
+    for (const Corner corner : around(std::array{from, to})) consider(corner);
     std::sort(candidates.begin(), candidates.end(), [](const auto& first, const auto& second) {
       return std::pair(first.misfit, first.corner) > std::pair(second.misfit, second.corner);
     });

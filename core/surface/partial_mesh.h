@@ -27,6 +27,9 @@ class PartialMesh {
   /// Whether a triangle runs from one corner to the other in this direction.
   bool has_edge(Corner from, Corner to) const;
 
+  /// The far ends of the border's edges at a corner.
+  std::vector<Corner> border_at(Corner corner) const;
+
   /// Whether all three edges run in the other direction, and none in that of the triangle.
   bool is_hole(const Triangle& triangle) const;
 
@@ -48,9 +51,6 @@ class PartialMesh {
   bool is_clear_at(Corner corner, const Sector& sector, const Eigen::Vector3d& normal) const;
   bool is_clear_of_others(const Triangle& triangle, const Eigen::Vector3d& normal,
                           const std::vector<Corner>& nearby) const;
-  /// The far ends of the border's edges at a corner.
-  std::vector<Corner> border_at(Corner corner) const;
-
   const std::vector<Eigen::Vector3d>& points_;
   std::vector<Triangle> triangles_;
   std::vector<std::vector<Sector>> fans_;  ///< of each corner

@@ -120,7 +120,7 @@ TEST(GrownMesh, FollowsTheSharpEdgesOfABox) {
   for (auto& point : in_square(1500, 50, 14)) points.emplace_back(point.x(), 50, point.y());
   const auto mesh = grow_mesh(points);
   EXPECT_NEAR(area(mesh) / 15000, 1.0, 0.02);
-  EXPECT_LE(topology(mesh).border, 12) << "three edges of four small holes";
+  EXPECT_LT(topology(mesh).border, 27) << "a thousandth of the edges";
 }
 
 TEST(GrownMesh, KeepsSeparateBodiesApart) {
