@@ -24,6 +24,8 @@ using Triangle = PartialMesh::Triangle;
 
 /// Neighbours among which an edge finds its third corner.
 constexpr std::size_t kNeighbours = 20;
+/// Third corners that an edge tries, the best first.
+constexpr std::size_t kTried = 8;
 /// Neighbours that tell how coarse the sampling is.
 constexpr std::size_t kSpacingNeighbours = 8;
 /// Longest edge, against the spacing at its ends.
@@ -68,7 +70,8 @@ std::vector<Corner> distinct(const std::vector<Eigen::Vector3d>& points) {
 
 class Growth {
  public:
-  explicit Growth(const std::vector<Eigen::Vector3d>& points) : points_(points), mesh_(points) {
+  explicit Growth(const std::vector<Eigen::Vector3d>& points)
+      : points_(points), mesh_(points), collected_in_(points.size(), 0) {
     const PointIndex index(points);
     neighbours_.reserve(points.size());
     spacings_.reserve(points.size());
@@ -169,21 +172,24 @@ class Growth {
     if (!candidates.empty()) queue_.emplace(candidates.back().misfit, number);
   }
 
-  /// Neighbours of some corners, ascending; the corners themselves may be among them.
-  std::vector<Corner> around(std::span<const Corner> corners) const {
+  /// Each neighbour of some corners once; the corners themselves may be among them.
+  std::vector<Corner> around(std::span<const Corner> corners) {
+    ++round_;
     std::vector<Corner> found;
+    const auto collect = [&](const std::vector<Corner>& more) {
+      for (const Corner corner : more) {
+        if (std::exchange(collected_in_[corner], round_) != round_) found.push_back(corner);
+      }
+    };
     for (const Corner corner : corners) {
-      found.insert(found.end(), neighbours_[corner].begin(), neighbours_[corner].end());
-      const auto ends = mesh_.border_at(corner);
-      found.insert(found.end(), ends.begin(), ends.end());
+      collect(neighbours_[corner]);
+      collect(mesh_.border_at(corner));
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
 
   /// Third corners beyond an edge whose triangle has its own third corner at `behind`.
-  std::vector<Candidate> candidates_of(Corner from, Corner to, Corner behind) const {
+  std::vector<Candidate> candidates_of(Corner from, Corner to, Corner behind) {
     const Eigen::Vector3d& a = points_[from];
     const Eigen::Vector3d& b = points_[to];
     const Eigen::Vector3d along = (b - a).normalized();
@@ -208,9 +214,14 @@ class Growth {
       candidates.push_back({corner, size * (1.0 + kBendWeight * (1.0 - straight))});
     };
     for (const Corner corner : around(std::array{from, to})) consider(corner);
-    std::sort(candidates.begin(), candidates.end(), [](const auto& first, const auto& second) {
-      return std::pair(first.misfit, first.corner) > std::pair(second.misfit, second.corner);
-    });
+    const auto suits_better = [](const Candidate& first, const Candidate& second) {
+      return std::pair(first.misfit, first.corner) < std::pair(second.misfit, second.corner);
+    };
+    const std::size_t kept = std::min(candidates.size(), kTried);
+    const auto end = candidates.begin() + static_cast<std::ptrdiff_t>(kept);
+    std::partial_sort(candidates.begin(), end, candidates.end(), suits_better);
+    candidates.erase(end, candidates.end());
+    std::reverse(candidates.begin(), candidates.end());
     return candidates;
   }
 
@@ -218,6 +229,8 @@ class Growth {
   PartialMesh mesh_;
   std::vector<std::vector<Corner>> neighbours_;
   std::vector<double> spacings_;
+  std::vector<std::uint32_t> collected_in_;  ///< round in which around() last met each corner
+  std::uint32_t round_ = 0;
   std::vector<BorderEdge> edges_;
   using Turn = std::pair<double, std::size_t>;  ///< misfit, number of the edge
   std::priority_queue<Turn, std::vector<Turn>, std::greater<>> queue_;

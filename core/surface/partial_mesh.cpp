@@ -61,8 +61,8 @@ double crossing(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
 PartialMesh::PartialMesh(const std::vector<Eigen::Vector3d>& points)
     : points_(points),
       fans_(points.size()),
-      normals_(points.size(), Eigen::Vector3d::Zero()),
-      surrounded_(points.size(), false) {}
+      borders_(points.size()),
+      normals_(points.size(), Eigen::Vector3d::Zero()) {}
 
 bool PartialMesh::has_edge(Corner from, Corner to) const {
   return std::any_of(fans_[from].begin(), fans_[from].end(),
@@ -94,9 +94,8 @@ bool PartialMesh::is_clear_at(Corner corner, const Sector& sector,
   });
 }
 
-std::vector<PartialMesh::Corner> PartialMesh::border_at(Corner corner) const {
+std::vector<PartialMesh::Corner> PartialMesh::border_of(const std::vector<Sector>& fan) {
   std::vector<Corner> ends;
-  const auto& fan = fans_[corner];
   for (const Sector& sector : fan) {
     const auto goes_on = [&](Corner Sector::*side, Corner end) {
       return std::any_of(fan.begin(), fan.end(),
@@ -131,8 +130,7 @@ bool PartialMesh::is_clear_of_others(const Triangle& triangle, const Eigen::Vect
     const Eigen::Vector2d place = frame.flat(points_[corner]);
     const double height = frame.height(points_[corner]);
     if (std::abs(height) < kSameSheet * longest && holds(place)) return false;
-    if (surrounded_[corner]) continue;
-    for (const Corner end : border_at(corner)) {
+    for (const Corner end : borders_[corner]) {
       const Eigen::Vector2d end_place = frame.flat(points_[end]);
       const double end_height = frame.height(points_[end]);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -157,7 +155,7 @@ bool PartialMesh::is_hole(const Triangle& triangle) const {
 
 bool PartialMesh::accepts(const Triangle& triangle, const std::vector<Corner>& nearby) const {
   for (std::size_t k = 0; k < 3; ++k) {
-    if (surrounded_[triangle[k]] || has_edge(triangle[k], triangle[(k + 1) % 3])) return false;
+    if (is_surrounded(triangle[k]) || has_edge(triangle[k], triangle[(k + 1) % 3])) return false;
   }
   const Eigen::Vector3d normal = normal_of(triangle);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -174,7 +172,7 @@ void PartialMesh::add(const Triangle& triangle) {
     fans_[triangle[k]].push_back({triangle[(k + 1) % 3], triangle[(k + 2) % 3]});
     normals_[triangle[k]] += normal;
   }
-  for (const Corner corner : triangle) surrounded_[corner] = border_at(corner).empty();
+  for (const Corner corner : triangle) borders_[corner] = border_of(fans_[corner]);
 }
 
 }  // namespace instep

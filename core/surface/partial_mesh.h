@@ -23,12 +23,12 @@ class PartialMesh {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   bool has_corner(Corner corner) const { return !fans_[corner].empty(); }
   /// Whether triangles lie all round the corner.
-  bool is_surrounded(Corner corner) const { return surrounded_[corner]; }
+  bool is_surrounded(Corner corner) const { return has_corner(corner) && borders_[corner].empty(); }
   /// Whether a triangle runs from one corner to the other in this direction.
   bool has_edge(Corner from, Corner to) const;
 
   /// The far ends of the border's edges at a corner.
-  std::vector<Corner> border_at(Corner corner) const;
+  const std::vector<Corner>& border_at(Corner corner) const { return borders_[corner]; }
 
   /// Whether all three edges run in the other direction, and none in that of the triangle.
   bool is_hole(const Triangle& triangle) const;
@@ -47,15 +47,16 @@ class PartialMesh {
     Corner to;
   };
 
+  static std::vector<Corner> border_of(const std::vector<Sector>& fan);
   Eigen::Vector3d normal_of(const Triangle& triangle) const;
   bool is_clear_at(Corner corner, const Sector& sector, const Eigen::Vector3d& normal) const;
   bool is_clear_of_others(const Triangle& triangle, const Eigen::Vector3d& normal,
                           const std::vector<Corner>& nearby) const;
   const std::vector<Eigen::Vector3d>& points_;
   std::vector<Triangle> triangles_;
-  std::vector<std::vector<Sector>> fans_;  ///< of each corner
-  std::vector<Eigen::Vector3d> normals_;   ///< sum over the fan of each corner
-  std::vector<bool> surrounded_;
+  std::vector<std::vector<Sector>> fans_;     ///< of each corner
+  std::vector<std::vector<Corner>> borders_;  ///< far ends of the border's edges at each corner
+  std::vector<Eigen::Vector3d> normals_;      ///< sum over the fan of each corner
 };
 
 }  // namespace instep
