@@ -61,9 +61,9 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
 /// The paper's Method 2 (section 2.2): a triangle mesh grown from the points near the plane
 /// (core/surface/grown_mesh.h) and cut with it. Normals are neither needed nor used.
 ///
-/// Chords cut off what bulges between the points, so exact points give a girth that is too short, by
-/// about the square of their spacing; noise roughens the mesh, so noisy points give one that is too
-/// long, contact far more than stretched, with a warning. Holes up to a quarter of the tape are
+/// Chords cut off what bulges between the points, so exact points give a girth that is too short,
+/// by about the square of their spacing; noise roughens the mesh, so noisy points give one that is
+/// too long, contact far more than stretched, with a warning. Holes up to a quarter of the tape are
 /// bridged by a straight line and count in largest_gap_mm; what is more open is refused, as in
 /// girth_by_rbf(). Has no interval. Deterministic.
 Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,

@@ -52,6 +52,7 @@ class PartialMesh {
   bool is_clear_at(Corner corner, const Sector& sector, const Eigen::Vector3d& normal) const;
   bool is_clear_of_others(const Triangle& triangle, const Eigen::Vector3d& normal,
                           const std::vector<Corner>& nearby) const;
+
   const std::vector<Eigen::Vector3d>& points_;
   std::vector<Triangle> triangles_;
   std::vector<std::vector<Sector>> fans_;     ///< of each corner

@@ -230,7 +230,7 @@ TEST(GirthByMesh, RefusesWhatHoldsNoSurface) {
   }
 }
 
-TEST(GirthByMesh, EndsOnACrowdOfPoints) {
+TEST(GirthByMesh, RefusesACrowdWithoutASurface) {
   test::RandomNumbers random(1);
   PointCloud crowd;
   for (int i = 0; i < 20000; ++i) {
@@ -238,9 +238,8 @@ TEST(GirthByMesh, EndsOnACrowdOfPoints) {
                                  random.uniform(-50, 50));
   }
   const auto girth = girth_by_mesh(crowd, level(0.3));
-  if (girth) {
-    EXPECT_TRUE(warns(*girth, "noise"));
-  }
+  ASSERT_FALSE(girth);
+  EXPECT_EQ(girth.error().code, ErrorCode::kInsufficientData);
 }
 
 }  // namespace
