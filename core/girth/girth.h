@@ -59,7 +59,9 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
 /// The paper's Method 2 (section 2.2): a triangle mesh grown from the points near the plane
-/// (core/surface/grown_mesh.h) and cut with it. Normals are neither needed nor used.
+/// (core/surface/grown_mesh.h) and cut with it. The points are the band of girth_by_rbf(): strays
+/// and duplicates gone, crowds averaged. The mesh neither needs nor uses normals; known ones only
+/// keep the two sides of a thin part from being averaged.
 ///
 /// Chords cut off what bulges between the points, so exact points give a girth that is too short,
 /// by about the square of their spacing; noise roughens the mesh, so noisy points give one that is
