@@ -39,7 +39,7 @@ class BadInput : public testing::Test {
 
   static void expect_bad_girth(const std::string& cloud, const std::string& said,
                                const std::string& plane = kPlane) {
-    for (const char* method : {"rbf", "hull"}) {
+    for (const char* method : {"rbf", "hull", "mesh"}) {
       expect_failure({"girth", cloud, "--plane", plane, "--method", method}, 1, said);
     }
   }
