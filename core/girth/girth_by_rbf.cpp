@@ -24,6 +24,8 @@ constexpr double kWidestBridge = 0.25;
 constexpr double kNotableGapInSpacings = 6.0;
 /// Chords are refined so that the hull loses less than 0.001 mm to them.
 constexpr int kPiecesOfChord = 8;
+/// Points along a loop, against those along the best founded one.
+constexpr double kLeastFounded = 0.25;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 
@@ -69,6 +71,22 @@ std::vector<Eigen::Vector2d> evidence(const PlaneBand& band, const Contour& cont
   return places;
 }
 
+/// Leaves out loops that far fewer points make than the best founded one, for their length: strays
+/// can lie so that a surface passes through them.
+void drop_unfounded(const PlaneBand& band, std::vector<Contour>& contours) {
+  std::vector<double> densities;
+  for (const auto& contour : contours) {
+    const auto points = static_cast<double>(evidence(band, contour, false).size());
+    densities.push_back(points / contour.length());
+  }
+  const double best = *std::max_element(densities.begin(), densities.end());
+  std::vector<Contour> founded;
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    if (densities[i] >= kLeastFounded * best) founded.push_back(std::move(contours[i]));
+  }
+  contours = std::move(founded);
+}
+
 /// The loop round the largest area first.
 void largest_first(std::vector<Contour>& contours) {
   std::stable_sort(contours.begin(), contours.end(), [](const auto& a, const auto& b) {
@@ -89,6 +107,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
                 "scan the body all round, or move the plane");
   }
+  drop_unfounded(*band, contours);
   largest_first(contours);
   const Contour& contour = contours.front();
   const double length = contour.length();

@@ -10,12 +10,19 @@ namespace {
 
 /// Points of a patch: enough to fit a surface, few enough to solve quickly.
 constexpr std::size_t kPatchPoints = 50;
+/// A place whose points have their middle further off, against their reach, lies in a hole; holes
+/// wider than this part of the body are not spanned.
+constexpr double kOneSided = 0.5;
+constexpr double kWidestHole = 0.15;
 /// Nearest points that tell which way is out.
 constexpr std::size_t kFacingPoints = 8;
 /// Cosine to that direction from which a point can be a height over the patch, and below which it
 /// lies on the other side of a thin part.
 constexpr double kFacing = 0.5;
 constexpr double kBehind = -0.3;
+/// Heights this many median deviations off, and this part of the radius, are those of strays.
+constexpr double kStrayDeviations = 5.0;
+constexpr double kStrayRise = 0.7;
 /// Where there is noise, a patch is wider than the kriging's bandwidth by this factor, up to this
 /// part of the body.
 constexpr double kBandwidths = 2.5;
@@ -26,10 +33,14 @@ constexpr double kTooWide = 1.5;
 /// A crease turns at least this much (radians), and is so much likelier than one smooth sheet.
 constexpr double kLeastTurn = 0.45;
 constexpr double kLeastGain = 8.0;
-/// A patch counts up to this part of its radius, beyond which it has no points on all sides.
+/// Its place is a guess where the points of a sheet are further from it, in spacings.
+constexpr double kWidestCreaseGap = 2.0;
+/// A patch counts up to this part of its radius round the middle of its points, beyond which it has
+/// none on all sides.
 constexpr double kReach = 0.75;
 /// A place needs a patch centred within this part of the patch's radius.
 constexpr double kNearEnough = 0.35;
+constexpr double kWellWithin = 0.6;
 
 struct Weight {
   double value = 0.0;
@@ -52,6 +63,19 @@ std::vector<Eigen::Vector3d> positions_of(const std::vector<OrientedPoint>& poin
   return positions;
 }
 
+Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point.position;
+  return sum / static_cast<double>(points.size());
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
 }  // namespace
 
 BlendedSurface::BlendedSurface(std::vector<OrientedPoint> points,
@@ -63,7 +87,10 @@ BlendedSurface::BlendedSurface(std::vector<OrientedPoint> points,
 
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
   for (const auto& patch : patches_) {
-    if ((place - patch.centre).norm() < kNearEnough * patch.radius) return true;
+    if ((place - patch.centre).norm() < kNearEnough * patch.radius &&
+        (place - patch.middle).norm() < kWellWithin * patch.radius) {
+      return true;
+    }
   }
   auto patch = fit(place);
   if (!patch) return false;
@@ -76,9 +103,26 @@ double BlendedSurface::Surroundings::bandwidth(double of_roughness) const {
   return std::pow(noise_area / of_roughness, 0.2);
 }
 
+/// The nearest points; more of them in a hole, until they lie on all sides, so that the surface
+/// spans it and is not put forth from one side.
+std::vector<PointIndex::Neighbour> BlendedSurface::nearest_all_round(
+    const Eigen::Vector3d& place) const {
+  auto first = index_.nearest(place, kPatchPoints);
+  auto nearest = first;
+  for (std::size_t count = 2 * kPatchPoints;; count *= 2) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
+    middle /= static_cast<double>(nearest.size());
+    const double reach = std::sqrt(nearest.back().squared_distance);
+    if ((middle - place).norm() < kOneSided * reach) return nearest;
+    if (reach > kWidestHole || nearest.size() == points_.size()) return first;
+    nearest = index_.nearest(place, count);
+  }
+}
+
 BlendedSurface::Surroundings BlendedSurface::surroundings_of(const Eigen::Vector3d& place) const {
   Surroundings here;
-  here.nearest = index_.nearest(place, kPatchPoints);
+  here.nearest = nearest_all_round(place);
   here.reach = std::sqrt(here.nearest.back().squared_distance);
   here.outward = Eigen::Vector3d::Zero();
   const std::size_t count = std::min(kFacingPoints, here.nearest.size());
@@ -89,9 +133,25 @@ BlendedSurface::Surroundings BlendedSurface::surroundings_of(const Eigen::Vector
   }
   here.outward.normalize();
   const auto found = static_cast<double>(here.nearest.size());
-  here.noise_area = variance * std::numbers::pi * here.reach * here.reach / found;
+  here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
+  here.noise_area = variance * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
   return here;
+}
+
+/// Leaves out points that stand off from the others by more than a bend or a crease could.
+void BlendedSurface::drop_strays(Members& members) {
+  std::vector<double> heights;
+  for (const auto& point : members.all) heights.push_back(members.outward.dot(point.position));
+  const double level = median_of(heights);
+  std::vector<double> offsets;
+  for (const double height : heights) offsets.push_back(std::abs(height - level));
+  const double most = std::max(kStrayDeviations * median_of(offsets), kStrayRise * members.radius);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (offsets[i] <= most) members.all[kept++] = members.all[i];
+  }
+  members.all.resize(kept);
 }
 
 BlendedSurface::Members BlendedSurface::members_of(const Surroundings& surroundings,
@@ -106,12 +166,15 @@ BlendedSurface::Members BlendedSurface::members_of(const Surroundings& surroundi
     const double cosine = point.normal.dot(surroundings.outward);
     if (cosine < kBehind) continue;
     members.all.push_back(point);
-    if (cosine < kFacing) continue;
-    members.front.push_back(point);
     members.outward += point.normal;
-    members.front_radius = std::sqrt(neighbour.squared_distance);
   }
   members.outward.normalize();
+  drop_strays(members);
+  for (const auto& point : members.all) {
+    if (point.normal.dot(members.outward) < kFacing) continue;
+    members.front.push_back(point);
+    members.front_radius = std::max(members.front_radius, (point.position - place).norm());
+  }
   return members;
 }
 
@@ -123,11 +186,12 @@ std::optional<BlendedSurface::Patch> BlendedSurface::fit(const Eigen::Vector3d& 
     // Noise hides a roughness whose bandwidth is wider than the patch.
     const double likely = std::max(here.roughness, here.noise_area / std::pow(members.radius, 5));
     auto creased = CreasedPatch::fit(members.all, place, members.radius, likely);
-    if (creased && creased->turn() > kLeastTurn) {
+    if (creased && creased->turn() > kLeastTurn &&
+        creased->gap() < kWidestCreaseGap * here.spacing) {
       const auto smooth =
           HeightPatch::fit(members.all, place, members.outward, members.radius, likely);
       if (!smooth || creased->misfit() + kLeastGain < smooth->misfit()) {
-        return Patch{place, members.radius, std::move(*creased)};
+        return Patch{place, middle_of(members.all), members.radius, std::move(*creased)};
       }
     }
     auto smooth =
@@ -135,7 +199,7 @@ std::optional<BlendedSurface::Patch> BlendedSurface::fit(const Eigen::Vector3d& 
     if (!smooth) return std::nullopt;
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
     if (attempt == kMostAttempts || width <= here.reach || width <= kTooWide * fitting) {
-      return Patch{place, members.front_radius, std::move(*smooth)};
+      return Patch{place, middle_of(members.front), members.front_radius, std::move(*smooth)};
     }
     width = fitting;
   }
@@ -150,7 +214,7 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
   Eigen::Vector3d weights_gradient = Eigen::Vector3d::Zero();
   FieldValue sum;
   for (const auto& patch : patches_) {
-    const Weight weight = wendland(place - patch.centre, kReach * patch.radius);
+    const Weight weight = wendland(place - patch.middle, kReach * patch.radius);
     if (weight.value <= 0.0) continue;
     const FieldValue field = patch.at(place);
     weights += weight.value;

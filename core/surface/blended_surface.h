@@ -42,6 +42,7 @@ class BlendedSurface {
  private:
   struct Patch {
     Eigen::Vector3d centre;
+    Eigen::Vector3d middle;  ///< of its points; off the centre at the edge of a hole
     double radius;
     std::variant<HeightPatch, CreasedPatch> field;
 
@@ -53,6 +54,7 @@ class BlendedSurface {
     std::vector<PointIndex::Neighbour> nearest;
     double reach = 0.0;       ///< of those
     Eigen::Vector3d outward;  ///< out of the body, here
+    double spacing = 0.0;     ///< between points
     double noise_area = 0.0;  ///< variance of a point times the area it has for itself
     double roughness = 0.0;
 
@@ -68,7 +70,9 @@ class BlendedSurface {
     double front_radius = 0.0;
   };
 
+  std::vector<PointIndex::Neighbour> nearest_all_round(const Eigen::Vector3d& place) const;
   Surroundings surroundings_of(const Eigen::Vector3d& place) const;
+  static void drop_strays(Members& members);
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
   std::optional<Patch> fit(const Eigen::Vector3d& place) const;

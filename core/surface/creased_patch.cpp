@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace instep {
@@ -132,8 +133,13 @@ Eigen::Vector3d near_crease(const std::vector<OrientedPoint>& points, const Heig
   return middle / static_cast<double>(off.size());
 }
 
-/// The angle between the two patches at the place, found by Newton's steps, where both vanish.
-double turn_at_crease(Eigen::Vector3d place, const HeightPatch& first, const HeightPatch& second) {
+struct Crease {
+  Eigen::Vector3d place;
+  double turn = 0.0;
+};
+
+/// The nearest place, found by Newton's steps, where both patches vanish, and their angle there.
+Crease crease_near(Eigen::Vector3d place, const HeightPatch& first, const HeightPatch& second) {
   double turn = 0.0;
   for (int step = 0; step < 4; ++step) {
     const FieldValue one = first.at(place);
@@ -146,13 +152,21 @@ double turn_at_crease(Eigen::Vector3d place, const HeightPatch& first, const Hei
     if (!(square.determinant() > 1e-4)) break;
     place -= slopes.transpose() * square.inverse() * Eigen::Vector2d(one.value, two.value);
   }
-  return turn;
+  return {place, turn};
+}
+
+double distance_to(const Eigen::Vector3d& place, const std::vector<OrientedPoint>& points) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& point : points) {
+    nearest = std::min(nearest, (point.position - place).norm());
+  }
+  return nearest;
 }
 
 }  // namespace
 
-CreasedPatch::CreasedPatch(HeightPatch first, HeightPatch second, bool convex, double turn)
-    : first_(std::move(first)), second_(std::move(second)), convex_(convex), turn_(turn) {}
+CreasedPatch::CreasedPatch(HeightPatch first, HeightPatch second, bool convex)
+    : first_(std::move(first)), second_(std::move(second)), convex_(convex) {}
 
 std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& points,
                                               const Eigen::Vector3d& centre, double radius,
@@ -167,8 +181,11 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
   auto first = HeightPatch::fit(parts[0], centre, sheets->first.normal, radius, roughness);
   auto second = HeightPatch::fit(parts[1], centre, sheets->second.normal, radius, roughness);
   if (!first || !second) return std::nullopt;
-  const double turn = turn_at_crease(near_crease(points, *first, *second), *first, *second);
-  return CreasedPatch(std::move(*first), std::move(*second), sheets->convex, turn);
+  const Crease crease = crease_near(near_crease(points, *first, *second), *first, *second);
+  CreasedPatch patch(std::move(*first), std::move(*second), sheets->convex);
+  patch.turn_ = crease.turn;
+  patch.gap_ = std::max(distance_to(crease.place, parts[0]), distance_to(crease.place, parts[1]));
+  return patch;
 }
 
 FieldValue CreasedPatch::at(const Eigen::Vector3d& position) const {

@@ -27,16 +27,21 @@ class CreasedPatch {
   /// surface was cut in two.
   double turn() const { return turn_; }
 
+  /// Distance from where they meet to the points of the sheet that comes less near it. A crease far
+  /// from all points is a guess.
+  double gap() const { return gap_; }
+
   /// Comparable with that of one HeightPatch over the same points.
   double misfit() const { return first_.misfit() + second_.misfit(); }
 
  private:
-  CreasedPatch(HeightPatch first, HeightPatch second, bool convex, double turn);
+  CreasedPatch(HeightPatch first, HeightPatch second, bool convex);
 
   HeightPatch first_;
   HeightPatch second_;
   bool convex_;
-  double turn_;
+  double turn_ = 0.0;
+  double gap_ = 0.0;
 };
 
 }  // namespace instep
