@@ -1,5 +1,6 @@
 #include "core/fusion/wall_foot.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+using Vector5 = Eigen::Matrix<double, 5, 1>;
 
 constexpr double kWallCellMm = 6.0;      // within it the lowest seen points are one piece of wall
 constexpr double kLowestLayerMm = 1.5;   // above the lowest point, still taken as lowest
@@ -23,6 +26,7 @@ constexpr double kLeastLean = 0.15;       // sine of a wall's lean that is not i
 constexpr double kRadiusOfLean = 60.0;    // mm of radius that a lean allows
 constexpr double kLeastSameFacing = 0.3;  // cosine, of normals of one piece of wall
 constexpr double kFewestWallPoints = 8;
+constexpr double kRidge = 1e-3;  // keeps a fit to few or crowded points from leaning
 
 /// The lowest seen points above one cell.
 struct LowestPoints {
@@ -73,35 +77,46 @@ std::vector<LowestPoints> lowest_points(const PointCloud& foot, double most_z) {
   return found;
 }
 
-/// The straight line through the dips of a piece of wall over the way up from its lowest point.
-struct DipLine {
-  double at_foot = 0.0;  ///< radians
-  double per_mm = 0.0;   ///< negative where the wall bends in towards its foot
+/// How a piece of wall ends below.
+struct WallEnd {
+  Vector3d normal = Vector3d::Zero();
+  double bend_radius = std::numeric_limits<double>::infinity();
 };
 
-std::optional<DipLine> dip_line(const PointCloud& foot, const PointIndex& index,
-                                const LowestPoints& lowest, double reach) {
+/// Fits a parabola to the wall above its lowest points: over the way up, nearer points counting
+/// more, and over the way along. Positions, not normals: those were fitted in windows that end
+/// where the seen skin does, and so belong to places further up.
+std::optional<WallEnd> fit_end(const PointCloud& foot, const PointIndex& index,
+                               const LowestPoints& lowest, double reach) {
   const Vector3d normal = lowest.normal.normalized();
   const Vector3d along = Vector3d::UnitZ().cross(normal).normalized();
   const Vector3d up = normal.cross(along);
-  double n = 0, x1 = 0, y1 = 0, xx = 0, xy = 0;
+  Matrix5 matrix = Matrix5::Zero();
+  Vector5 right = Vector5::Zero();
+  double count = 0.0;
   for (const auto& neighbour : index.within(lowest.position, reach)) {
+    if (foot.normals[neighbour.index].dot(normal) < kLeastSameFacing) continue;
     const Vector3d offset = foot.positions[neighbour.index] - lowest.position;
-    const Vector3d& own = foot.normals[neighbour.index];
-    if (std::abs(along.dot(offset)) > kWallCellMm || own.dot(normal) < kLeastSameFacing) continue;
     const double way = up.dot(offset);
-    const double dip = std::asin(std::clamp(-own.z(), -1.0, 1.0));
+    const double aside = along.dot(offset);
+    if (std::abs(aside) > kWallCellMm) continue;
     const double weight = std::exp(-0.5 * std::pow(2.0 * way / reach, 2));
-    n += weight;
-    x1 += weight * way;
-    y1 += weight * dip;
-    xx += weight * way * way;
-    xy += weight * way * dip;
+    Vector5 row;
+    row << 1.0, way, way * way, aside, aside * aside;
+    matrix += weight * row * row.transpose();
+    right += weight * normal.dot(offset) * row;
+    count += weight;
   }
-  const double spread = xx - x1 * x1 / std::max(n, 1.0);
-  if (n < kFewestWallPoints || !(spread > n)) return std::nullopt;
-  const double slope = (xy - x1 * y1 / n) / spread;
-  return DipLine{(y1 - slope * x1) / n, slope};
+  if (count < kFewestWallPoints) return std::nullopt;
+  matrix.diagonal().tail<4>().array() += kRidge * count;
+  const Vector5 fitted = matrix.ldlt().solve(right);
+  if (!fitted.allFinite()) return std::nullopt;
+  WallEnd end;
+  end.normal = (normal - fitted(1) * up).normalized();
+  if (fitted(2) < 0.0) {
+    end.bend_radius = std::pow(1.0 + fitted(1) * fitted(1), 1.5) / (-2.0 * fitted(2));
+  }
+  return end;
 }
 
 }  // namespace
@@ -155,15 +170,13 @@ std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_hei
   if (foot.empty()) return feet;
   const PointIndex index(foot.positions);
   for (const auto& lowest : lowest_points(foot, standing_height_mm + settings.highest_mm)) {
-    const Vector3d normal = lowest.normal.normalized();
-    const double level = normal.head<2>().norm();
+    const auto fitted = fit_end(foot, index, lowest, settings.bend_reach_mm);
+    const WallEnd end = fitted.value_or(WallEnd{lowest.normal.normalized()});
+    const double level = end.normal.head<2>().norm();
     if (!(level > std::sqrt(1.0 - kMostSine * kMostSine))) continue;
-    const auto line = dip_line(foot, index, lowest, settings.bend_reach_mm);
-    const double sine = line ? std::sin(line->at_foot) : -normal.z();
-    const double radius =
-        line && line->per_mm < 0.0 ? -1.0 / line->per_mm : std::numeric_limits<double>::infinity();
-    feet.emplace_back(lowest.position.head<2>(), normal.head<2>() / level,
-                      lowest.position.z() - standing_height_mm, sine, radius, settings);
+    feet.emplace_back(lowest.position.head<2>(), end.normal.head<2>() / level,
+                      lowest.position.z() - standing_height_mm, -end.normal.z(), end.bend_radius,
+                      settings);
   }
   return feet;
 }
