@@ -121,11 +121,30 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
   scene.standing_height_mm = settings.platform_height_mm.value_or(points[lowest].z());
 }
 
+/// Where views disagree, keeps the better founded one.
+void drop_overruled(const std::vector<WorkingView>& views, const FusionSettings& settings,
+                    const Workers& workers, FusedScene& scene, std::vector<FootPoints>& found) {
+  std::vector<SeenSurface> surfaces(views.size());
+  workers(views.size(), [&](std::size_t i) {
+    surfaces[i] = seen_surface(views[i].posed(), found[i].points.cloud, settings.overruling);
+  });
+  std::vector<std::vector<std::size_t>> kept(views.size());
+  workers(views.size(), [&](std::size_t i) {
+    kept[i] = points_not_overruled(surfaces, i, scene.diagnostics.registration_after_mm,
+                                   settings.overruling);
+  });
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    scene.diagnostics.overruled += found[i].points.cloud.size() - kept[i].size();
+    found[i].points = subset(found[i].points, kept[i]);
+  }
+}
+
 /// The points of the feet, of all views.
 ViewedCloud gather_feet(const std::vector<WorkingView>& views, const FusionSettings& settings,
                         const Workers& workers, FusedScene& scene) {
   std::vector<FootPoints> found(views.size());
   workers(views.size(), [&](std::size_t i) { found[i] = foot_points(views, i, settings, scene); });
+  drop_overruled(views, settings, workers, scene, found);
   ViewedCloud gathered;
   for (const auto& [points, platform_pixels, grazing_pixels, seen_through] : found) {
     gathered.cloud.append(points.cloud);
