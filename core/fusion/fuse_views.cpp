@@ -129,10 +129,8 @@ void drop_overruled(const std::vector<WorkingView>& views, const FusionSettings&
     surfaces[i] = seen_surface(views[i].posed(), found[i].points.cloud, settings.overruling);
   });
   std::vector<std::vector<std::size_t>> kept(views.size());
-  workers(views.size(), [&](std::size_t i) {
-    kept[i] = points_not_overruled(surfaces, i, scene.diagnostics.registration_after_mm,
-                                   settings.overruling);
-  });
+  workers(views.size(),
+          [&](std::size_t i) { kept[i] = points_not_overruled(surfaces, i, settings.overruling); });
   for (std::size_t i = 0; i < views.size(); ++i) {
     scene.diagnostics.overruled += found[i].points.cloud.size() - kept[i].size();
     found[i].points = subset(found[i].points, kept[i]);

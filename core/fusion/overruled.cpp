@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kNoiseSigmas = 2.0;
+constexpr double kLeastFacing = -0.2;  // cosine; a tail stands square to the surface it leaves
 
 /// The pixel that sees a place of the station, if any.
 std::optional<std::size_t> pixel_at(const SeenSurface& view, const Vector3d& place) {
@@ -53,17 +54,17 @@ struct Vote {
 };
 
 void ask(const SeenSurface& witness, const PointCloud& cloud, std::size_t point,
-         double pose_sigma_mm, const OverruleSettings& settings, Vote& vote) {
+         const OverruleSettings& settings, Vote& vote) {
   const auto pixel = pixel_at(witness, cloud.positions[point]);
   if (!pixel || witness.point_at[*pixel] < 0) return;
   const auto other = static_cast<std::size_t>(witness.point_at[*pixel]);
   const Vector3d& normal = witness.points->normals[other];
-  if (!(normal.dot(cloud.normals[point]) > 0.0)) return;
+  if (!(normal.dot(cloud.normals[point]) > kLeastFacing)) return;
   const double gap =
       std::abs(normal.dot(cloud.positions[point] - witness.points->positions[other]));
   if (gap > settings.reach_mm) return;
   const double noise = std::hypot(cloud.sigma_mm[point], witness.points->sigma_mm[other]);
-  const double allowed = std::max(settings.least_gap_mm, kNoiseSigmas * noise) + pose_sigma_mm;
+  const double allowed = std::max(settings.least_gap_mm, kNoiseSigmas * noise);
   const double trust = witness.trust[other];
   if (gap <= allowed) {
     vote.agreeing += trust;
@@ -90,20 +91,21 @@ SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points,
     if (!pixel) continue;
     seen.point_at[*pixel] = static_cast<std::int32_t>(i);
     const auto cosine = static_cast<float>(points.normals[i].dot(points.view_directions[i]));
-    seen.trust[i] = cosine * std::min(1.0F, steps[*pixel] / window);
+    const float inside = std::min(1.0F, steps[*pixel] / window);
+    seen.trust[i] = cosine * inside * inside;
   }
   return seen;
 }
 
 std::vector<std::size_t> points_not_overruled(const std::vector<SeenSurface>& views,
-                                              std::size_t number, double pose_sigma_mm,
+                                              std::size_t number,
                                               const OverruleSettings& settings) {
   const SeenSurface& own = views[number];
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < own.points->size(); ++i) {
     Vote vote;
     for (std::size_t view = 0; view < views.size(); ++view) {
-      if (view != number) ask(views[view], *own.points, i, pose_sigma_mm, settings, vote);
+      if (view != number) ask(views[view], *own.points, i, settings, vote);
     }
     if (vote.contradicting <= double{own.trust[i]} + vote.agreeing) kept.push_back(i);
   }
