@@ -53,9 +53,9 @@ std::optional<double> skin_height(const std::vector<WallFoot>& walls, const Vect
   double heights = 0.0;
   for (const auto& wall : walls) {
     const double squared = (place - wall.place()).squaredNorm();
-    const double inward = wall.inward(place);
     const double sideways = wall.sideways(place);
     if (std::abs(sideways) > kFarthestSidewaysMm) continue;
+    const double inward = wall.inward(place);
     if (squared < least) {
       least = squared;
       nearest = &wall;

@@ -27,7 +27,7 @@ struct SoleClosure {
 /// made up across that gap; one that is bulges, and makes a tape too long.
 ///
 /// At each place the continuations of the walls it lies inward of are averaged, the straightest
-/// ahead most. The cloud is in the station frame and has normals. About 20 ms a foot.
+/// ahead most. The cloud is in the station frame and has normals. About 8 ms a foot.
 SoleClosure close_sole(PointCloud& foot, double standing_height_mm,
                        const SoleSettings& settings = {});
 

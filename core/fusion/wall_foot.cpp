@@ -28,6 +28,14 @@ constexpr double kLeastSameFacing = 0.3;  // cosine, of normals of one piece of 
 constexpr double kFewestWallPoints = 8;
 constexpr double kRidge = 1e-3;  // keeps a fit to few or crowded points from leaning
 
+PointCloud part_below(const PointCloud& cloud, double z) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.positions[i].z() < z) indices.push_back(i);
+  }
+  return cloud.subset(indices);
+}
+
 /// The lowest seen points above one cell.
 struct LowestPoints {
   Vector3d position = Vector3d::Zero();  ///< mean
@@ -167,10 +175,12 @@ double WallFoot::skin_height(double inward) const {
 std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm,
                                      const WallSettings& settings) {
   std::vector<WallFoot> feet;
-  if (foot.empty()) return feet;
-  const PointIndex index(foot.positions);
-  for (const auto& lowest : lowest_points(foot, standing_height_mm + settings.highest_mm)) {
-    const auto fitted = fit_end(foot, index, lowest, settings.bend_reach_mm);
+  const double most_z = standing_height_mm + settings.highest_mm;
+  const PointCloud low = part_below(foot, most_z + settings.bend_reach_mm);
+  if (low.empty()) return feet;
+  const PointIndex index(low.positions);
+  for (const auto& lowest : lowest_points(low, most_z)) {
+    const auto fitted = fit_end(low, index, lowest, settings.bend_reach_mm);
     const WallEnd end = fitted.value_or(WallEnd{lowest.normal.normalized()});
     const double level = end.normal.head<2>().norm();
     if (!(level > std::sqrt(1.0 - kMostSine * kMostSine))) continue;

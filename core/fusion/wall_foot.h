@@ -67,7 +67,7 @@ class WallFoot {
 };
 
 /// The feet of the walls of a foot that stands at a height, one for each 6 mm or so round it. The
-/// cloud is in the station frame and has normals. About 5 ms for 40,000 points.
+/// cloud is in the station frame and has normals. About 3 ms for 40,000 points.
 std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm,
                                      const WallSettings& settings);
 
