@@ -63,7 +63,7 @@ struct FusionDiagnostics {
   std::size_t platform_pixels = 0;  ///< taken away with the platform
   std::size_t outliers = 0;
   std::size_t overruled = 0;  ///< points where a better founded view saw another surface
-  std::size_t strays = 0;  ///< dropped as part of no foot
+  std::size_t strays = 0;     ///< dropped as part of no foot
   bool platform_found = false;
   double platform_scatter_mm = 0.0;
   double platform_tilt_deg = 0.0;

@@ -31,16 +31,16 @@ struct SeenSurface {
   std::vector<float> trust;
 };
 
-/// `points`: of that view, in the station frame, with normals, sigma and view directions. About 3
-/// ms.
+/// `points`: of that view, in the station frame, with normals, sigma and view directions. About
+/// 5 ms for an image of 640x480.
 SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points,
                          const OverruleSettings& settings);
 
 /// The points of one view, as ascending indices, that stand against the others. Where another
 /// view's surface faces the same way but lies elsewhere by more than the noise of both, one of them
-/// errs, or its pose does; a point is overruled where such a view is trusted more
-/// than its own and all views that agree with it together. So two sheets become one, and the
-/// tails that stereo matching draws out beyond a silhouette go. Some 0.1 us a point and view.
+/// errs, or its pose does; a point is overruled where such a view is trusted more than its own and
+/// all views that agree with it together. So two sheets become one, and the tails that stereo
+/// matching draws out beyond a silhouette go. Some 0.05 us a point and view.
 std::vector<std::size_t> points_not_overruled(const std::vector<SeenSurface>& views,
                                               std::size_t number, const OverruleSettings& settings);
 
