@@ -154,7 +154,8 @@ SettingsReading read_settings(std::string_view text, const std::filesystem::path
     const toml::table toml = toml::parse(text, file.string());
     read_all(toml, file.parent_path(), reading.settings, faults);
   } catch (const toml::parse_error& error) {
-    faults.add(error.source().begin.line, std::string(error.description()));
+    faults.add(error.source().begin.line,
+               std::string(error.description()) + ": write TOML, such as name = \"Bern\"");
   }
   reading.faults = faults.in_order();
   return reading;

@@ -24,7 +24,7 @@ struct SettingsPlaces {
 /// The environment variables that override paths of the settings, for --help.
 inline constexpr const char* kEnvironmentHelp =
     "Environment:\n"
-    "  INSTEP_CONFIG  settings file, if there is no --config\n"
+    "  INSTEP_CONFIG  settings file, where none is named\n"
     "  INSTEP_STORE   folder of the results   (store.root)\n"
     "  INSTEP_SOCKET  socket of the daemon    (control.socket)\n"
     "  INSTEP_PEDAL   simulated pedal's fifo  (pedal.fifo)\n";

@@ -1,11 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <string>
 
 #include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
+#include "daemon/standard_streams.h"
 
 namespace {
 
@@ -16,9 +18,20 @@ constexpr const char* kExamples = R"(Examples:
   instep girth foot.ply --plane 160,-5,22,160,-5,62,170,-44,22   one girth of a cloud
   instep measure foot.ply                                       all measures of a foot
   instep simulate --out visit && instep replay visit            the whole chain, no hardware
+  instep scan                                                   measure who stands on the station
+  instep doctor                                                 what is wrong with this machine
   instep girth --help                                           all about one command
 
-JSON alone goes to stdout. Exit codes: 0 done, 1 it could not be done, 2 wrong usage.)";
+scan, cancel, status, watch, list, show, export and delete ask the station's daemon, instepd; the
+others need none. Results go to stdout, as JSON for programs; errors go to stderr, one line that
+says what to do. Exit codes: 0 done, 1 it could not be done, 2 wrong usage.)";
+
+/// Prints what --help or --version ask for.
+int print_asked(const CLI::App& app, const CLI::Success& asked) {
+  std::ostringstream text;
+  app.exit(asked, text, text);
+  return instep::finish_command(instep::print_text(text.str()));
+}
 
 /// What a wrong usage is answered with: one line that says where help is.
 int explain_wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
@@ -38,6 +51,7 @@ int explain_wrong_usage(const CLI::App& app, const CLI::ParseError& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  instep::fill_closed_standard_streams();
   int exit_code = instep::kDone;
   CLI::App app(kDescription, "instep");
   try {
@@ -50,7 +64,7 @@ int main(int argc, char** argv) {
     instep::add_doctor_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);  // --help or --version
+    return print_asked(app, success);
   } catch (const CLI::ParseError& error) {
     return explain_wrong_usage(app, error);
   } catch (const std::exception& error) {

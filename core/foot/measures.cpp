@@ -138,7 +138,8 @@ void keep(MeasureSet& set, const char* id, Result<Measure> measure) {
 
 }  // namespace
 
-Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options) {
+Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options,
+                                const GoOn& go_on) {
   for (const char* name : {"pternion", "acropodion", "instep_point"}) {
     if (!foot.landmarks.contains(name)) {
       return fail(ErrorCode::kInvalidInput, std::string("the foot has no landmark ") + name,
@@ -146,8 +147,14 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
     }
   }
   MeasureSet set;
-  for (const auto& rule : length_rules()) keep(set, rule.id, take(rule, foot));
-  for (const auto& rule : girth_rules()) keep(set, rule.id, take(rule, foot, options));
+  for (const auto& rule : length_rules()) {
+    keep(set, rule.id, take(rule, foot));
+    if (!go_on()) return cancelled();
+  }
+  for (const auto& rule : girth_rules()) {
+    keep(set, rule.id, take(rule, foot, options));
+    if (!go_on()) return cancelled();
+  }
   return set;
 }
 

@@ -5,6 +5,7 @@
 #include "core/foot/foot_scan.h"
 #include "core/foot/measure_set.h"
 #include "core/girth/girth.h"
+#include "core/go_on.h"
 #include "core/result.h"
 
 namespace instep {
@@ -25,7 +26,9 @@ struct MeasureOptions {
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
 /// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no
 /// landmarks, and with kInsufficientData if not even its length can be told. A left foot has the
-/// measures of its mirror image. The cost is that of the girths.
-Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {});
+/// measures of its mirror image. The cost is that of the girths, some 100 ms each; `go_on` hears of
+/// each measure, and once it returns false the whole fails with kCancelled.
+Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
+                                const GoOn& go_on = always);
 
 }  // namespace instep

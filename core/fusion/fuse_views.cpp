@@ -1,6 +1,7 @@
 #include "core/fusion/fuse_views.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -25,12 +26,31 @@ std::string in_millimetres(double value) {
   return text;
 }
 
+/// Who does the work, and who is told of it.
+struct Work {
+  const Workers& workers;
+  const GoOn& go_on;
+
+  /// A job for each view; false if the work was cancelled, when some are not done.
+  bool for_each_view(std::size_t count, const std::function<void(std::size_t)>& job) const {
+    std::atomic<bool> wanted = true;
+    workers(count, [&](std::size_t view) {
+      if (!wanted) return;
+      job(view);
+      if (!go_on()) wanted = false;
+    });
+    return wanted;
+  }
+};
+
 /// Checks and cleans each view; the first that is not sound fails all.
 Result<std::vector<WorkingView>> open_views(const std::vector<View>& views,
-                                            const FusionSettings& settings, const Workers& workers,
+                                            const FusionSettings& settings, const Work& work,
                                             FusedScene& scene) {
   std::vector<std::optional<Result<WorkingView>>> opened(views.size());
-  workers(views.size(), [&](std::size_t i) { opened[i] = open_view(views[i], settings.surface); });
+  const bool done = work.for_each_view(
+      views.size(), [&](std::size_t i) { opened[i] = open_view(views[i], settings.surface); });
+  if (!done) return cancelled();
   std::vector<WorkingView> working;
   for (auto& view : opened) {
     if (!*view) return tl::make_unexpected(view->error());
@@ -61,8 +81,8 @@ void drop_blind_views(std::vector<WorkingView>& views, const FusionSettings& set
 }
 
 /// Aligns the views to each other and drops those that do not fit.
-void refine_poses(std::vector<WorkingView>& views, const FusionSettings& settings,
-                  FusedScene& scene) {
+Result<void> refine_poses(std::vector<WorkingView>& views, const FusionSettings& settings,
+                          const Work& work, FusedScene& scene) {
   std::vector<PointCloud> clouds;
   for (const auto& view : views) {
     std::vector<std::uint32_t> pixels;
@@ -71,12 +91,13 @@ void refine_poses(std::vector<WorkingView>& views, const FusionSettings& setting
     });
     clouds.push_back(station_cloud(view, pixels, settings.surface));
   }
-  const auto registration = register_views(clouds, settings.registration);
-  scene.diagnostics.registration_before_mm = registration.residual_before_mm;
-  scene.diagnostics.registration_after_mm = registration.residual_after_mm;
+  const auto registration = register_views(clouds, settings.registration, work.go_on);
+  if (!registration) return tl::make_unexpected(registration.error());
+  scene.diagnostics.registration_before_mm = registration->residual_before_mm;
+  scene.diagnostics.registration_after_mm = registration->residual_after_mm;
   std::vector<WorkingView> fitting;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto& registered = registration.views[i];
+    const auto& registered = registration->views[i];
     if (registered.fit == ViewFit::kDoesNotFit) {
       scene.warnings.push_back("camera " + views[i].id +
                                " does not agree with the others and was left out");
@@ -90,6 +111,7 @@ void refine_poses(std::vector<WorkingView>& views, const FusionSettings& setting
     fitting.push_back(std::move(views[i]));
   }
   views = std::move(fitting);
+  return {};
 }
 
 /// Finds the platform and turns the station until it is level. Without one the lowest points stand
@@ -121,28 +143,33 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
   scene.standing_height_mm = settings.platform_height_mm.value_or(points[lowest].z());
 }
 
-/// Where views disagree, keeps the better founded one.
-void drop_overruled(const std::vector<WorkingView>& views, const FusionSettings& settings,
-                    const Workers& workers, FusedScene& scene, std::vector<FootPoints>& found) {
+/// Where views disagree, keeps the better founded one. False if cancelled.
+bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings& settings,
+                    const Work& work, FusedScene& scene, std::vector<FootPoints>& found) {
   std::vector<SeenSurface> surfaces(views.size());
-  workers(views.size(), [&](std::size_t i) {
+  std::vector<std::vector<std::size_t>> kept(views.size());
+  const bool looked = work.for_each_view(views.size(), [&](std::size_t i) {
     surfaces[i] = seen_surface(views[i].posed(), found[i].points.cloud, settings.overruling);
   });
-  std::vector<std::vector<std::size_t>> kept(views.size());
-  workers(views.size(),
-          [&](std::size_t i) { kept[i] = points_not_overruled(surfaces, i, settings.overruling); });
+  const bool voted = looked && work.for_each_view(views.size(), [&](std::size_t i) {
+    kept[i] = points_not_overruled(surfaces, i, settings.overruling);
+  });
+  if (!voted) return false;
   for (std::size_t i = 0; i < views.size(); ++i) {
     scene.diagnostics.overruled += found[i].points.cloud.size() - kept[i].size();
     found[i].points = subset(found[i].points, kept[i]);
   }
+  return true;
 }
 
 /// The points of the feet, of all views.
-ViewedCloud gather_feet(const std::vector<WorkingView>& views, const FusionSettings& settings,
-                        const Workers& workers, FusedScene& scene) {
+Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
+                                const FusionSettings& settings, const Work& work,
+                                FusedScene& scene) {
   std::vector<FootPoints> found(views.size());
-  workers(views.size(), [&](std::size_t i) { found[i] = foot_points(views, i, settings, scene); });
-  drop_overruled(views, settings, workers, scene, found);
+  const bool done = work.for_each_view(
+      views.size(), [&](std::size_t i) { found[i] = foot_points(views, i, settings, scene); });
+  if (!done || !drop_overruled(views, settings, work, scene, found)) return cancelled();
   ViewedCloud gathered;
   for (const auto& [points, platform_pixels, grazing_pixels, seen_through] : found) {
     gathered.cloud.append(points.cloud);
@@ -229,12 +256,13 @@ void finish_foot(const ViewedCloud& points, const FusionSettings& settings, Fuse
 }  // namespace
 
 Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings,
-                              const Workers& workers) {
+                              const Workers& workers, const GoOn& go_on) {
   if (views.empty()) {
     return fail(ErrorCode::kInvalidInput, "there is no view to fuse", "connect a camera");
   }
+  const Work work{workers, go_on};
   FusedScene scene;
-  auto opened = open_views(views, settings, workers, scene);
+  auto opened = open_views(views, settings, work, scene);
   if (!opened) return tl::make_unexpected(opened.error());
   auto& working = *opened;
   drop_blind_views(working, settings, scene);
@@ -242,18 +270,28 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
     return fail(ErrorCode::kInsufficientData, "no camera saw anything near the platform",
                 "check that nothing covers the cameras and that they point at the platform");
   }
-  if (settings.refine_views) refine_poses(working, settings, scene);
+  if (settings.refine_views) {
+    const auto refined = refine_poses(working, settings, work, scene);
+    if (!refined) return tl::make_unexpected(refined.error());
+  }
   scene.diagnostics.views_used = working.size();
   find_standing_plane(working, settings, scene);
-  ViewedCloud points = gather_feet(working, settings, workers, scene);
-  drop_outliers(settings, points, scene);
-  const auto feet = pick_feet(points, settings, scene);
+  if (!go_on()) return cancelled();
+  auto points = gather_feet(working, settings, work, scene);
+  if (!points) return tl::make_unexpected(points.error());
+  drop_outliers(settings, *points, scene);
+  if (!go_on()) return cancelled();
+  const auto feet = pick_feet(*points, settings, scene);
+  if (!go_on()) return cancelled();
   if (feet.empty()) {
     return fail(ErrorCode::kInsufficientData, "no foot stands on the platform",
                 "step on the platform with bare feet or thin socks, then scan again");
   }
   if (!scene.diagnostics.platform_found) estimate_standing_height(feet, scene);
-  for (const auto& foot : feet) finish_foot(foot, settings, scene);
+  for (const auto& foot : feet) {
+    finish_foot(foot, settings, scene);
+    if (!go_on()) return cancelled();
+  }
   return scene;
 }
 

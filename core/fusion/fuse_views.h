@@ -19,6 +19,7 @@
 #include "core/fusion/thin.h"
 #include "core/fusion/workers.h"
 #include "core/geometry/point_cloud.h"
+#include "core/go_on.h"
 #include "core/result.h"
 
 namespace instep {
@@ -85,12 +86,14 @@ struct FusedScene {
 
 /// From one depth image a camera to the clouds of the feet, each with normals, sigma, view
 /// directions and origins. Pure computation; the same views give the same bytes. What concerns one
-/// view alone is a job of its own for `workers`, the rest runs on the calling thread.
+/// view alone is a job of its own for `workers`, the rest runs on the calling thread. `go_on` hears
+/// of each view, each iteration of the registration, and each stage.
 ///
 /// Fails with kInvalidInput where a pose or lens is not sound or there is no view, kCorruptData
 /// where a depth image does not fit its camera, kInsufficientData where no camera saw anything or
-/// no foot stands there. A camera that saw nothing while others did is a warning.
+/// no foot stands there, kCancelled. A camera that saw nothing while others did is a warning.
 Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings = {},
-                              const Workers& workers = one_after_the_other);
+                              const Workers& workers = one_after_the_other,
+                              const GoOn& go_on = always);
 
 }  // namespace instep

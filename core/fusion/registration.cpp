@@ -186,7 +186,9 @@ double median_residual(const std::vector<Match>& matches) {
   return median(std::move(distances));
 }
 
-void solve(std::vector<MovingView>& views, const RegistrationSettings& settings) {
+/// False if it was cancelled.
+bool solve(std::vector<MovingView>& views, const RegistrationSettings& settings,
+           const GoOn& go_on) {
   for (auto& view : views) view.correction = RigidTransform::Identity();
   const double shrink = settings.last_reach_mm / settings.first_reach_mm;
   for (int i = 0; i < settings.iterations; ++i) {
@@ -194,9 +196,11 @@ void solve(std::vector<MovingView>& views, const RegistrationSettings& settings)
     const double progress = std::min(1.0, 1.5 * i / std::max(1, settings.iterations - 1));
     const double reach = settings.first_reach_mm * std::pow(shrink, progress);
     const auto matches = match_all(views, reach);
-    if (matches.empty()) return;
+    if (matches.empty()) return true;
     step(views, matches, reach, settings);
+    if (!go_on()) return false;
   }
+  return true;
 }
 
 RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
@@ -227,14 +231,14 @@ RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
 
 }  // namespace
 
-Registration register_views(const std::vector<PointCloud>& views,
-                            const RegistrationSettings& settings) {
+Result<Registration> register_views(const std::vector<PointCloud>& views,
+                                    const RegistrationSettings& settings, const GoOn& go_on) {
   auto moving = prepare(views, settings);
   Registration registration;
   registration.views.resize(views.size());
   registration.residual_before_mm = median_residual(match_all(moving, settings.first_reach_mm));
   for (std::size_t round = 0; round <= views.size(); ++round) {
-    solve(moving, settings);
+    if (!solve(moving, settings, go_on)) return cancelled();
     const auto matches = match_all(moving, 2.0 * settings.last_reach_mm);
     registration.residual_after_mm = median_residual(matches);
     std::size_t worst = views.size();

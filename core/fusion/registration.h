@@ -5,6 +5,8 @@
 
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
+#include "core/go_on.h"
+#include "core/result.h"
 
 namespace instep {
 
@@ -49,8 +51,10 @@ struct Registration {
 /// marked kDoesNotFit, get no correction, and the others are solved again without them.
 ///
 /// Clouds are given in the station frame and need normals and view directions; one without is
-/// kAlone. Deterministic. Costs some 20 ms an iteration for 8 views.
-Registration register_views(const std::vector<PointCloud>& views,
-                            const RegistrationSettings& settings = {});
+/// kAlone. Deterministic. Costs some 20 ms an iteration for 8 views; each is a piece of the work
+/// for `go_on`. Fails with kCancelled alone.
+Result<Registration> register_views(const std::vector<PointCloud>& views,
+                                    const RegistrationSettings& settings = {},
+                                    const GoOn& go_on = always);
 
 }  // namespace instep

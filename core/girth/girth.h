@@ -58,6 +58,19 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
+/// The paper's Method 2 (section 2.2): a triangle mesh grown from the points near the plane
+/// (core/surface/grown_mesh.h) and cut with it. The points are the band of girth_by_rbf(): strays
+/// and duplicates gone, crowds averaged. The mesh neither needs nor uses normals; known ones only
+/// keep the two sides of a thin part from being averaged.
+///
+/// Chords cut off what bulges between the points, so exact points give a girth that is too short,
+/// by about the square of their spacing; noise roughens the mesh, so noisy points give one that is
+/// too long, contact far more than stretched, with a warning. Holes up to a quarter of the tape are
+/// bridged by a straight line and count in largest_gap_mm; what is more open is refused, as in
+/// girth_by_rbf(). Has no interval. Deterministic.
+Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
+                            const GirthOptions& options = {});
+
 /// Cuts the faces that a mesh already has; no surface is fitted. All loops are chained; of several
 /// the one round the largest area counts and the others are named in a warning. An open section is
 /// bridged for the stretched length, and the contact length is that of the pieces, with a warning.

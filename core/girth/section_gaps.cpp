@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
 
-/// Way along the contour to the place nearest to a point.
-double station(const std::vector<Eigen::Vector2d>& contour, const Eigen::Vector2d& point) {
+/// Way along the contour to the place nearest to a point, if it is within reach.
+std::optional<double> station(const std::vector<Eigen::Vector2d>& contour,
+                              const Eigen::Vector2d& point, double reach) {
   double nearest = std::numeric_limits<double>::infinity();
   double best = 0.0;
   double way = 0.0;
@@ -26,18 +28,21 @@ double station(const std::vector<Eigen::Vector2d>& contour, const Eigen::Vector2
     }
     way += length;
   }
+  if (nearest > reach * reach) return std::nullopt;
   return best;
 }
 
 }  // namespace
 
 double largest_gap(const std::vector<Eigen::Vector2d>& contour,
-                   const std::vector<Eigen::Vector2d>& points) {
+                   const std::vector<Eigen::Vector2d>& points, double reach) {
   const double length = perimeter(contour);
-  if (points.empty()) return length;
   std::vector<double> stations;
   stations.reserve(points.size());
-  for (const auto& point : points) stations.push_back(station(contour, point));
+  for (const auto& point : points) {
+    if (const auto way = station(contour, point, reach)) stations.push_back(*way);
+  }
+  if (stations.empty()) return length;
   std::sort(stations.begin(), stations.end());
   double gap = stations.front() + length - stations.back();
   for (std::size_t i = 1; i < stations.size(); ++i) {

@@ -1,14 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 namespace instep {
 
 /// The longest stretch of a closed contour onto which none of the points falls, when each is put on
-/// the contour where it is nearest; the contour's length when there are none. The contour does not
-/// repeat its first point. O(points x corners).
+/// the contour where it is nearest; the contour's length when there are none. Points further than
+/// `reach` from the contour do not count. The contour does not repeat its first point.
+/// O(points x corners).
 double largest_gap(const std::vector<Eigen::Vector2d>& contour,
-                   const std::vector<Eigen::Vector2d>& points);
+                   const std::vector<Eigen::Vector2d>& points,
+                   double reach = std::numeric_limits<double>::infinity());
 
 }  // namespace instep

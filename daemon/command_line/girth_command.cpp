@@ -68,6 +68,7 @@ Result<TapePlane> plane_of(const GirthCommand& command) {
 Result<Girth> measure(const GirthCommand& command, const CloudFile& file, const TapePlane& plane) {
   const GirthOptions options{command.sigma_mm};
   if (command.method == "hull") return girth_by_hull(file.cloud, plane, options);
+  if (command.method == "mesh") return girth_by_mesh(file.cloud, plane, options);
   if (command.method == "rbf") return girth_by_rbf(file.cloud, plane, options);
   if (file.mesh.empty()) {
     return fail(ErrorCode::kInvalidInput, command.cloud.file + " has no faces to cut",
@@ -104,13 +105,17 @@ void add_girth_command(CLI::App& app, int& exit_code) {
   girth->footer(kExamples);
   const auto command = std::make_shared<GirthCommand>();
   add_cloud_options(*girth, command->cloud);
-  girth->add_option("--plane", command->plane, "X1,Y1,Z1,X2,Y2,Z2,X3,Y3,Z3")
+  girth
+      ->add_option("--plane", command->plane,
+                   "where the tape lies: three points, X1,Y1,Z1,X2,Y2,Z2,X3,Y3,Z3")
       ->required()
       ->check(check_plane);
   girth
-      ->add_option("--method", command->method,
-                   "rbf (the best), hull (of the points near the plane), section (of the faces)")
-      ->check(CLI::IsMember({"rbf", "hull", "section"}))
+      ->add_option(
+          "--method", command->method,
+          "rbf (the best), hull (of the points near the plane), mesh (grown from the points), "
+          "section (of the faces)")
+      ->check(CLI::IsMember({"rbf", "hull", "mesh", "section"}))
       ->capture_default_str();
   girth
       ->add_option("--sigma-mm", command->sigma_mm,

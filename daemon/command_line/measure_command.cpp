@@ -46,11 +46,12 @@ Result<void> run(const MeasureCommand& command) {
 }  // namespace
 
 void add_measure_command(CLI::App& app, int& exit_code) {
-  auto* measure = app.add_subcommand("measure", "All measures of a foot in a cloud or mesh");
+  auto* measure =
+      app.add_subcommand("measure", "Length, breadths and girths of a foot in a cloud or mesh");
   measure->footer(kExamples);
   const auto command = std::make_shared<MeasureCommand>();
   add_cloud_options(*measure, command->cloud);
-  measure->add_option("--side", command->side, "of the foot; auto tells it from the shape")
+  measure->add_option("--side", command->side, "which foot it is; auto tells it from the shape")
       ->check(CLI::IsMember({"left", "right", "auto"}))
       ->capture_default_str();
   measure->add_option("--format", command->format, "json (if stdout is no terminal), text or csv")

@@ -76,9 +76,12 @@ void add_record_command(CLI::App& app, int& exit_code) {
   record->add_option("--out", command->folder, "folder to make")->required();
   record->add_option("--config", command->config, "settings file of the station, with its cameras")
       ->required();
-  record->add_option("--frames", command->frames, "of each camera (15 if nothing is said)")
+  record
+      ->add_option("--frames", command->frames,
+                   "how many each camera takes (15 if nothing is said)")
       ->check(CLI::Range(1, 10000));
-  record->add_option("--seconds", command->seconds, "of the cameras' time")->check(check_seconds);
+  record->add_option("--seconds", command->seconds, "how long to record, by the cameras' clocks")
+      ->check(check_seconds);
   record->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

@@ -96,8 +96,9 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   replay->footer(kExamples);
   const auto command = std::make_shared<ReplayCommand>();
   replay->add_option("RECORDING", command->recording, "folder of a recording")->required();
-  replay->add_option("--out", command->out, "folder to keep the results in");
-  replay->add_option("--side", command->side, "of the foot, if the shape is not to decide")
+  replay->add_option("--out", command->out,
+                     "folder to keep the results in; else they are only printed");
+  replay->add_option("--side", command->side, "which foot it is; auto tells it from the shape")
       ->check(CLI::IsMember({"left", "right", "auto"}))
       ->capture_default_str();
   replay

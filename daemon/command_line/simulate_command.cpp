@@ -1,6 +1,7 @@
 #include "daemon/command_line/simulate_command.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -26,10 +27,14 @@ struct SimulateCommand {
   std::size_t frames = 15;
 };
 
-/// The parser alone would take -1 for the largest number there is.
+/// The parser alone would take -1, and what is too large, for the largest number there is.
 std::string check_seed(const std::string& text) {
-  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return whole ? "" : "needs a whole number, 0 or more";
+  std::uint64_t seed = 0;
+  const auto end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seed);
+  return stop == end && error == std::errc{}
+             ? ""
+             : "needs a whole number from 0 to 18446744073709551615";
 }
 
 Result<SimulatedStation> build(const SimulateCommand& command) {
@@ -68,26 +73,27 @@ Result<void> run(const SimulateCommand& command) {
 }  // namespace
 
 void add_simulate_command(CLI::App& app, int& exit_code) {
-  auto* simulate = app.add_subcommand("simulate", "Write a synthetic recording with its truth");
+  auto* simulate =
+      app.add_subcommand("simulate", "Make up a recording of feet whose true measures are known");
   simulate->footer(kExamples);
   const auto command = std::make_shared<SimulateCommand>();
   simulate->add_option("--out", command->folder, "folder to make")->required();
-  simulate->add_option("--seed", command->seed, "of shape, stance and noise")
+  simulate->add_option("--seed", command->seed, "number that decides shape, stance and noise")
       ->check(check_seed)
       ->capture_default_str();
   simulate->add_option("--subject", command->subject, "what stands on the platform")
       ->check(CLI::IsMember({"foot", "feet", "cylinder", "last"}))
       ->capture_default_str();
-  simulate->add_option("--side", command->side, "of a single foot")
+  simulate->add_option("--side", command->side, "which foot, if there is one alone")
       ->check(CLI::IsMember({"left", "right"}))
       ->capture_default_str();
-  simulate->add_option("--noise", command->noise, "of the sensor")
+  simulate->add_option("--noise", command->noise, "how much the cameras err")
       ->check(CLI::IsMember({"none", "typical", "pessimistic"}))
       ->capture_default_str();
-  simulate->add_option("--cameras", command->cameras, "round the platform")
+  simulate->add_option("--cameras", command->cameras, "how many stand round the platform")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
-  simulate->add_option("--frames", command->frames, "of each camera")
+  simulate->add_option("--frames", command->frames, "how many each camera takes")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   simulate->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });

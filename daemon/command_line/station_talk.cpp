@@ -12,6 +12,7 @@
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
+#include "drivers/files/file_bytes.h"
 
 namespace instep {
 namespace {
@@ -23,6 +24,7 @@ using std::chrono::steady_clock;
 
 /// Far longer than a scan with its deadlines can take.
 constexpr seconds kLongestScan{300};
+constexpr std::size_t kMostExportedBytes = std::size_t{1} << 30;
 
 std::string text(const json& object, const char* key) {
   return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
@@ -81,7 +83,7 @@ std::string status_text(const json& status) {
 }
 
 /// The live line of a terminal: a bar while a scan runs.
-void draw(const json& event) {
+std::string live_line(const json& event) {
   constexpr int kBarWidth = 30;
   std::string line = text(event, "state");
   if (const auto stage = text(event, "stage"); !stage.empty()) {
@@ -92,25 +94,45 @@ void draw(const json& event) {
   } else if (const auto trouble = text(event, "trouble"); !trouble.empty()) {
     line += ": " + trouble;
   }
-  fmt::print("\r\033[K{}", line);
-  std::fflush(stdout);
+  return "\r\033[K" + line;
 }
 
-void tell(const json& line, bool in_terminal) {
+std::string told_in_terminal(const json& line) {
   const auto event = text(line, "event");
-  if (!in_terminal) {
-    fmt::print("{}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
-    std::fflush(stdout);
-  } else if (event == "result") {
+  std::string told;
+  if (event == "result") {
     for (const auto& scan : line.value("scans", json::array())) {
-      fmt::print("\r\033[Kscan {} ({} foot)\n", text(scan, "id"), text(scan, "side"));
+      told += fmt::format("\r\033[Kscan {} ({} foot)\n", text(scan, "id"), text(scan, "side"));
     }
   } else if (event == "failure") {
     const json error = line.value("error", json::object());
-    fmt::print("\r\033[Kno scan: {}: {}\n", text(error, "message"), text(error, "advice"));
+    told = fmt::format("\r\033[Kno scan: {}: {}\n", text(error, "message"), text(error, "advice"));
   } else if (event == "status" || event.empty()) {
-    draw(line);
+    told = live_line(line);
   }
+  return told;
+}
+
+Result<void> tell(const json& line, bool in_terminal) {
+  return print_text(in_terminal ? told_in_terminal(line)
+                                : line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+/// Copies files into a folder that was made for them; takes it away again if that fails.
+Result<void> fill_folder(const json& files, const std::filesystem::path& from,
+                         const std::filesystem::path& to) {
+  for (const auto& file : files) {
+    const auto name = file.get<std::string>();
+    const auto copied =
+        read_file_bytes(from / name, kMostExportedBytes).and_then([&](const std::string& bytes) {
+          return write_file_bytes(to / name, bytes);
+        });
+    if (copied) continue;
+    std::error_code ignored;
+    std::filesystem::remove_all(to, ignored);
+    return copied;
+  }
+  return {};
 }
 
 }  // namespace
@@ -161,7 +183,7 @@ Result<void> watch_station(std::optional<seconds> until_result) {
   const bool in_terminal = stdout_is_terminal();
   const auto first = client->ask("watch");
   if (!first) return tl::make_unexpected(first.error());
-  tell(*first, in_terminal);
+  if (const auto told = tell(*first, in_terminal); !told) return told;
   const auto deadline = steady_clock::now() + until_result.value_or(seconds(0));
   while (true) {
     const auto left = until_result ? std::chrono::ceil<milliseconds>(deadline - steady_clock::now())
@@ -172,7 +194,7 @@ Result<void> watch_station(std::optional<seconds> until_result) {
       return fail(ErrorCode::kTimeout, "there was no result in time", "see why: instep status");
     }
     if (!line) return tl::make_unexpected(line.error());
-    tell(*line, in_terminal);
+    if (const auto told = tell(*line, in_terminal); !told) return told;
     if (until_result && text(*line, "event") == "result") return {};
   }
 }
@@ -200,22 +222,17 @@ Result<void> export_scan(const std::string& id, const std::filesystem::path& out
   const auto to = out / text(*answer, "id");
   std::error_code failed;
   std::filesystem::create_directories(out, failed);
-  if (!failed && !std::filesystem::create_directory(to, failed) && !failed) {
+  const bool made = !failed && std::filesystem::create_directory(to, failed);
+  if (failed) return tl::make_unexpected(file_error(failed.value(), "make", to));
+  if (!made) {
     return fail(ErrorCode::kBusy, to.string() + " is there already",
                 "move it away, or choose another --out");
   }
-  for (const auto& file : answer->value("files", json::array())) {
-    if (failed) break;
-    std::filesystem::copy_file(from / file.get<std::string>(), to / file.get<std::string>(),
-                               failed);
-  }
-  if (failed) {
-    std::error_code ignored;
-    std::filesystem::remove_all(to, ignored);
-    return fail(ErrorCode::kIo,
-                "the scan could not be copied to " + to.string() + ": " + failed.message(),
-                "check that you may read " + from.string() + " and write there");
-  }
+  // A scan is personal: only who may read it in the store may read the copy.
+  std::filesystem::permissions(to, std::filesystem::perms::others_all,
+                               std::filesystem::perm_options::remove, failed);
+  const auto filled = fill_folder(answer->value("files", json::array()), from, to);
+  if (!filled) return filled;
   return print_text(to.string() + "\n");
 }
 

@@ -92,7 +92,7 @@ Result<nlohmann::json> ControlClient::next(milliseconds limit) {
     if (ready < 0 && errno == EINTR) continue;
     if (ready == 0) {
       return fail(ErrorCode::kTimeout, "the daemon did not answer in time",
-                  "see what it does: instep status");
+                  "see what it does: systemctl status instepd");
     }
     std::array<char, 65536> block;
     const auto got = ::recv(descriptor_, block.data(), block.size(), 0);

@@ -29,6 +29,10 @@ tl::unexpected<Error> refused(const std::string& message) {
               "send one JSON object a line, such as {\"verb\": \"status\"}");
 }
 
+tl::unexpected<Error> without_id(const std::string& message) {
+  return fail(ErrorCode::kInvalidInput, message, "give the id of a scan: instep list shows them");
+}
+
 /// Text from outside may hold bytes that are no UTF-8: they are replaced, never thrown about.
 std::string dump(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
@@ -60,10 +64,10 @@ Result<Request> parse_request(std::string_view line) {
   const auto* verb = std::find_if(kVerbs.begin(), kVerbs.end(),
                                   [&](const Verb& one) { return parsed.verb == one.name; });
   if (verb == kVerbs.end()) return refused("there is no such verb");
-  if (verb->needs_id && parsed.id.empty()) return refused(parsed.verb + " needs an \"id\"");
+  if (verb->needs_id && parsed.id.empty()) return without_id(parsed.verb + " needs an id");
   if (!verb->needs_id && !parsed.id.empty()) return refused(parsed.verb + " takes no \"id\"");
   if (parsed.id == "latest" && !verb->takes_latest) {
-    return refused(parsed.verb + " needs the id itself, not \"latest\"");
+    return without_id(parsed.verb + " needs the id itself, not \"latest\"");
   }
   return parsed;
 }

@@ -11,23 +11,22 @@
 #include "core/foot/measures.h"
 #include "core/fusion/fuse_views.h"
 #include "core/fusion/temporal_fusion.h"
+#include "core/go_on.h"
 #include "daemon/scan/stage_clock.h"
 
 namespace instep {
 namespace {
 
-tl::unexpected<Error> cancelled() {
-  return fail(ErrorCode::kCancelled, "the scan was cancelled", "press the pedal to scan again");
-}
-
 /// The frames of one camera as one depth image. A camera without a good frame fails the scan: a set
 /// that is not whole is never measured as if it were.
-Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& camera) {
+Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& camera,
+                               const GoOn& go_on) {
   TemporalFusion fusion;
   for (const auto& frame : capture.frames) {
     if (frame.camera != camera.geometry.id) continue;
     // A rejected frame is counted, and the count is part of the result's quality.
     static_cast<void>(fusion.add(frame));
+    if (!go_on()) return cancelled();
   }
   if (fusion.frames_used() == 0) {
     return fail(ErrorCode::kInsufficientData,
@@ -46,10 +45,12 @@ void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& 
   for (auto& one : running) one.get();
 }
 
-Result<std::vector<FusedDepth>> fuse_frames_of_each_camera(const Capture& capture) {
+Result<std::vector<FusedDepth>> fuse_frames_of_each_camera(const Capture& capture,
+                                                           const GoOn& go_on) {
   std::vector<std::optional<Result<FusedDepth>>> fused(capture.cameras.size());
-  one_thread_each(fused.size(),
-                  [&](std::size_t i) { fused[i] = fuse_camera(capture, capture.cameras[i]); });
+  one_thread_each(fused.size(), [&](std::size_t i) {
+    fused[i] = fuse_camera(capture, capture.cameras[i], go_on);
+  });
   std::vector<FusedDepth> images;
   for (auto& image : fused) {
     if (!*image) return tl::make_unexpected(image->error());
@@ -76,7 +77,7 @@ std::vector<std::string> movement_warnings(const std::vector<FusedDepth>& images
 }
 
 Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> images,
-                              const PipelineSettings& settings) {
+                              const PipelineSettings& settings, const GoOn& go_on) {
   std::vector<View> views;
   for (std::size_t i = 0; i < images.size(); ++i) {
     views.push_back({capture.cameras[i].geometry, std::move(images[i]), nullptr});
@@ -85,7 +86,7 @@ Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> im
   fusion.point_spacing_mm = settings.point_spacing_mm;
   fusion.platform_height_mm = capture.platform_height_mm;
   fusion.refine_views = settings.refine_views;
-  return fuse_views(views, fusion, one_thread_each);
+  return fuse_views(views, fusion, one_thread_each, go_on);
 }
 
 /// The part of the truth that is about one foot: see Capture::truth.
@@ -130,15 +131,16 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
                                                 const PipelineSettings& settings,
                                                 const ScanProgress& progress) {
   StageClock clock(progress);
+  const GoOn go_on = [&clock] { return clock.go_on(); };
 
   if (!clock.begin("fuse frames", 0.0)) return cancelled();
-  auto images = fuse_frames_of_each_camera(capture);
+  auto images = fuse_frames_of_each_camera(capture, go_on);
   if (!images) return tl::make_unexpected(images.error());
   auto quality = frame_quality(*images);
   auto warnings = movement_warnings(*images);
 
   if (!clock.begin("fuse views", 0.2)) return cancelled();
-  const auto scene = fuse_scene(capture, std::move(*images), settings);
+  const auto scene = fuse_scene(capture, std::move(*images), settings, go_on);
   if (!scene) return tl::make_unexpected(scene.error());
   add_scene_quality(*scene, quality);
   warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());
@@ -157,7 +159,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
     if (!foot) return tl::make_unexpected(foot.error());
 
     if (!clock.begin("girths", 0.7)) return cancelled();
-    auto measures = measure_foot(*foot);
+    auto measures = measure_foot(*foot, {}, go_on);
     if (!measures) return tl::make_unexpected(measures.error());
     records.push_back(record_of(capture, settings, std::move(*foot), std::move(*measures)));
   }

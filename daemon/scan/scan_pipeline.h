@@ -26,8 +26,10 @@ struct Capture {
   std::map<std::string, double> truth;
 };
 
-/// Told at each step; returning false cancels the scan (the pipeline then fails with kCancelled).
-/// `done` runs from 0 to 1 over the whole scan and never decreases.
+/// Told of each stage, and again of the same one with each piece of it that is done; returning
+/// false cancels the scan (the pipeline then fails with kCancelled). `done` runs from 0 to 1 over
+/// the whole scan and never decreases. Called from one thread at a time, but not always from the
+/// same.
 using ScanProgress = std::function<bool(std::string_view stage, double done)>;
 
 struct PipelineSettings {
@@ -38,8 +40,9 @@ struct PipelineSettings {
 };
 
 /// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Pure
-/// computation on the calling thread; takes no file and no device. Gives one record for each foot
-/// on the platform, the left one first, and fails if there is none.
+/// computation; takes no file and no device. What concerns one camera alone runs on a thread of its
+/// own. Gives one record for each foot on the platform, the left one first, and fails if there is
+/// none.
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
                                                 const PipelineSettings& settings,
                                                 const ScanProgress& progress);

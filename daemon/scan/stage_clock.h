@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -10,7 +11,7 @@
 namespace instep {
 
 /// Follows a scan through its stages: times each, tells how far the scan is, and hears whether it
-/// shall go on.
+/// shall go on. Once it shall not, it stays so and nobody is asked any more.
 class StageClock {
  public:
   explicit StageClock(const ScanProgress& progress) : progress_(progress) {}
@@ -19,8 +20,17 @@ class StageClock {
   bool begin(std::string_view stage, double done) {
     end();
     stage_ = stage;
+    done_ = done;
     began_ = Clock::now();
-    return progress_ ? progress_(stage, done) : true;
+    return go_on();
+  }
+
+  /// A piece of the stage is done. From any thread; `progress` hears of one at a time. False as
+  /// above.
+  bool go_on() {
+    const std::lock_guard lock(asking_);
+    wanted_ = wanted_ && (!progress_ || progress_(stage_, done_));
+    return wanted_;
   }
 
   void end() {
@@ -39,7 +49,10 @@ class StageClock {
   }
 
   const ScanProgress& progress_;
+  std::mutex asking_;
+  bool wanted_ = true;
   std::string stage_;
+  double done_ = 0.0;
   Clock::time_point began_;
   std::map<std::string, double> timings_ms_;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/go_on.h"
 #include "daemon/loop/task_thread.h"
 
 namespace instep {
@@ -160,7 +161,7 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
     lock.lock();
     gathering->changed.wait_for(lock, kStopGrace, [&] { return gathering->complete(); });
   }
-  if (!wanted) return fail(ErrorCode::kCancelled, "the scan was cancelled", "");
+  if (!wanted) return cancelled();
 
   // What a camera says for having been interrupted is not its fault; with no other fault, those
   // that were not done by the deadline are.

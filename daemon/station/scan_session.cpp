@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "core/go_on.h"
+
 namespace instep {
 namespace {
 
@@ -34,7 +36,7 @@ class ScanSession {
 
  private:
   Result<Capture> take_capture() {
-    listener_.on_progress("capture", 0.0);
+    tell("capture", 0.0);
     auto frames = tools_.cameras->capture(tools_.capture, [this] {
       progress_.step();
       return !cancelled_;
@@ -55,7 +57,7 @@ class ScanSession {
   Result<void> wait_for_truth() {
     while (tools_.truth.valid() && tools_.truth.wait_for(kTruthLook) != std::future_status::ready) {
       progress_.step();
-      if (cancelled_) return fail(ErrorCode::kCancelled, "the scan was cancelled", "");
+      if (cancelled_) return cancelled();
     }
     return {};
   }
@@ -63,14 +65,22 @@ class ScanSession {
   Result<std::vector<ScanRecord>> measure(const Capture& capture) {
     return tools_.measure(capture, tools_.pipeline, [this](std::string_view stage, double done) {
       progress_.step();
-      listener_.on_progress(stage, kCaptureShare + kMeasureShare * done);
+      tell(stage, kCaptureShare + kMeasureShare * done);
       return !cancelled_;
     });
   }
 
+  /// Each stage once, however many pieces it has.
+  void tell(std::string_view stage, double done) {
+    if (stage == told_stage_ && done == told_done_) return;
+    told_stage_ = stage;
+    told_done_ = done;
+    listener_.on_progress(stage, done);
+  }
+
   ScanOutcome store(const std::vector<ScanRecord>& records) {
     ScanOutcome outcome;
-    listener_.on_progress("store", kCaptureShare + kMeasureShare);
+    tell("store", kCaptureShare + kMeasureShare);
     for (const auto& record : records) {
       progress_.step();
       const auto content = content_of(record);
@@ -83,7 +93,7 @@ class ScanSession {
       }
       outcome.stored.push_back({record.id, std::move(*folder), record.foot.side});
     }
-    listener_.on_progress("done", 1.0);
+    tell("done", 1.0);
     return outcome;
   }
 
@@ -97,6 +107,8 @@ class ScanSession {
   const std::atomic<bool>& cancelled_;
   TaskProgress& progress_;
   const ScanListener& listener_;
+  std::string told_stage_;
+  double told_done_ = 0.0;
 };
 
 Error bug(const char* what) {

@@ -58,7 +58,8 @@ Result<void> Station::request_scan() {
 Result<void> Station::request_cancel() {
   const auto state = machine_.state();
   if (state != StationState::kCapturing && state != StationState::kMeasuring) {
-    return fail(ErrorCode::kNotFound, "there is no scan to cancel", "");
+    return fail(ErrorCode::kNotFound, "there is no scan to cancel",
+                "start one with the pedal or instep scan");
   }
   handle(StationEvent::kCancelRequested);
   return {};

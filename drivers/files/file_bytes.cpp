@@ -77,6 +77,7 @@ Error file_error(int error_number, const std::string& doing, const std::filesyst
       code = ErrorCode::kNoSpace;
       advice = "free some disk space";
       break;
+    case EINVAL:
     case ENAMETOOLONG:
     case ELOOP:
     case EISDIR:

@@ -14,6 +14,7 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kMostJsonBytes = std::size_t{64} << 20;
+constexpr std::size_t kMostFrameBytes = std::size_t{2} << 30;
 
 Result<void> check_inside(const Recording& recording, const std::filesystem::path& file) {
   std::error_code error;
@@ -54,6 +55,22 @@ Result<DepthFrame> read_frame(const Recording& recording, const RecordedFrame& r
   return frame;
 }
 
+/// PNG packs an empty image a thousandfold, so a small folder can hold more than any memory.
+Result<void> check_fits_memory(const Recording& recording) {
+  std::size_t bytes = 0;
+  for (const auto& recorded : recording.frames) {
+    const auto& lens = recording.find_camera(recorded.camera)->geometry.intrinsics;
+    bytes += sizeof(std::uint16_t) * static_cast<std::size_t>(lens.width) *
+             static_cast<std::size_t>(lens.height);
+  }
+  if (bytes <= kMostFrameBytes) return {};
+  return fail(
+      ErrorCode::kUnsupported,
+      fmt::format("the {} frames of {} have {} bytes, more than the {} that are read",
+                  recording.frames.size(), recording.folder.string(), bytes, kMostFrameBytes),
+      "record fewer frames");
+}
+
 }  // namespace
 
 Result<Recording> read_recording(const std::filesystem::path& folder) {
@@ -78,6 +95,7 @@ Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t i
 }
 
 Result<std::vector<DepthFrame>> read_recorded_frames(const Recording& recording) {
+  if (auto good = check_fits_memory(recording); !good) return tl::make_unexpected(good.error());
   std::map<std::string, std::uint64_t> sequence;
   std::vector<DepthFrame> frames;
   frames.reserve(recording.frames.size());

@@ -25,7 +25,8 @@ Result<Recording> read_recording(const std::filesystem::path& folder);
 /// kInvalidInput if a symbolic link leads out of the recording.
 Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t index);
 
-/// All frames in order; the first fault ends it.
+/// All frames in order; the first fault ends it. Fails with kUnsupported if they need more than 2
+/// GiB.
 Result<std::vector<DepthFrame>> read_recorded_frames(const Recording& recording);
 
 }  // namespace instep

@@ -27,8 +27,8 @@ class BadInput : public testing::Test {
 
   /// The program must end with that code, one line on stderr that holds `said`, and no output.
   static void expect_failure(const std::vector<std::string>& arguments, int exit_code,
-                             const std::string& said) {
-    const auto run = test::run_program("instep", arguments);
+                             const std::string& said, test::Stdout to = test::Stdout::kCaptured) {
+    const auto run = test::run_program("instep", arguments, to);
     EXPECT_EQ(run.exit_code, exit_code) << run.errors;
     EXPECT_EQ(run.output, "");
     EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
@@ -39,7 +39,7 @@ class BadInput : public testing::Test {
 
   static void expect_bad_girth(const std::string& cloud, const std::string& said,
                                const std::string& plane = kPlane) {
-    for (const char* method : {"rbf", "hull"}) {
+    for (const char* method : {"rbf", "hull", "mesh"}) {
       expect_failure({"girth", cloud, "--plane", plane, "--method", method}, 1, said);
     }
   }
@@ -76,6 +76,8 @@ TEST_F(BadInput, WrongUsageIsTwo) {
   expect_failure({"grith"}, 2, "no command or option grith");
   expect_failure({"--colour"}, 2, "no command or option --colour");
   expect_failure({"simulate", "--out", folder_.path() / "new", "--seed", "-1"}, 2, "--seed");
+  expect_failure({"simulate", "--out", folder_.path() / "new", "--seed", "18446744073709551616"}, 2,
+                 "--seed");
   expect_failure({"record", "--out", folder_.path() / "new", "--config", "x", "--seconds", "nan"},
                  2, "--seconds");
   EXPECT_FALSE(fs::exists(folder_.path() / "new"));
@@ -91,6 +93,31 @@ TEST_F(BadInput, WrongUsageIsTwo) {
         "1,2,3,4,5,6,7,8,inf", "1,2,3,4,5,6,7,8,1e999", "a,b,c,d,e,f,g,h,i"}) {
     expect_failure({"girth", cloud, std::string("--plane=") + plane}, 2, "plane");
   }
+}
+
+TEST_F(BadInput, OutputThatNobodyTakesIsOne) {
+  const auto cloud = file("c.xyz", cylinder());
+  for (const auto& arguments : std::vector<std::vector<std::string>>{
+           {"--help"}, {"--version"}, {"girth", "--help"}, {"girth", cloud, "--plane", kPlane}}) {
+    expect_failure(arguments, 1, "No space left", test::Stdout::kFullDisk);
+    expect_failure(arguments, 1, "Bad file descriptor", test::Stdout::kClosed);
+  }
+}
+
+TEST_F(BadInput, NothingIsPrintedIntoAFileThatTookTheNumberOfStdout) {
+  const auto visit = folder_.path() / "visit";
+  expect_failure({"simulate", "--out", visit, "--subject", "cylinder", "--noise", "none",
+                  "--frames", "1", "--cameras", "1"},
+                 1, "Bad file descriptor", test::Stdout::kClosed);
+  const auto recording = read_recording(visit);
+  ASSERT_TRUE(recording) << recording.error().line();
+  EXPECT_TRUE(read_recorded_frames(*recording));
+}
+
+TEST_F(BadInput, SettingsThatAreNoTomlSayWhatToWrite) {
+  expect_failure(
+      {"record", "--out", folder_.path() / "new", "--config", file("s.toml", "\xff\x01")}, 1,
+      "write TOML");
 }
 
 TEST_F(BadInput, HelpAndVersionAreZero) {

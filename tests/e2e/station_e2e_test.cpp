@@ -103,6 +103,45 @@ TEST(Station, IsReachedByEveryCommand) {
   EXPECT_EQ(leftovers(station.store()), 0U);
 }
 
+TEST(Station, FailsInOneLineThatHelpsWhenACommandCannotBeDone) {
+  StationProcess station;
+  station.start();
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0);
+  ASSERT_EQ(station.run_instep("scan").exit_code, 0);
+  const auto expect_failure = [&](const std::string& command, const std::string& said) {
+    const auto output = station.run_instep(command);
+    EXPECT_EQ(output.exit_code, 1) << command;
+    EXPECT_THAT(output.text, HasSubstr(said)) << command;
+    EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
+  };
+  expect_failure("show ../../../etc/passwd", "instep list");
+  expect_failure("delete ../x", "instep list");
+  expect_failure("delete latest", "instep list");
+  expect_failure("cancel", "instep scan");
+  expect_failure("export latest --out /proc/none", "check the name");
+  expect_failure("export latest --out ''", "choose another name");
+  for (const auto* command : {"list", "show latest", "status", "watch --until-result 30"}) {
+    EXPECT_EQ(station.run_instep(command + std::string(" >/dev/full")).exit_code, 1) << command;
+  }
+}
+
+TEST(Station, ExportsAScanWholeOrNotAtAll) {
+  StationProcess station;
+  station.start();
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0);
+  ASSERT_EQ(station.run_instep("scan").exit_code, 0);
+  const auto disk = station.folder() / "disk";
+  std::filesystem::create_directory(disk);
+  if (::geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0) {
+    GTEST_SKIP() << "needs the right to mount a small disk";
+  }
+  const auto full = station.run_instep("export latest --out " + disk.string());
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_THAT(full.text, HasSubstr("free some disk space"));
+  EXPECT_TRUE(std::filesystem::is_empty(disk));
+  ::umount(disk.c_str());
+}
+
 TEST(Station, IsSaidNotToRunByEveryCommandInOneLine) {
   const StationProcess station;
   for (const auto* command : {"scan", "status", "watch", "list", "show", "export latest",
@@ -132,6 +171,37 @@ TEST(Station, EndsWithinASecondOfSigtermInTheMiddleOfAScan) {
     check_results(station.store(), count);
     EXPECT_EQ(leftovers(station.store()), 0U);
     EXPECT_FALSE(std::filesystem::exists(station.folder() / "control.sock"));
+  }
+}
+
+/// Of its memory, what is in RAM.
+double resident_mb(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.starts_with("VmRSS:")) return std::stod(line.substr(6)) * 1024.0 / 1.0e6;
+  }
+  return 0.0;
+}
+
+TEST(Station, RestsIn40MbAfterScansOfWholeFrames) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer keeps memory of its own";
+#endif
+  StationProcess station;
+  station.write_settings(
+      "[[camera]]\nkind = \"simulated\"\n"
+      "[capture]\nframes_per_camera = 15\nwarmup_frames = 0\n"
+      "[simulation]\nwidth_px = 640\nheight_px = 480\ncameras = 4\npacing = \"fast\"\n"
+      "truth = false\n");
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  for (int scan = 0; scan < 3; ++scan) {
+    const auto output = station.run_instep("scan");
+    ASSERT_EQ(output.exit_code, 0) << output.text;
+    const double resident = resident_mb(station.process());
+    EXPECT_GT(resident, 1.0);
+    EXPECT_LT(resident, 40.0);
   }
 }
 

@@ -24,10 +24,12 @@ std::string text_of(const std::string& file) {
 
 }  // namespace
 
-ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments) {
+ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments,
+                       Stdout to) {
   const TemporaryFolder folder;
   const std::string program = built_programs() / name;
-  const std::string output = folder.path() / "output";
+  const std::string output =
+      to == Stdout::kFullDisk ? "/dev/full" : (folder.path() / "output").string();
   const std::string errors = folder.path() / "errors";
   std::vector<std::string> words = arguments;
   words.insert(words.begin(), name);
@@ -42,6 +44,7 @@ ProgramRun run_program(const std::string& name, const std::vector<std::string>& 
                                    0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT,
                                    0600);
+  if (to == Stdout::kClosed) posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);
   pid_t child = 0;
   const int failure =
       posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
@@ -49,8 +52,8 @@ ProgramRun run_program(const std::string& name, const std::vector<std::string>& 
   if (failure != 0) throw std::runtime_error("cannot start " + program);
   int status = 0;
   waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(output),
-          text_of(errors)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+          to == Stdout::kCaptured ? text_of(output) : "", text_of(errors)};
 }
 
 }  // namespace instep::test

@@ -12,7 +12,11 @@ struct ProgramRun {
   std::string errors;
 };
 
+/// Where the program's stdout goes.
+enum class Stdout { kCaptured, kClosed, kFullDisk };
+
 /// Runs one of this project's programs with arguments and no terminal; throws if it cannot start.
-ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments);
+ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments,
+                       Stdout to = Stdout::kCaptured);
 
 }  // namespace instep::test

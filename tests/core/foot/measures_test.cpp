@@ -154,6 +154,17 @@ TEST(Measures, WithholdWhatHangsOnAMissingLandmark) {
   EXPECT_NE(set->find("ball_girth"), nullptr);
 }
 
+TEST(Measures, AreGivenUpWhenToldSoAfterAnyOne) {
+  const auto foot = prepared(FootBody{}.points());
+  for (std::size_t k = 1; k <= 6; ++k) {
+    std::size_t asked = 0;
+    const auto set = measure_foot(foot, {}, [&] { return ++asked < k; });
+    ASSERT_FALSE(set) << k;
+    EXPECT_EQ(set.error().code, ErrorCode::kCancelled);
+    EXPECT_EQ(asked, k);
+  }
+}
+
 TEST(Measures, RefuseAFootWithoutLandmarks) {
   const auto set = measure_foot(FootScan{});
   ASSERT_FALSE(set);

@@ -263,5 +263,23 @@ TEST(FuseViews, IsTheSameWithAThreadForEachView) {
   EXPECT_EQ(alone->warnings, together->warnings);
 }
 
+TEST(FuseViews, GivesUpWhenToldSoAfterAnyPiece) {
+  std::size_t pieces = 0;
+  const auto whole = fuse_views(good_views(), at_zero(), one_after_the_other, [&] {
+    ++pieces;
+    return true;
+  });
+  ASSERT_TRUE(whole);
+  EXPECT_GE(pieces, 2 * good_views().size() + whole->feet.size());
+  for (std::size_t k = 1; k <= pieces; ++k) {
+    std::size_t asked = 0;
+    const auto cut =
+        fuse_views(good_views(), at_zero(), one_after_the_other, [&] { return ++asked < k; });
+    ASSERT_FALSE(cut) << k;
+    EXPECT_EQ(cut.error().code, ErrorCode::kCancelled);
+    EXPECT_EQ(asked, k) << "it went on after the cancel";
+  }
+}
+
 }  // namespace
 }  // namespace instep

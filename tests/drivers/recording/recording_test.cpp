@@ -292,5 +292,17 @@ TEST(RecordingWriter, TellsThatAnEmptyRecordingIsNone) {
   EXPECT_EQ(writer->finish().error().code, ErrorCode::kInsufficientData);
 }
 
+TEST(Recording, IsNotReadIntoMemoryBeyondTwoGigabytes) {
+  Recording recording = test::small_header();
+  auto& camera = recording.cameras[0].geometry;
+  camera.intrinsics.width = 8192;
+  camera.intrinsics.height = 8192;
+  recording.frames.assign(17, RecordedFrame{camera.id, "0.png", {}});
+  const auto frames = read_recorded_frames(recording);
+  ASSERT_FALSE(frames);
+  EXPECT_EQ(frames.error().code, ErrorCode::kUnsupported);
+  EXPECT_NE(frames.error().advice.find("fewer frames"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace instep

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/geometry/polygon.h"
+#include "core/girth/girth.h"
+#include "core/girth/loop_choice.h"
+#include "core/girth/mesh_section.h"
+#include "core/girth/plane_band.h"
+#include "core/girth/section_gaps.h"
+#include "core/surface/grown_mesh.h"
+
+namespace instep {
+namespace {
+
+/// Half-width of what is meshed: the triangles at the plane are then as they would be in a mesh of
+/// the whole body.
+constexpr double kMeshedInSpacings = 4.0;
+/// Widest hole that is bridged, against the tape's length.
+constexpr double kWidestBridge = 0.25;
+/// A stretch without a seen point that is worth a warning, in spacings.
+constexpr double kNotableGapInSpacings = 6.0;
+/// Noise up to this part of the spacing hardly roughens a mesh.
+constexpr double kHarmlessNoise = 0.05;
+/// A surface is cut into few pieces; what falls into more is a crowd of points without one.
+constexpr std::size_t kMostPieces = 100;
+
+/// The part of a band that is meshed, in the band's own coordinates.
+struct MeshedBand {
+  TriangleMesh mesh;
+  std::vector<bool> seen;  ///< for each corner
+};
+
+MeshedBand mesh_of(const PlaneBand& band) {
+  std::vector<Eigen::Vector3d> places;
+  std::vector<bool> seen;
+  for (std::size_t i = 0; i < band.points.size(); ++i) {
+    const auto& place = band.points[i].position;
+    if (std::abs(place.z()) > kMeshedInSpacings * band.spacing) continue;
+    places.push_back(place);
+    seen.push_back(band.seen[i]);
+  }
+  return {grow_mesh(places), std::move(seen)};
+}
+
+/// The tape plane in the band's coordinates.
+TapePlane plane_of_band() {
+  return TapePlane::through({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).value();
+}
+
+/// The lines in which the plane cuts the mesh, with its holes bridged as far as is allowed.
+Result<std::vector<SectionLine>> section_of(const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector2d> crossings;
+  const auto pieces = cut(mesh, plane_of_band(), 0.0);
+  for (const auto& piece : pieces) {
+    crossings.insert(crossings.end(), piece.points.begin(), piece.points.end());
+  }
+  if (pieces.empty() || pieces.size() > kMostPieces) {
+    return fail(ErrorCode::kInsufficientData,
+                "the points near the tape plane form no surface that a mesh could follow",
+                "scan again, or use the rbf method");
+  }
+  const double tape = perimeter(convex_hull(std::move(crossings)));
+  auto lines = cut(mesh, plane_of_band(), kWidestBridge * tape);
+  if (!lines.front().closed) {
+    return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
+                "scan the body all round, or move the plane");
+  }
+  return lines;
+}
+
+/// Longest stretch of a contour on the tape plane without a seen corner of a triangle that the
+/// plane cuts, in millimetres.
+double gap_under(const std::vector<Eigen::Vector2d>& contour, const PlaneBand& band,
+                 const MeshedBand& meshed) {
+  const auto& places = meshed.mesh.positions;
+  std::vector<bool> counts(places.size(), false);
+  double longest_edge = 0.0;
+  for (const auto& corners : meshed.mesh.triangles) {
+    const auto above = std::count_if(corners.begin(), corners.end(),
+                                     [&](auto corner) { return places[corner].z() >= 0.0; });
+    if (above == 0 || above == 3) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      counts[corners[k]] = meshed.seen[corners[k]];
+      const double edge = (places[corners[k]] - places[corners[(k + 1) % 3]]).norm();
+      longest_edge = std::max(longest_edge, edge);
+    }
+  }
+  std::vector<Eigen::Vector2d> evidence;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (counts[i]) evidence.push_back(band.to_plane(places[i].head<2>()));
+  }
+  return largest_gap(contour, evidence, band.unit_mm * longest_edge);
+}
+
+}  // namespace
+
+Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
+                            const GirthOptions& options) {
+  if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  const auto band = band_at(cloud, plane, options.sigma_mm);
+  if (!band) return tl::make_unexpected(band.error());
+  const MeshedBand meshed = mesh_of(*band);
+  auto lines = section_of(meshed.mesh);
+  if (!lines) return tl::make_unexpected(lines.error());
+
+  Girth girth;
+  std::vector<std::vector<Eigen::Vector2d>> loops;
+  for (auto& line : *lines) {
+    if (!line.closed) continue;
+    for (auto& point : line.points) point = band->to_plane(point);
+    loops.push_back(std::move(line.points));
+  }
+  girth.contour = choose_loop(std::move(loops), girth.warnings);
+  girth.contact_mm = perimeter(girth.contour);
+  girth.stretched_mm = perimeter(convex_hull(girth.contour));
+  girth.points = cloud.size();
+  girth.band_points = band->used;
+  girth.sigma_mm = band->unit_mm * band->sigma;
+  girth.largest_gap_mm = gap_under(girth.contour, *band, meshed);
+  if (girth.largest_gap_mm > kNotableGapInSpacings * band->unit_mm * band->spacing) {
+    girth.warnings.push_back("a part of the section that no camera saw was bridged");
+  }
+  if (band->sigma > kHarmlessNoise * band->spacing) {
+    girth.warnings.push_back(
+        "a mesh follows the noise of its points, so both lengths are too long");
+  }
+  return girth;
+}
+
+}  // namespace instep

@@ -1,0 +1,199 @@
+#include "daemon/service/station_service.h"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <future>
+#include <nlohmann/json.hpp>
+
+#include "daemon/control/control_client.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+
+constexpr auto kLong = 30000ms;
+constexpr auto kWatchdog = 400ms;
+
+/// The socket on which systemd would hear the service.
+class Notifications {
+ public:
+  explicit Notifications(const std::filesystem::path& path)
+      : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path.c_str(), path.string().size());
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  }
+  ~Notifications() { ::close(socket_); }
+  Notifications(const Notifications&) = delete;
+  Notifications& operator=(const Notifications&) = delete;
+
+  /// True as soon as a message holds `text`.
+  bool wait_for(const std::string& text, std::chrono::milliseconds limit) {
+    const auto deadline = steady_clock::now() + limit;
+    while (true) {
+      const auto left =
+          std::chrono::ceil<std::chrono::milliseconds>(deadline - steady_clock::now());
+      pollfd waiting{socket_, POLLIN, 0};
+      if (left.count() <= 0 || ::poll(&waiting, 1, static_cast<int>(left.count())) <= 0) {
+        return false;
+      }
+      std::array<char, 4096> message;
+      const auto got = ::recv(socket_, message.data(), message.size(), 0);
+      const std::string said(message.data(), static_cast<std::size_t>(std::max<ssize_t>(0, got)));
+      if (said.find(text) != std::string::npos) return true;
+    }
+  }
+
+  void forget() {
+    std::array<char, 4096> message;
+    while (::recv(socket_, message.data(), message.size(), MSG_DONTWAIT) >= 0) {
+    }
+  }
+
+ private:
+  int socket_;
+};
+
+Settings small_station(const std::filesystem::path& folder) {
+  Settings settings;
+  settings.cameras = {CameraSettings{}};
+  settings.pedal.kind = PedalKind::kNone;
+  settings.capture.frames_per_camera = 1;
+  settings.capture.warmup_frames = 0;
+  settings.simulation.cameras = 1;
+  settings.simulation.width_px = 64;
+  settings.simulation.height_px = 48;
+  settings.simulation.pacing = SimulatedPacing::kAsFastAsPossible;
+  settings.simulation.truth = false;
+  settings.store.root = folder / "scans";
+  settings.control.socket = folder / "control.sock";
+  settings.log.level = LogLevel::kError;
+  return settings;
+}
+
+/// A service in this process whose measuring is what a test makes of it.
+class MeasuringService : public testing::Test {
+ protected:
+  MeasuringService() : notifications_(folder_.path() / "notify.sock") {
+    ::setenv("NOTIFY_SOCKET", (folder_.path() / "notify.sock").c_str(), 1);
+    ::setenv("WATCHDOG_USEC", std::to_string(std::chrono::microseconds(kWatchdog).count()).c_str(),
+             1);
+    ::unsetenv("WATCHDOG_PID");
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  }
+  ~MeasuringService() override {
+    ::unsetenv("NOTIFY_SOCKET");
+    ::unsetenv("WATCHDOG_USEC");
+  }
+
+  /// Runs the service and begins a scan; returns once it measures.
+  void begin(MeasureCapture measure) {
+    const auto settings = small_station(folder_.path());
+    running_ = std::async(std::launch::async, [this, settings, measure] {
+      auto service = StationService::create(
+          settings, [settings] { return Result<Settings>(settings); },
+          [this, measure](const Capture& capture, const PipelineSettings& pipeline,
+                          const ScanProgress& progress) {
+            measuring_.set_value();
+            return measure(capture, pipeline, progress);
+          });
+      ended_.set_value(service ? (*service)->run() : tl::make_unexpected(service.error()));
+    });
+    ASSERT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+    auto client = ControlClient::connect(folder_.path() / "control.sock");
+    ASSERT_TRUE(client);
+    ASSERT_TRUE(client->ask("scan"));
+    ASSERT_EQ(measuring_.get_future().wait_for(kLong), std::future_status::ready);
+  }
+
+  /// What run() gave, within a second of SIGTERM; nothing if it was not over by then.
+  std::optional<bool> end() {
+    ::kill(::getpid(), SIGTERM);
+    auto future = ended_.get_future();
+    if (future.wait_for(1000ms) != std::future_status::ready) return std::nullopt;
+    const auto ended = future.get();
+    return ended && *ended;
+  }
+
+  bool stored_anything() const {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(folder_.path() / "scans")) {
+      if (!entry.is_directory()) return true;
+    }
+    return false;
+  }
+
+  test::TemporaryFolder folder_;
+  Notifications notifications_;
+
+ private:
+  std::promise<void> measuring_;
+  std::promise<Result<bool>> ended_;
+  std::future<void> running_;  ///< last, since its thread uses the others
+};
+
+tl::unexpected<Error> given_up() {
+  return fail(ErrorCode::kCancelled, "given up", "");
+}
+
+TEST_F(MeasuringService, EndsCleanlyWithinASecondWhenItMeasuresForLong) {
+  begin([](const Capture&, const PipelineSettings&,
+           const ScanProgress& progress) -> Result<std::vector<ScanRecord>> {
+    while (progress("girths", 0.5)) ::poll(nullptr, 0, 20);  // a piece of work
+    return given_up();
+  });
+  EXPECT_EQ(end(), true);
+  EXPECT_FALSE(stored_anything());
+}
+
+TEST_F(MeasuringService, FeedsTheWatchdogThroughLongWorkThatMovesOn) {
+  begin([](const Capture&, const PipelineSettings&,
+           const ScanProgress& progress) -> Result<std::vector<ScanRecord>> {
+    while (progress("girths", 0.5)) ::poll(nullptr, 0, 20);
+    return given_up();
+  });
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kWatchdog));
+  EXPECT_EQ(end(), true);
+}
+
+TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenTheWorkHangsAndEndsWithinASecond) {
+  // Shared, since the thread that hangs outlives the service.
+  const auto release = std::make_shared<std::promise<void>>();
+  const auto over = std::make_shared<std::promise<void>>();
+  begin([until = release->get_future().share(), over](
+            const Capture&, const PipelineSettings&,
+            const ScanProgress& progress) -> Result<std::vector<ScanRecord>> {
+    progress("girths", 0.5);
+    until.wait();
+    over->set_value();
+    return given_up();
+  });
+  // One look may still see the last step.
+  (void)notifications_.wait_for("WATCHDOG=1", kWatchdog / 4);
+  (void)notifications_.wait_for("WATCHDOG=1", kWatchdog / 4);
+  notifications_.forget();
+  EXPECT_FALSE(notifications_.wait_for("WATCHDOG=1", 2 * kWatchdog));
+  EXPECT_EQ(end(), false);
+  EXPECT_FALSE(stored_anything());
+  release->set_value();
+  over->get_future().wait();
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,110 @@
+#include "daemon/station/scan_session.h"
+
+#include <gtest/gtest.h>
+
+#include "daemon/store/posix_storage.h"
+#include "sim/simulated_station.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+constexpr const char* kStages[] = {"fuse frames", "fuse views", "align", "landmarks", "girths"};
+
+std::shared_ptr<CameraSet> small_cameras() {
+  SimulationSettings settings;
+  settings.cameras = 3;
+  settings.width_px = 160;
+  settings.height_px = 120;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  return std::make_shared<CameraSet>(std::move(station->cameras));
+}
+
+std::size_t files_in(const std::filesystem::path& folder) {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) ++count;
+  }
+  return count;
+}
+
+/// A scan whose measuring is cancelled at its k-th step.
+class CancelledScan : public testing::Test {
+ protected:
+  CancelledScan() : cameras_(small_cameras()) {}
+
+  struct Run {
+    ScanOutcome outcome;
+    std::size_t steps = 0;  ///< of the measuring
+    std::map<std::string, std::size_t> steps_of_stage;
+    std::uint64_t progress = 0;  ///< that the watchdog saw during the measuring
+    std::size_t told_stages = 0;
+    std::size_t files = 0;
+  };
+
+  Run run(std::optional<std::size_t> cancel_at) {
+    const test::TemporaryFolder folder;
+    Run run;
+    TaskProgress progress;
+    std::atomic<bool> cancelled = false;
+    ScanTools tools;
+    tools.cameras = cameras_;
+    tools.capture.frames_per_camera = 2;
+    tools.capture.warmup_frames = 0;
+    tools.pipeline.refine_views = true;
+    tools.platform_height_mm = 0.0;
+    tools.store =
+        std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path() / "scans");
+    EXPECT_TRUE(tools.store->prepare());
+    tools.measure = [&](const Capture& capture, const PipelineSettings& settings,
+                        const ScanProgress& told) {
+      const auto before = progress.steps();
+      auto records = measure_capture(capture, settings, [&](std::string_view stage, double done) {
+        ++run.steps_of_stage[std::string(stage)];
+        if (++run.steps == cancel_at) cancelled = true;
+        return told(stage, done);
+      });
+      run.progress = progress.steps() - before;
+      return records;
+    };
+    ScanListener listener;
+    listener.on_step = [](ScanStep) {};
+    listener.on_progress = [&](std::string_view, double) { ++run.told_stages; };
+    run.outcome = run_scan(tools, cancelled, progress, listener);
+    run.files = files_in(folder.path());
+    return run;
+  }
+
+ private:
+  std::shared_ptr<CameraSet> cameras_;
+};
+
+TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
+  const auto whole = run(std::nullopt);
+  ASSERT_FALSE(whole.outcome.error) << whole.outcome.error->line();
+  EXPECT_EQ(whole.files, 3U);
+  EXPECT_EQ(whole.progress, whole.steps);
+  EXPECT_EQ(whole.steps_of_stage.at("fuse frames"), 1U + 3 * 2);
+  // Three cameras twice, 40 iterations at least, the stages between, one foot.
+  EXPECT_GE(whole.steps_of_stage.at("fuse views"), 1U + 2 * 3 + 40 + 3 + 1);
+  EXPECT_EQ(whole.steps_of_stage.at("girths"), 1U + 6);
+  EXPECT_EQ(whole.told_stages, 1 + std::size(kStages) + 2);  // capture, ..., store, done
+}
+
+TEST_F(CancelledScan, EndsAtOnceAndLeavesNothingAtEveryStep) {
+  const auto whole = run(std::nullopt);
+  ASSERT_FALSE(whole.outcome.error);
+  for (std::size_t k = 1; k <= whole.steps; ++k) {
+    const auto cut = run(k);
+    ASSERT_TRUE(cut.outcome.error) << k;
+    EXPECT_EQ(cut.outcome.error->code, ErrorCode::kCancelled) << cut.outcome.error->line();
+    EXPECT_FALSE(cut.outcome.store_failed);
+    EXPECT_TRUE(cut.outcome.stored.empty());
+    EXPECT_EQ(cut.steps, k) << "it went on after the cancel";
+    EXPECT_EQ(cut.files, 0U) << k;
+  }
+}
+
+}  // namespace
+}  // namespace instep
