@@ -143,6 +143,25 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
   scene.standing_height_mm = settings.platform_height_mm.value_or(points[lowest].z());
 }
 
+/// Where views disagree, keeps the better founded one. False if cancelled.
+bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings& settings,
+                    const Work& work, FusedScene& scene, std::vector<FootPoints>& found) {
+  std::vector<SeenSurface> surfaces(views.size());
+  std::vector<std::vector<std::size_t>> kept(views.size());
+  const bool looked = work.for_each_view(views.size(), [&](std::size_t i) {
+    surfaces[i] = seen_surface(views[i].posed(), found[i].points.cloud, settings.overruling);
+  });
+  const bool voted = looked && work.for_each_view(views.size(), [&](std::size_t i) {
+    kept[i] = points_not_overruled(surfaces, i, settings.overruling);
+  });
+  if (!voted) return false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    scene.diagnostics.overruled += found[i].points.cloud.size() - kept[i].size();
+    found[i].points = subset(found[i].points, kept[i]);
+  }
+  return true;
+}
+
 /// The points of the feet, of all views.
 Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
                                 const FusionSettings& settings, const Work& work,
@@ -150,7 +169,7 @@ Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
   std::vector<FootPoints> found(views.size());
   const bool done = work.for_each_view(
       views.size(), [&](std::size_t i) { found[i] = foot_points(views, i, settings, scene); });
-  if (!done) return cancelled();
+  if (!done || !drop_overruled(views, settings, work, scene, found)) return cancelled();
   ViewedCloud gathered;
   for (const auto& [points, platform_pixels, grazing_pixels, seen_through] : found) {
     gathered.cloud.append(points.cloud);

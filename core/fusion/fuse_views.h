@@ -10,6 +10,7 @@
 #include "core/fusion/deprojector.h"
 #include "core/fusion/depth_frame.h"
 #include "core/fusion/outliers.h"
+#include "core/fusion/overruled.h"
 #include "core/fusion/platform.h"
 #include "core/fusion/registration.h"
 #include "core/fusion/separate_feet.h"
@@ -49,6 +50,7 @@ struct FusionSettings {
   PlatformSettings platform;
   RegistrationSettings registration;
   OutlierSettings outliers;
+  OverruleSettings overruling;
   SeparationSettings separation;
   SoleSettings sole;
 };
@@ -61,7 +63,8 @@ struct FusionDiagnostics {
   std::size_t grazing_pixels = 0;   ///< dropped for their slant, or for want of a normal
   std::size_t platform_pixels = 0;  ///< taken away with the platform
   std::size_t outliers = 0;
-  std::size_t strays = 0;  ///< dropped as part of no foot
+  std::size_t overruled = 0;  ///< points where a better founded view saw another surface
+  std::size_t strays = 0;     ///< dropped as part of no foot
   bool platform_found = false;
   double platform_scatter_mm = 0.0;
   double platform_tilt_deg = 0.0;

@@ -14,7 +14,7 @@ namespace instep {
 /// no camera saw, and a girth that runs over them says so.
 enum class PointOrigin : std::uint8_t {
   kSeen,      ///< measured by a camera or read from a file
-  kPlatform,  ///< put on the platform under a sole that no camera saw
+  kPlatform,  ///< put under a foot where no camera saw it: on the platform, or close above it
 };
 
 /// Points on a surface, in millimetres. Every list but `positions` is either empty (not known) or

@@ -63,7 +63,7 @@ TEST(CloseSole, LeavesTheStretchedGirthOfARoundedBottomTrue) {
   }
 }
 
-TEST(CloseSole, MarksItsPointsAndPutsThemOnThePlatform) {
+TEST(CloseSole, MarksItsPointsAndRestsThemOnThePlatform) {
   auto cloud = rounded_wall(8, 45);
   for (auto& point : cloud.positions) point.z() += 33.0;
   const std::size_t seen = cloud.size();
@@ -73,9 +73,30 @@ TEST(CloseSole, MarksItsPointsAndPutsThemOnThePlatform) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     EXPECT_EQ(cloud.was_seen(i), i < seen);
     if (i < seen) continue;
+    const double reach = cloud.positions[i].head<2>().norm();
+    EXPECT_LT(reach, kRadius);
+    EXPECT_GE(cloud.positions[i].z(), 33.0);
+    EXPECT_LT(cloud.normals[i].z(), 0.0);
+    if (reach > kRadius - 8 - 4) continue;
     EXPECT_EQ(cloud.positions[i].z(), 33.0);
     EXPECT_EQ(cloud.normals[i], -Vector3d::UnitZ());
-    EXPECT_LT(cloud.positions[i].head<2>().norm(), kRadius);
+  }
+}
+
+TEST(CloseSole, GoesOnWithTheRoundingThatWasSeen) {
+  for (const double rounding : {6.0, 12.0, 20.0}) {
+    auto cloud = rounded_wall(rounding, 45);
+    close_sole(cloud, 0.0);
+    int on_rounding = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (cloud.was_seen(i)) continue;
+      const double beyond = cloud.positions[i].head<2>().norm() - (kRadius - rounding);
+      const double height =
+          beyond > 0 ? rounding - std::sqrt(rounding * rounding - beyond * beyond) : 0.0;
+      EXPECT_NEAR(cloud.positions[i].z(), height, 0.7) << rounding << " " << beyond;
+      on_rounding += height > 0.5 ? 1 : 0;
+    }
+    EXPECT_GT(on_rounding, 50);
   }
 }
 
@@ -92,24 +113,31 @@ TEST(CloseSole, AddsNothingWhereTheSoleWasSeen) {
 }
 
 TEST(CloseSole, KeepsOutOfTheHollowUnderALeaningWall) {
-  // The wall on the side of +x ends 15 mm above the platform and leans in by 30 degrees: an arch.
-  PointCloud cloud = rounded_wall(6, 45);
+  // On the side of +x the wall ends 15 mm above the platform and leans in by 30 degrees below 35.
   PointCloud arched;
-  const Vector3d lean(std::cos(0.52), 0, -std::sin(0.52));
+  const PointCloud cloud = rounded_wall(6, 45);
+  const double slope = std::tan(std::numbers::pi / 6);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto& point = cloud.positions[i];
+    Vector3d point = cloud.positions[i];
     if (point.x() < 20) {
       add(arched, point, cloud.normals[i]);
+    } else if (point.z() > 35) {
+      add(arched, point, cloud.normals[i]);
     } else if (point.z() > 15) {
-      add(arched, point, point.z() < 20 ? lean : cloud.normals[i]);
+      const Vector3d out = cloud.normals[i];
+      point -= (35 - point.z()) * slope * out;
+      add(arched, point, (out - slope * Vector3d::UnitZ()).normalized());
     }
   }
   close_sole(arched, 0.0);
+  int in_hollow = 0;
   for (std::size_t i = 0; i < arched.size(); ++i) {
-    if (!arched.was_seen(i) && std::abs(arched.positions[i].y()) < 15) {
-      EXPECT_LT(arched.positions[i].x(), kRadius - 10);
-    }
+    if (arched.was_seen(i) || std::abs(arched.positions[i].y()) > 15) continue;
+    const bool rests = arched.positions[i].z() < 1.0;
+    EXPECT_FALSE(rests && arched.positions[i].x() > kRadius - 20);
+    in_hollow += arched.positions[i].z() > 3.0 ? 1 : 0;
   }
+  EXPECT_GT(in_hollow, 20);
 }
 
 TEST(CloseSole, SpansAnArchWithoutTakingTheContactBesideIt) {
@@ -142,6 +170,10 @@ TEST(CloseSole, SpansAnArchWithoutTakingTheContactBesideIt) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.was_seen(i)) continue;
     const auto& point = cloud.positions[i];
+    if (std::abs(point.x()) < 10 && point.y() < 60) {
+      EXPECT_NEAR(point.z(), 60 - std::sqrt(3600 - std::pow(60 - point.y(), 2)), 0.6);
+    }
+    if (point.z() > 0.1) continue;
     if (std::abs(point.x()) < 10) under_arch = std::min(under_arch, point.y());
     if (std::abs(point.x()) > 50 && std::abs(point.x()) < 80) beside = std::min(beside, point.y());
   }

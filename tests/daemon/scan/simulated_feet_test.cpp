@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "daemon/scan/scan_pipeline.h"
+#include "sim/simulated_station.h"
+
+namespace instep {
+namespace {
+
+constexpr int kFrames = 15;
+
+Capture capture_of(SimulatedStation& station) {
+  Capture capture;
+  capture.simulated = true;
+  capture.platform_height_mm = station.platform_height_mm;
+  for (const auto& camera : station.cameras) {
+    capture.cameras.push_back(camera->description());
+    EXPECT_TRUE(camera->start());
+    for (int i = 0; i < kFrames; ++i) {
+      auto frame = camera->next_frame(std::chrono::seconds(1));
+      EXPECT_TRUE(frame);
+      if (frame) capture.frames.push_back(std::move(*frame));
+    }
+  }
+  return capture;
+}
+
+struct Person {
+  std::uint64_t seed;
+  Side side;
+};
+
+class SimulatedFeet : public testing::TestWithParam<Person> {};
+
+/// No camera sees the sole, and under a high arch a hand's breadth of skin has to be guessed: the
+/// girths are where that shows.
+TEST_P(SimulatedFeet, AreMeasuredWithinAMillimetre) {
+  SimulationSettings settings;
+  settings.seed = GetParam().seed;
+  settings.side = GetParam().side;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  ASSERT_TRUE(station) << station.error().line();
+  const auto truth = station->truth();
+  ASSERT_TRUE(truth) << truth.error().line();
+  const auto records = measure_capture(capture_of(*station), {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  ASSERT_EQ(records->size(), 1U);
+  for (const auto& [id, value] : truth->front().measures) {
+    const Measure* measure = records->front().measures.find(id);
+    ASSERT_NE(measure, nullptr) << id;
+    EXPECT_NEAR(measure->value_mm, value, 1.0) << id;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfSomePeople, SimulatedFeet,
+                         testing::Values(Person{2, Side::kLeft}, Person{5, Side::kRight},
+                                         Person{7, Side::kRight}),
+                         [](const auto& person) {
+                           return "Seed" + std::to_string(person.param.seed);
+                         });
+
+}  // namespace
+}  // namespace instep
