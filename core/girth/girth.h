@@ -54,10 +54,12 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 
 /// The paper's Method 3 as it is written (sections 3 to 5), for comparison: its octree of RBF
-/// surfaces (see OctreeSurface), steps 1 to 8 and eq. 10, with all of their weaknesses. Where
-/// normals are turned wrongly or points are few it may be wrong by tens of millimetres and not know
-/// it; it goes through noise instead of averaging it, takes a hole for the spacing of the points,
-/// and its contact length is only right where every ray from the middle meets the skin once.
+/// surfaces (see OctreeSurface), steps 1 to 8 and eq. 10, with all of their weaknesses. It goes
+/// through noise instead of averaging it (10 mm too long for 0.5 mm), takes a hole for the spacing
+/// of the points, and may be wrong by tens of millimetres where the points are few or uneven and
+/// not know it. Its contact length joins the intersections of all rows of points in the order in
+/// which they lie round the middle: right only where every ray from there meets the skin once, and
+/// too long by all that neighbours differ.
 ///
 /// What the paper leaves open is chosen in girth_by_paper.cpp. It has no interval, and a sigma that
 /// is known changes nothing. Refuses with kInsufficientData where the surface is torn so that no

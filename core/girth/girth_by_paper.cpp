@@ -242,6 +242,7 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
   girth.band_points = part->places.size();
   girth.sigma_mm = options.sigma_mm.value_or(0.0);
   girth.largest_gap_mm = largest_gap(hull, seen_within(*part, section.threshold()));
+  girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
   if (const std::size_t missed = section.initial() - met.size(); missed > 0) {
     girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(missed) + " of " +
                              std::to_string(section.initial()) + " points");
