@@ -24,8 +24,7 @@ struct ConstrainedSurfaceOptions {
 ///
 /// Millimetres, in the frame of the points; wound counter-clockwise seen from outside as far as the
 /// side could be told. Fails as OctreeSurface::reconstruct(), with kInvalidInput for cubes that are
-/// too small, and with kInsufficientData where nothing of the surface is left. The columns along
-/// which the rule is asked cost O(n) each.
+/// too small, and with kInsufficientData where nothing of the surface is left.
 Result<TriangleMesh> constrained_surface(const std::vector<Eigen::Vector3d>& points,
                                          const ConstrainedSurfaceOptions& options = {},
                                          const SurfaceProgress& progress = {});

@@ -28,7 +28,8 @@ std::vector<T> pick(const std::vector<T>& list, const std::vector<std::uint32_t>
 }
 
 tl::unexpected<Error> no_surface() {
-  return fail(ErrorCode::kInsufficientData, "the points are too few to determine a surface",
+  return fail(ErrorCode::kInsufficientData,
+              "the points determine no surface: they are too few, or lie on lines",
               "scan again, or give a denser cloud");
 }
 
@@ -63,9 +64,9 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   surface.longest_edge_ = tree.back().length;
   std::size_t solved = 0;
   for (const auto& members : groups) {
-    surface.fields_.push_back(
-        TriharmonicRbf::fit(pick(samples.positions, members), pick(samples.values, members),
-                            std::vector<double>(members.size(), options.lambda)));
+    surface.fields_.push_back(TriharmonicRbf::fit(pick(samples.positions, members),
+                                                  pick(samples.values, members),
+                                                  std::vector<double>(members.size(), 0.0)));
     if (surface.fields_.back()) ++solved;
     report(kPrepared + (1.0 - kPrepared) * static_cast<double>(surface.fields_.size()) /
                            static_cast<double>(groups.size()));

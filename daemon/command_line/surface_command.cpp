@@ -20,19 +20,17 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kExamples =
     R"(Reconstructs the surface through the points by local radial basis functions (r^3, one for each
 cell of an octree) and writes it as triangles, by marching cubes that end where the points end.
-It goes through every point, noise included, closes holes about as wide as the points are apart,
-and needs points that lie evenly: where they do not, the surface is torn. For a girth use
+It goes through every point and closes holes about as wide as the points are apart. It needs
+points that lie evenly and without noise: where they do not, the surface is torn. For a girth use
 'instep girth', which needs no mesh. Examples:
   instep surface foot.ply --out mesh.ply
   instep surface foot.ply --out fine.ply --cube-mm 0.5
-  instep surface scan.ply --out smooth.ply --lambda-mm3 2   (may miss the points, to be smoother)
 Prints what it made as JSON. The file appears whole or not at all.)";
 
 struct SurfaceCommand {
   CloudOptions cloud;
   std::string out;
   std::optional<double> cube_mm;
-  double lambda_mm3 = 0.0;
 };
 
 std::string check_cube(const std::string& text) {
@@ -40,17 +38,11 @@ std::string check_cube(const std::string& text) {
   return cube && *cube >= 0.001 && *cube <= 1000.0 ? "" : "needs a number from 0.001 to 1000";
 }
 
-std::string check_lambda(const std::string& text) {
-  const auto lambda = number_in(text);
-  return lambda && *lambda >= 0.0 && *lambda <= 1e9 ? "" : "needs a number from 0 to 1e9";
-}
-
 Result<void> run(const SurfaceCommand& command) {
   const auto start = Clock::now();
   const auto file = read_cloud(command.cloud);
   if (!file) return tl::make_unexpected(file.error());
   ConstrainedSurfaceOptions options;
-  options.surface.lambda = command.lambda_mm3;
   options.cube_mm = command.cube_mm;
   ProgressLine line;
   const auto mesh = constrained_surface(file->cloud.positions, options, [&](double done) {
@@ -81,11 +73,6 @@ void add_surface_command(CLI::App& app, int& exit_code) {
                    "edge of the cubes, which is about that of the triangles; else a hundredth of "
                    "the cloud's length")
       ->check(check_cube);
-  surface
-      ->add_option("--lambda-mm3", command->lambda_mm3,
-                   "smoothing: how far the surface may miss a point; 0 goes through all")
-      ->check(check_lambda)
-      ->capture_default_str();
   surface->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

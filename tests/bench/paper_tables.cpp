@@ -167,7 +167,8 @@ void table_2() {
   fmt::print(
       "z from the middle of the rings, whose distance is not known; twisted: each ring by half a\n"
       "step. Eq. 10 gives each point one intersection, straight under it: on rings that are not\n"
-      "twisted, no more corners than a ring has points, so at best Method 1's deviation\n\n");
+      "twisted, no more corners than a ring has points, so, if they were exact, Method 1's "
+      "deviation\n\n");
 }
 
 PointCloud some_of(const PointCloud& cloud, std::size_t count, std::uint64_t seed) {

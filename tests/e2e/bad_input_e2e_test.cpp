@@ -122,7 +122,6 @@ TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
   for (const char* bad : {"0", "-1", "nan", "x"}) {
     expect_failure({"surface", cloud, "--out", out, "--cube-mm", bad}, 2, "--cube-mm");
   }
-  expect_failure({"surface", cloud, "--out", out, "--lambda-mm3", "-1"}, 2, "--lambda-mm3");
   expect_failure({"surface", cloud, "--out", out, "--cube-mm", "0.001"}, 1, "larger cubes");
   expect_failure({"surface", folder_.path() / "none.ply", "--out", out}, 1, "No such file");
   expect_failure({"surface", file("three.xyz", "0 0 0\n50 0 0\n0 50 0\n"), "--out", out}, 1,

@@ -42,7 +42,7 @@ AxisRange range_by_steps(const Points& points, double radius, Eigen::Index axis,
 }
 
 TEST(CylinderRule, FollowsThePapersStepsAlongEachAxis) {
-  for (const std::size_t count : {1U, 9U, 10U, 11U, 500U}) {
+  for (const std::size_t count : {1U, 9U, 10U, 11U, 500U, 20000U}) {
     const auto points = random_points(count);
     const CylinderRule rule(points, 0.7);
     for (const auto& place : {Vector3d(0, 0, 0), Vector3d(19, -9, 2), Vector3d(60, 5, 0)}) {

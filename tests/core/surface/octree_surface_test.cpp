@@ -70,18 +70,6 @@ TEST(OctreeSurface, ScalesWithTheUnit) {
   }
 }
 
-TEST(OctreeSurface, LambdaLetsItMissThePoints) {
-  OctreeSurfaceOptions options;
-  options.lambda = 50.0;
-  const auto surface = OctreeSurface::reconstruct(ring(1200), options);
-  ASSERT_TRUE(surface);
-  double farthest = 0.0;
-  for (const auto& point : surface->points()) {
-    farthest = std::max(farthest, std::abs(surface->at(point).value_or(0.0)));
-  }
-  EXPECT_GT(farthest, 1e-5);
-}
-
 TEST(OctreeSurface, IsNotDisturbedByDuplicates) {
   auto points = ring(1200);
   const auto plain = OctreeSurface::reconstruct(points);
