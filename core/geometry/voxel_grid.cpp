@@ -87,6 +87,19 @@ std::vector<std::size_t> VoxelGrid::neighbourhood(std::size_t cell) const {
   return found;
 }
 
+std::vector<std::size_t> VoxelGrid::face_neighbourhood(std::size_t cell) const {
+  constexpr std::size_t kOwnRow = 4;
+  std::vector<std::size_t> found;
+  for (const std::size_t row : {1U, 3U, 4U, 5U, 7U}) {
+    const std::uint64_t level = keys_[cell] + row_shift(row) + 1;
+    const std::uint64_t reach = row == kOwnRow ? 1 : 0;
+    for (std::size_t at = rows_[cell][row]; at < cell_count() && keys_[at] <= level + reach; ++at) {
+      if (keys_[at] + reach >= level) found.push_back(at);
+    }
+  }
+  return found;
+}
+
 std::vector<std::size_t> VoxelGrid::clusters() const {
   std::vector<std::size_t> parents(cell_count());
   std::iota(parents.begin(), parents.end(), std::size_t{0});

@@ -28,6 +28,10 @@ class VoxelGrid {
   /// The occupied cells among a cell and the 26 round it, the cell itself included, ascending.
   std::vector<std::size_t> neighbourhood(std::size_t cell) const;
 
+  /// The occupied cells among a cell and the six that share a face with it, the cell itself
+  /// included, ascending.
+  std::vector<std::size_t> face_neighbourhood(std::size_t cell) const;
+
   /// For each cell the number of its cluster: cells that touch, by face, edge or corner, are of
   /// one cluster. Clusters are numbered from zero by their first cell.
   std::vector<std::size_t> clusters() const;

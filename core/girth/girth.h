@@ -53,6 +53,20 @@ struct Girth {
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 
+/// The paper's Method 3 as it is written (sections 3 to 5), for comparison: its octree of RBF
+/// surfaces (see OctreeSurface), steps 1 to 8 and eq. 10, with all of their weaknesses. It goes
+/// through noise instead of averaging it (10 mm too long for 0.5 mm), takes a hole for the spacing
+/// of the points, and may be wrong by tens of millimetres where the points are few or uneven and
+/// not know it. Its contact length joins the intersections of all rows of points in the order in
+/// which they lie round the middle: right only where every ray from there meets the skin once, and
+/// too long by all that neighbours differ.
+///
+/// What the paper leaves open is chosen in girth_by_paper.cpp. It has no interval, and a sigma that
+/// is known changes nothing. Refuses with kInsufficientData where the surface is torn so that no
+/// ring is left, with kInvalidInput where the plane misses the cloud.
+Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
+                             const GirthOptions& options = {});
+
 /// The paper's Method 1 (section 2.1): the points near the plane, projected on it, and their convex
 /// hull. Knows no skin, so contact equals stretched, with a warning; has no interval.
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,

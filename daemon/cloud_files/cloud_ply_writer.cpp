@@ -1,22 +1,12 @@
 #include "daemon/cloud_files/cloud_ply_writer.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
+#include <cstdint>
 
+#include "daemon/cloud_files/little_endian.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
 namespace {
-
-template <typename T>
-void put(std::string& bytes, T value) {
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
-  bytes.append(raw.data(), raw.size());
-}
 
 std::string header_of(const PointCloud& cloud) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment unit mm\nelement vertex " +
@@ -39,12 +29,13 @@ Result<std::string> cloud_to_ply(const PointCloud& cloud) {
   std::string bytes = header_of(cloud);
   bytes.reserve(bytes.size() + cloud.size() * 41);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) put(bytes, cloud.positions[i][axis]);
+    for (int axis = 0; axis < 3; ++axis) append_little_endian(bytes, cloud.positions[i][axis]);
     for (int axis = 0; axis < 3 && cloud.has_normals(); ++axis) {
-      put(bytes, static_cast<float>(cloud.normals[i][axis]));
+      append_little_endian(bytes, static_cast<float>(cloud.normals[i][axis]));
     }
-    if (cloud.has_sigma()) put(bytes, static_cast<float>(cloud.sigma_mm[i]));
-    if (!cloud.origins.empty()) put(bytes, static_cast<std::uint8_t>(cloud.was_seen(i) ? 0 : 1));
+    if (cloud.has_sigma()) append_little_endian(bytes, static_cast<float>(cloud.sigma_mm[i]));
+    if (!cloud.origins.empty())
+      append_little_endian(bytes, static_cast<std::uint8_t>(cloud.was_seen(i) ? 0 : 1));
   }
   return bytes;
 }

@@ -10,7 +10,7 @@ namespace instep {
 /// that the user chose sets `exit_code`: 0 done, 1 it could not be done (one line on stderr said
 /// why and what to do). Wrong usage (2) is found by the parser.
 
-/// girth, measure: a cloud in a file, no daemon.
+/// girth, measure, surface: a cloud in a file, no daemon.
 void add_cloud_commands(CLI::App& app, int& exit_code);
 
 /// replay, simulate, record: recordings, no daemon.

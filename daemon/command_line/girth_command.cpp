@@ -70,6 +70,7 @@ Result<Girth> measure(const GirthCommand& command, const CloudFile& file, const 
   if (command.method == "hull") return girth_by_hull(file.cloud, plane, options);
   if (command.method == "mesh") return girth_by_mesh(file.cloud, plane, options);
   if (command.method == "rbf") return girth_by_rbf(file.cloud, plane, options);
+  if (command.method == "rbf-paper") return girth_by_paper(file.cloud, plane, options);
   if (file.mesh.empty()) {
     return fail(ErrorCode::kInvalidInput, command.cloud.file + " has no faces to cut",
                 "use --method rbf, or give a mesh");
@@ -111,11 +112,10 @@ void add_girth_command(CLI::App& app, int& exit_code) {
       ->required()
       ->check(check_plane);
   girth
-      ->add_option(
-          "--method", command->method,
-          "rbf (the best), hull (of the points near the plane), mesh (grown from the points), "
-          "section (of the faces)")
-      ->check(CLI::IsMember({"rbf", "hull", "mesh", "section"}))
+      ->add_option("--method", command->method,
+                   "rbf (the best), rbf-paper (as published, for comparison), hull (of the points "
+                   "near the plane), mesh (grown from the points), section (of the faces)")
+      ->check(CLI::IsMember({"rbf", "rbf-paper", "hull", "mesh", "section"}))
       ->capture_default_str();
   girth
       ->add_option("--sigma-mm", command->sigma_mm,

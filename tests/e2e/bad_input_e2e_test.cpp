@@ -39,7 +39,7 @@ class BadInput : public testing::Test {
 
   static void expect_bad_girth(const std::string& cloud, const std::string& said,
                                const std::string& plane = kPlane) {
-    for (const char* method : {"rbf", "hull", "mesh"}) {
+    for (const char* method : {"rbf", "rbf-paper", "hull", "mesh"}) {
       expect_failure({"girth", cloud, "--plane", plane, "--method", method}, 1, said);
     }
   }
@@ -140,6 +140,29 @@ TEST_F(BadInput, BadCloudsAreOne) {
   expect_bad_girth(sound, "", "0,0,900,1,0,900,0,1,900");
   expect_bad_girth(sound, "on one line", "0,0,0,1,1,1,2,2,2");
   expect_failure({"girth", sound, "--plane", kPlane, "--method", "section"}, 1, "no faces");
+}
+
+TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
+  const auto cloud = file("c.xyz", cylinder());
+  const auto out = folder_.path() / "mesh.ply";
+  expect_failure({"surface", cloud}, 2, "--out");
+  for (const char* bad : {"0", "-1", "nan", "x"}) {
+    expect_failure({"surface", cloud, "--out", out, "--cube-mm", bad}, 2, "--cube-mm");
+  }
+  expect_failure({"surface", cloud, "--out", out, "--cube-mm", "0.001"}, 1, "larger cubes");
+  expect_failure({"surface", folder_.path() / "none.ply", "--out", out}, 1, "No such file");
+  expect_failure({"surface", file("three.xyz", "0 0 0\n50 0 0\n0 50 0\n"), "--out", out}, 1,
+                 "too few");
+  expect_failure({"surface", cloud, "--out", folder_.path() / "none" / "mesh.ply"}, 1,
+                 "cannot write");
+  EXPECT_FALSE(fs::exists(out));
+
+  const auto made = test::run_program("instep", {"surface", cloud, "--out", out});
+  EXPECT_EQ(made.exit_code, 0) << made.errors;
+  EXPECT_EQ(made.errors, "");
+  const auto girth =
+      test::run_program("instep", {"girth", out, "--plane", kPlane, "--method", "section"});
+  EXPECT_EQ(girth.exit_code, 0) << girth.errors;
 }
 
 TEST_F(BadInput, ForbiddenFilesAreOne) {

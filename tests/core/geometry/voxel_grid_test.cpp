@@ -52,6 +52,20 @@ TEST(VoxelGrid, FindsTheSameNeighboursAsBruteForce) {
   }
 }
 
+TEST(VoxelGrid, FindsTheSameFaceNeighboursAsBruteForce) {
+  const auto points = random_points(300, 10);
+  const VoxelGrid grid(points, 3.0);
+  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+    const auto home = cell_of(points[grid.members(cell)[0]], 3.0);
+    std::vector<std::size_t> expected;
+    for (std::size_t other = 0; other < grid.cell_count(); ++other) {
+      const auto there = cell_of(points[grid.members(other)[0]], 3.0);
+      if ((there - home).cwiseAbs().sum() <= 1) expected.push_back(other);
+    }
+    EXPECT_EQ(grid.face_neighbourhood(cell), expected);
+  }
+}
+
 TEST(VoxelGrid, JoinsTouchingCellsIntoClustersOnly) {
   std::vector<Vector3d> points;
   for (int i = 0; i < 50; ++i) points.emplace_back(0.9 * i, 0.9 * i, -0.9 * i);

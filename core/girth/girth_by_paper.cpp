@@ -1,0 +1,253 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "core/geometry/point_index.h"
+#include "core/geometry/polygon.h"
+#include "core/geometry/principal_frame.h"
+#include "core/girth/girth.h"
+#include "core/girth/section_gaps.h"
+#include "core/surface/octree_surface.h"
+
+namespace instep {
+namespace {
+
+/// What the paper leaves open, and the choices made here.
+///
+/// D, the half-width of the band of points that take part, against the spacing of the points.
+constexpr double kBandInSpacings = 4.0;
+/// K, the neighbours through which the line of step 5 is fitted.
+constexpr std::size_t kLineNeighbours = 10;
+/// Distance of the off-line points of step 6, against the threshold d of step 2: a tenth of a
+/// spanning-tree edge, as the paper has it for off-surface points. Eq. 10 is a straight line
+/// through a curved field: five times the distance made its error ten times larger.
+constexpr double kOffLine = 0.1;
+/// How much the circle of step 4 grows each time.
+constexpr double kCircleGrowth = 1.25;
+
+constexpr std::size_t kFewestPoints = 10;
+/// Neighbours from which the spacing is told.
+constexpr std::size_t kSpacingNeighbours = 8;
+/// The ring is lost where less than this part of the initial points leads to an intersection, or
+/// where a longer part of it has none.
+constexpr double kFewestMet = 0.5;
+constexpr double kWidestGap = 0.25;
+
+/// The paper's point set S: the points near the tape plane, in the plane's frame.
+struct PartialCloud {
+  std::vector<Eigen::Vector3d> places;
+  std::vector<bool> seen;
+  double half_width = 0.0;
+};
+
+PartialCloud points_within(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+  PartialCloud part;
+  part.half_width = half_width;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double height = plane.distance(cloud.positions[i]);
+    if (std::abs(height) > half_width) continue;
+    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
+    part.places.emplace_back(place.x(), place.y(), height);
+    part.seen.push_back(cloud.was_seen(i));
+  }
+  return part;
+}
+
+/// Side of the square that a point has for itself; the middle one over all points.
+double spacing_of(const std::vector<Eigen::Vector3d>& places) {
+  const PointIndex index(places);
+  std::vector<double> sides;
+  for (const auto& place : places) {
+    const auto nearest = index.nearest(place, kSpacingNeighbours + 1);
+    sides.push_back(std::sqrt(std::numbers::pi * nearest.back().squared_distance /
+                              static_cast<double>(nearest.size() - 1)));
+  }
+  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
+  std::nth_element(sides.begin(), middle, sides.end());
+  return *middle;
+}
+
+double extent(const PointCloud& cloud) {
+  Eigen::AlignedBox3d box;
+  for (const auto& position : cloud.positions) box.extend(position);
+  return box.diagonal().norm();
+}
+
+/// Widens the band until it is as many spacings wide as it has to be.
+Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
+  const double size = extent(cloud);
+  for (double half_width = 0.005 * size; half_width < 0.5 * size; half_width *= 1.4) {
+    PartialCloud part = points_within(cloud, plane, half_width);
+    if (part.places.size() < kFewestPoints) continue;
+    const double wanted = kBandInSpacings * spacing_of(part.places);
+    if (half_width >= wanted && wanted > 0.0) return points_within(cloud, plane, wanted);
+  }
+  return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
+              "give control points on the body, or a denser cloud");
+}
+
+/// Unit normal of the straight line through points in the plane, by total least squares (step 5).
+/// Nothing if they do not determine a line.
+std::optional<Eigen::Vector2d> line_normal(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const auto& point : points) mean += point;
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const auto& point : points) spread += (point - mean) * (point - mean).transpose();
+  if (!(spread.trace() > 0.0)) return std::nullopt;
+  const double twice_angle = std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  return Eigen::Vector2d(-std::sin(0.5 * twice_angle), std::cos(0.5 * twice_angle));
+}
+
+/// The tape plane's view of the surface of S: steps 1 to 7 of the paper's section 5.
+class SectionOfSurface {
+ public:
+  SectionOfSurface(const OctreeSurface& surface, const RigidTransform& principal_from_plane,
+                   double reach)
+      : surface_(surface), principal_from_plane_(principal_from_plane), reach_(reach) {
+    const RigidTransform plane_from_principal = principal_from_plane.inverse();
+    for (const auto& point : surface.points()) {
+      const Eigen::Vector3d place = plane_from_principal * point;
+      if (std::abs(place.z()) > threshold()) continue;  // steps 1 to 3
+      initial_.push_back(point);
+      flat_.emplace_back(place.x(), place.y(), 0.0);
+    }
+  }
+
+  /// Step 2's d.
+  double threshold() const { return surface_.longest_edge(); }
+  /// Number of initial intersection points, the paper's I.
+  std::size_t initial() const { return flat_.size(); }
+
+  /// The exact intersection points, as far as there are any.
+  std::vector<Eigen::Vector2d> intersections() const {
+    std::vector<Eigen::Vector2d> found;
+    const PointIndex index(flat_);
+    const double spacing = std::max(median_spacing(flat_, index), 1e-3 * threshold());
+    for (std::size_t i = 0; i < flat_.size(); ++i) {
+      const auto normal = line_normal(circle(index, flat_[i], spacing));
+      if (!normal) continue;
+      if (const auto place = intersection(i, *normal)) found.push_back(*place);
+    }
+    return found;
+  }
+
+ private:
+  /// Step 4: the points in a circle that grows until it holds K of them and the point itself.
+  std::vector<Eigen::Vector2d> circle(const PointIndex& index, const Eigen::Vector3d& centre,
+                                      double radius) const {
+    const std::size_t wanted = std::min(kLineNeighbours + 1, flat_.size());
+    auto inside = index.within(centre, radius);
+    while (inside.size() < wanted) {
+      radius *= kCircleGrowth;
+      inside = index.within(centre, radius);
+    }
+    std::vector<Eigen::Vector2d> points;
+    for (const auto& neighbour : inside) points.emplace_back(flat_[neighbour.index].head<2>());
+    return points;
+  }
+
+  /// Steps 6 and 7, eq. 10 for the isovalue 0. Both values are those of the leaf in which the
+  /// initial point lies, so that none of the jumps between leaves falls between them. Where the
+  /// field is level, or the answer lies further away than the band is wide, there is none.
+  std::optional<Eigen::Vector2d> intersection(std::size_t i, const Eigen::Vector2d& normal) const {
+    const auto leaf = surface_.leaf_at(initial_[i]);
+    if (!leaf) return std::nullopt;
+    const Eigen::Vector2d place = flat_[i].head<2>();
+    const Eigen::Vector2d from = place - kOffLine * threshold() * normal;
+    const Eigen::Vector2d to = place + kOffLine * threshold() * normal;
+    const double value_from = value(*leaf, from);
+    const double value_to = value(*leaf, to);
+    const Eigen::Vector2d met = from - value_from * (to - from) / (value_to - value_from);
+    if (!met.allFinite() || (met - place).norm() > reach_) return std::nullopt;
+    return met;
+  }
+
+  double value(std::size_t leaf, const Eigen::Vector2d& place) const {
+    return surface_.value_of_leaf(
+        leaf, principal_from_plane_ * Eigen::Vector3d(place.x(), place.y(), 0.0));
+  }
+
+  const OctreeSurface& surface_;
+  const RigidTransform& principal_from_plane_;
+  double reach_;
+  std::vector<Eigen::Vector3d> initial_;  ///< the paper's I, in the principal frame
+  std::vector<Eigen::Vector3d> flat_;     ///< the same, laid on the tape plane
+};
+
+/// Points in the order in which they lie round their hull's middle (step 8; the paper does not say
+/// how they are ordered).
+std::vector<Eigen::Vector2d> ordered_round(const std::vector<Eigen::Vector2d>& hull,
+                                           std::vector<Eigen::Vector2d> points) {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& corner : hull) middle += corner;
+  middle /= static_cast<double>(hull.size());
+  const auto angle = [&](const Eigen::Vector2d& point) {
+    return std::atan2(point.y() - middle.y(), point.x() - middle.x());
+  };
+  std::stable_sort(points.begin(), points.end(),
+                   [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
+  return points;
+}
+
+/// Where the seen points near the plane lie on it.
+std::vector<Eigen::Vector2d> seen_within(const PartialCloud& part, double distance) {
+  std::vector<Eigen::Vector2d> places;
+  for (std::size_t i = 0; i < part.places.size(); ++i) {
+    if (part.seen[i] && std::abs(part.places[i].z()) <= distance) {
+      places.emplace_back(part.places[i].head<2>());
+    }
+  }
+  return places;
+}
+
+tl::unexpected<Error> ring_lost() {
+  return fail(ErrorCode::kInsufficientData,
+              "the paper's method lost the ring: its surface is torn at the tape plane",
+              "use --method rbf, or give a denser or more even cloud");
+}
+
+}  // namespace
+
+Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
+                             const GirthOptions& options) {
+  if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  const auto part = partial_cloud(cloud, plane);
+  if (!part) return tl::make_unexpected(part.error());
+  const RigidTransform principal = principal_from_input(part->places);
+  std::vector<Eigen::Vector3d> turned;
+  for (const auto& place : part->places) turned.emplace_back(principal * place);
+  const auto surface = OctreeSurface::reconstruct(turned);
+  if (!surface) return tl::make_unexpected(surface.error());
+
+  const SectionOfSurface section(*surface, principal, part->half_width);
+  const auto met = section.intersections();
+  const auto hull = convex_hull(met);
+  const double length = perimeter(hull);
+  const bool is_ring = hull.size() >= 3 && signed_area(hull) > 1e-6 * length * length;
+  if (!is_ring ||
+      static_cast<double>(met.size()) < kFewestMet * static_cast<double>(section.initial()) ||
+      largest_gap(hull, met) > kWidestGap * length) {
+    return ring_lost();
+  }
+
+  Girth girth;
+  girth.stretched_mm = length;
+  girth.contour = ordered_round(hull, met);
+  girth.contact_mm = perimeter(girth.contour);
+  girth.points = cloud.size();
+  girth.band_points = part->places.size();
+  girth.sigma_mm = options.sigma_mm.value_or(0.0);
+  girth.largest_gap_mm = largest_gap(hull, seen_within(*part, section.threshold()));
+  girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
+  if (const std::size_t missed = section.initial() - met.size(); missed > 0) {
+    girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(missed) + " of " +
+                             std::to_string(section.initial()) + " points");
+  }
+  return girth;
+}
+
+}  // namespace instep

@@ -1,0 +1,90 @@
+#include "core/surface/octree_surface.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "core/geometry/point_index.h"
+#include "core/geometry/spanning_tree.h"
+#include "core/surface/box_normals.h"
+#include "core/surface/off_surface_points.h"
+
+namespace instep {
+namespace {
+
+/// Distance of off-surface points, against the shortest edge of the spanning tree.
+constexpr double kOffSurface = 0.1;
+/// Points that are nearer to each other, against the spacing, are one.
+constexpr double kDuplicate = 1e-3;
+/// What the preparation takes of the whole.
+constexpr double kPrepared = 0.3;
+
+template <typename T>
+std::vector<T> pick(const std::vector<T>& list, const std::vector<std::uint32_t>& indices) {
+  std::vector<T> picked;
+  picked.reserve(indices.size());
+  for (const std::uint32_t index : indices) picked.push_back(list[index]);
+  return picked;
+}
+
+tl::unexpected<Error> no_surface() {
+  return fail(ErrorCode::kInsufficientData,
+              "the points determine no surface: they are too few, or lie on lines",
+              "scan again, or give a denser cloud");
+}
+
+}  // namespace
+
+Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector3d>& input,
+                                                 const OctreeSurfaceOptions& options,
+                                                 const SurfaceProgress& progress) {
+  const auto report = [&](double done) {
+    if (progress) progress(done);
+  };
+  report(0.0);
+  const auto distinct = without_near_duplicates(input, 0.0);
+  const double spacing = median_spacing(distinct, PointIndex(distinct));
+  auto points = without_near_duplicates(distinct, kDuplicate * spacing);
+  if (2 * points.size() < options.fewest) return no_surface();
+  const auto tree = minimum_spanning_tree(points);
+  report(0.5 * kPrepared);
+  const double shortest = tree.front().length;
+  const auto samples = with_off_surface_points(points, box_normals(points), kOffSurface * shortest);
+  if (!has_unique_solution(samples.positions)) return no_surface();
+  Octree octree(samples.positions, options.most);
+  const auto groups =
+      combined_points(octree, options.most, [&](const std::vector<std::uint32_t>& members) {
+        return members.size() >= options.fewest &&
+               has_unique_solution(pick(samples.positions, members));
+      });
+  report(kPrepared);
+
+  OctreeSurface surface(std::move(points), std::move(octree));
+  surface.shortest_edge_ = shortest;
+  surface.longest_edge_ = tree.back().length;
+  std::size_t solved = 0;
+  for (const auto& members : groups) {
+    surface.fields_.push_back(TriharmonicRbf::fit(pick(samples.positions, members),
+                                                  pick(samples.values, members),
+                                                  std::vector<double>(members.size(), 0.0)));
+    if (surface.fields_.back()) ++solved;
+    report(kPrepared + (1.0 - kPrepared) * static_cast<double>(surface.fields_.size()) /
+                           static_cast<double>(groups.size()));
+  }
+  if (solved == 0) return no_surface();
+  return surface;
+}
+
+std::optional<std::size_t> OctreeSurface::leaf_at(const Eigen::Vector3d& place) const {
+  const auto leaf = octree_.leaf_at(place);
+  return leaf && fields_[*leaf] ? leaf : std::nullopt;
+}
+
+std::optional<double> OctreeSurface::at(const Eigen::Vector3d& place, double reach) const {
+  auto leaf = octree_.leaf_at(place);
+  if (!leaf) leaf = octree_.nearest_leaf(place, reach);
+  if (!leaf || !fields_[*leaf]) return std::nullopt;
+  return value_of_leaf(*leaf, place);
+}
+
+}  // namespace instep
