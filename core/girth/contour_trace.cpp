@@ -18,8 +18,10 @@ constexpr double kShortestStep = 1.0 / 64.0;
 constexpr double kCreaseStep = 1.0 / 64.0;
 constexpr int kCreaseAngles = 48;
 constexpr double kSharpestCrease = 2.8;
-/// Most steps against those that the longest line would take.
-constexpr double kMostSteps = 8.0;
+/// Most corners of a line; one that has more is no section but noise.
+constexpr int kMostCorners = 64;
+/// Most steps against those that the longest line would take at full length.
+constexpr double kMostSteps = 2.0;
 /// Least slope within the plane: below it the surface runs along the plane.
 constexpr double kLeastSlope = 0.05;
 
@@ -135,6 +137,7 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
   Contour contour;
   Place here = *first;
   double way = 0.0;
+  int corners = 0;
   const auto most = static_cast<std::size_t>(kMostSteps * longest / step);
   while (way < longest && contour.points.size() < most) {
     contour.points.push_back(here.point);
@@ -146,7 +149,9 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
       const auto moved = correct(surface, here.point, step);
       if (moved) next = advance(surface, *moved, step);
     }
-    if (!next) next = turn_corner(surface, here, kCreaseStep * step);
+    if (!next && ++corners <= kMostCorners) {
+      next = turn_corner(surface, here, kCreaseStep * step);
+    }
     if (!next) return std::nullopt;
     const double length = (next->point - here.point).norm();
     way += length;

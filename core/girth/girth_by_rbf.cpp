@@ -20,6 +20,8 @@ constexpr double kReadingStep = 0.6;
 constexpr double kEvidenceInSpacings = 2.5;
 /// The surface bridges no wider hole, against the length of the contour.
 constexpr double kWidestBridge = 0.25;
+/// Of a section, against the width of the body.
+constexpr double kLongestSection = 6.0;
 /// A stretch without a seen point that is worth a warning, in spacings.
 constexpr double kNotableGapInSpacings = 6.0;
 /// Chords are refined so that the hull loses less than 0.001 mm to them.
@@ -48,10 +50,10 @@ std::vector<Contour> trace_all(const PlaneBand& band, BlendedSurface& surface) {
     if (++starts > kMostStarts || contours.size() >= kMostLoops) break;
     // The first round places the patches, the second reads the finished field.
     const auto draft =
-        trace_contour(surface, start, kDraftStep * band.spacing, kWidestBridge, 12.0);
+        trace_contour(surface, start, kDraftStep * band.spacing, kWidestBridge, kLongestSection);
     if (!draft) continue;
     auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.spacing,
-                                 kWidestBridge, 12.0);
+                                 kWidestBridge, kLongestSection);
     if (contour && signed_area(contour->points) > 0.0) contours.push_back(std::move(*contour));
   }
   return contours;

@@ -41,6 +41,10 @@ constexpr double kReach = 0.75;
 /// A place needs a patch centred within this part of the patch's radius.
 constexpr double kNearEnough = 0.35;
 constexpr double kWellWithin = 0.6;
+/// So near to a centre no second patch is fitted, wherever the middle of its points lies.
+constexpr double kAlmostThere = 0.15;
+/// A section needs some hundred; points that ask for more form no surface.
+constexpr std::size_t kMostPatches = 1500;
 
 struct Weight {
   double value = 0.0;
@@ -87,11 +91,14 @@ BlendedSurface::BlendedSurface(std::vector<OrientedPoint> points,
 
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
   for (const auto& patch : patches_) {
-    if ((place - patch.centre).norm() < kNearEnough * patch.radius &&
+    const double off = (place - patch.centre).norm();
+    if (off < kAlmostThere * patch.radius) return true;
+    if (off < kNearEnough * patch.radius &&
         (place - patch.middle).norm() < kWellWithin * patch.radius) {
       return true;
     }
   }
+  if (patches_.size() >= kMostPatches) return false;
   auto patch = fit(place);
   if (!patch) return false;
   patches_.push_back(std::move(*patch));
