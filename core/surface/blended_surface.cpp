@@ -20,6 +20,11 @@ constexpr std::size_t kFacingPoints = 8;
 /// lies on the other side of a thin part.
 constexpr double kFacing = 0.5;
 constexpr double kBehind = -0.3;
+/// With more than this part of the points on the other side, the patch is one in space.
+constexpr double kThin = 0.1;
+constexpr std::size_t kPointsInSpace = 80;
+/// The shape between the estimates of roughness may be rougher than they are.
+constexpr double kAllowanceInSpace = 4.0;
 /// Heights this many median deviations off, and this part of the radius, are those of strays.
 constexpr double kStrayDeviations = 5.0;
 constexpr double kStrayRise = 0.7;
@@ -31,7 +36,7 @@ constexpr double kWidest = 0.15;
 constexpr int kMostAttempts = 4;
 constexpr double kTooWide = 1.5;
 /// A crease turns at least this much (radians), and is so much likelier than one smooth sheet.
-constexpr double kLeastTurn = 0.45;
+constexpr double kLeastTurn = 0.9;
 constexpr double kLeastGain = 8.0;
 /// Its place is a guess where the points of a sheet are further from it, in spacings.
 constexpr double kWidestCreaseGap = 2.0;
@@ -185,8 +190,29 @@ BlendedSurface::Members BlendedSurface::members_of(const Surroundings& surroundi
   return members;
 }
 
+bool BlendedSurface::is_thin(const Surroundings& surroundings) const {
+  const auto behind =
+      std::count_if(surroundings.nearest.begin(), surroundings.nearest.end(), [&](const auto& one) {
+        return points_[one.index].normal.dot(surroundings.outward) < kBehind;
+      });
+  return static_cast<double>(behind) > kThin * static_cast<double>(surroundings.nearest.size());
+}
+
+std::optional<BlendedSurface::Patch> BlendedSurface::fit_in_space(
+    const Surroundings& surroundings, const Eigen::Vector3d& place) const {
+  const auto nearest = index_.nearest(place, kPointsInSpace);
+  std::vector<OrientedPoint> members;
+  for (const auto& neighbour : nearest) members.push_back(points_[neighbour.index]);
+  const double radius = std::sqrt(nearest.back().squared_distance);
+  auto field =
+      HermitePatch::fit(members, place, radius, kAllowanceInSpace * surroundings.roughness);
+  if (!field) return std::nullopt;
+  return Patch{place, place, radius, std::move(*field)};
+}
+
 std::optional<BlendedSurface::Patch> BlendedSurface::fit(const Eigen::Vector3d& place) const {
   const Surroundings here = surroundings_of(place);
+  if (is_thin(here)) return fit_in_space(here, place);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   for (int attempt = 1;; ++attempt) {
     const Members members = members_of(here, place, width);

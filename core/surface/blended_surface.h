@@ -8,6 +8,7 @@
 #include "core/geometry/point_index.h"
 #include "core/surface/creased_patch.h"
 #include "core/surface/height_patch.h"
+#include "core/surface/hermite_patch.h"
 #include "core/surface/noise_estimate.h"
 #include "core/surface/oriented_point.h"
 
@@ -18,7 +19,8 @@ namespace instep {
 /// surface, positive outside.
 ///
 /// A patch is as wide as its neighbours make it, wider where noise asks for it and the surface
-/// allows it, and has two sheets where the points tell a crease. Patches are fitted where they are
+/// allows it, has two sheets where the points tell a crease, and is a field in space where a thin
+/// part shows it both of its sides. Patches are fitted where they are
 /// asked for, around the places that were visited; so only those that a plane crosses are ever
 /// solved. The field changes a little when a patch is added: visit all places first, then read.
 /// Not for use from several threads at once.
@@ -44,7 +46,7 @@ class BlendedSurface {
     Eigen::Vector3d centre;
     Eigen::Vector3d middle;  ///< of its points; off the centre at the edge of a hole
     double radius;
-    std::variant<HeightPatch, CreasedPatch> field;
+    std::variant<HeightPatch, CreasedPatch, HermitePatch> field;
 
     FieldValue at(const Eigen::Vector3d& place) const;
   };
@@ -75,6 +77,9 @@ class BlendedSurface {
   static void drop_strays(Members& members);
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
+  bool is_thin(const Surroundings& surroundings) const;
+  std::optional<Patch> fit_in_space(const Surroundings& surroundings,
+                                    const Eigen::Vector3d& place) const;
   std::optional<Patch> fit(const Eigen::Vector3d& place) const;
 
   std::vector<OrientedPoint> points_;
