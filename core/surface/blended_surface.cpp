@@ -9,7 +9,7 @@ namespace instep {
 namespace {
 
 /// Points of a patch: enough to fit a surface, few enough to solve quickly.
-constexpr std::size_t kPatchPoints = 50;
+constexpr std::size_t kPatchPoints = 60;
 /// A place whose points have their middle further off, against their reach, lies in a hole; holes
 /// wider than this part of the body are not spanned.
 constexpr double kOneSided = 0.5;
