@@ -117,8 +117,7 @@ double BlendedSurface::Surroundings::bandwidth(double of_roughness) const {
 
 /// The nearest points; more of them in a hole, until they lie on all sides, so that the surface
 /// spans it and is not put forth from one side.
-std::vector<PointIndex::Neighbour> BlendedSurface::nearest_all_round(
-    const Eigen::Vector3d& place) const {
+BlendedSurface::Neighbours BlendedSurface::nearest_all_round(const Eigen::Vector3d& place) const {
   auto first = index_.nearest(place, kPatchPoints);
   auto nearest = first;
   for (std::size_t count = 2 * kPatchPoints;; count *= 2) {
@@ -126,7 +125,7 @@ std::vector<PointIndex::Neighbour> BlendedSurface::nearest_all_round(
     for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
     middle /= static_cast<double>(nearest.size());
     const double reach = std::sqrt(nearest.back().squared_distance);
-    if ((middle - place).norm() < kOneSided * reach) return nearest;
+    if ((middle - place).norm() < kOneSided * reach || is_thin(nearest)) return nearest;
     if (reach > kWidestHole || nearest.size() == points_.size()) return first;
     nearest = index_.nearest(place, count);
   }
@@ -136,14 +135,12 @@ BlendedSurface::Surroundings BlendedSurface::surroundings_of(const Eigen::Vector
   Surroundings here;
   here.nearest = nearest_all_round(place);
   here.reach = std::sqrt(here.nearest.back().squared_distance);
-  here.outward = Eigen::Vector3d::Zero();
+  here.outward = outward_of(here.nearest);
   const std::size_t count = std::min(kFacingPoints, here.nearest.size());
   double variance = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    here.outward += points_[here.nearest[i].index].normal;
     variance += points_[here.nearest[i].index].variance / static_cast<double>(count);
   }
-  here.outward.normalize();
   const auto found = static_cast<double>(here.nearest.size());
   here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
   here.noise_area = variance * here.spacing * here.spacing;
@@ -190,19 +187,32 @@ BlendedSurface::Members BlendedSurface::members_of(const Surroundings& surroundi
   return members;
 }
 
-bool BlendedSurface::is_thin(const Surroundings& surroundings) const {
-  const auto behind =
-      std::count_if(surroundings.nearest.begin(), surroundings.nearest.end(), [&](const auto& one) {
-        return points_[one.index].normal.dot(surroundings.outward) < kBehind;
-      });
-  return static_cast<double>(behind) > kThin * static_cast<double>(surroundings.nearest.size());
+Eigen::Vector3d BlendedSurface::outward_of(const Neighbours& nearest) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::size_t count = std::min(kFacingPoints, nearest.size());
+  for (std::size_t i = 0; i < count; ++i) sum += points_[nearest[i].index].normal;
+  return sum.normalized();
+}
+
+/// Whether the points show both sides of a thin part.
+bool BlendedSurface::is_thin(const Neighbours& nearest) const {
+  const Eigen::Vector3d outward = outward_of(nearest);
+  const auto behind = std::count_if(nearest.begin(), nearest.end(), [&](const auto& one) {
+    return points_[one.index].normal.dot(outward) < kBehind;
+  });
+  return static_cast<double>(behind) > kThin * static_cast<double>(nearest.size());
 }
 
 std::optional<BlendedSurface::Patch> BlendedSurface::fit_in_space(
     const Surroundings& surroundings, const Eigen::Vector3d& place) const {
-  const auto nearest = index_.nearest(place, kPointsInSpace);
+  const bool wider = surroundings.nearest.size() > kPointsInSpace;
+  const auto nearest = wider ? surroundings.nearest : index_.nearest(place, kPointsInSpace);
+  // Of many, an even sample by their distance.
+  const std::size_t stride = (nearest.size() + kPointsInSpace - 1) / kPointsInSpace;
   std::vector<OrientedPoint> members;
-  for (const auto& neighbour : nearest) members.push_back(points_[neighbour.index]);
+  for (std::size_t i = 0; i < nearest.size(); i += stride) {
+    members.push_back(points_[nearest[i].index]);
+  }
   const double radius = std::sqrt(nearest.back().squared_distance);
   auto field =
       HermitePatch::fit(members, place, radius, kAllowanceInSpace * surroundings.roughness);
@@ -212,7 +222,7 @@ std::optional<BlendedSurface::Patch> BlendedSurface::fit_in_space(
 
 std::optional<BlendedSurface::Patch> BlendedSurface::fit(const Eigen::Vector3d& place) const {
   const Surroundings here = surroundings_of(place);
-  if (is_thin(here)) return fit_in_space(here, place);
+  if (is_thin(here.nearest)) return fit_in_space(here, place);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   for (int attempt = 1;; ++attempt) {
     const Members members = members_of(here, place, width);

@@ -42,6 +42,8 @@ class BlendedSurface {
   std::size_t patches() const { return patches_.size(); }
 
  private:
+  using Neighbours = std::vector<PointIndex::Neighbour>;
+
   struct Patch {
     Eigen::Vector3d centre;
     Eigen::Vector3d middle;  ///< of its points; off the centre at the edge of a hole
@@ -53,7 +55,7 @@ class BlendedSurface {
 
   /// What a place knows of its surroundings before a patch is fitted there.
   struct Surroundings {
-    std::vector<PointIndex::Neighbour> nearest;
+    Neighbours nearest;
     double reach = 0.0;       ///< of those
     Eigen::Vector3d outward;  ///< out of the body, here
     double spacing = 0.0;     ///< between points
@@ -72,12 +74,13 @@ class BlendedSurface {
     double front_radius = 0.0;
   };
 
-  std::vector<PointIndex::Neighbour> nearest_all_round(const Eigen::Vector3d& place) const;
+  Neighbours nearest_all_round(const Eigen::Vector3d& place) const;
+  Eigen::Vector3d outward_of(const Neighbours& nearest) const;
   Surroundings surroundings_of(const Eigen::Vector3d& place) const;
   static void drop_strays(Members& members);
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
-  bool is_thin(const Surroundings& surroundings) const;
+  bool is_thin(const Neighbours& nearest) const;
   std::optional<Patch> fit_in_space(const Surroundings& surroundings,
                                     const Eigen::Vector3d& place) const;
   std::optional<Patch> fit(const Eigen::Vector3d& place) const;
