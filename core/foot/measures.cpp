@@ -1,7 +1,8 @@
 #include "core/foot/measures.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -151,10 +152,16 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
     keep(set, rule.id, take(rule, foot));
     if (!go_on()) return cancelled();
   }
-  for (const auto& rule : girth_rules()) {
-    keep(set, rule.id, take(rule, foot, options));
-    if (!go_on()) return cancelled();
-  }
+  const auto& rules = girth_rules();
+  std::vector<std::optional<Result<Measure>>> girths(rules.size());
+  std::atomic<bool> wanted = true;
+  options.workers(rules.size(), [&](std::size_t i) {
+    if (!wanted) return;
+    girths[i] = take(rules[i], foot, options);
+    if (!go_on()) wanted = false;
+  });
+  if (!wanted) return cancelled();
+  for (std::size_t i = 0; i < rules.size(); ++i) keep(set, rules[i].id, *std::move(girths[i]));
   return set;
 }
 

@@ -7,6 +7,7 @@
 #include "core/girth/girth.h"
 #include "core/go_on.h"
 #include "core/result.h"
+#include "core/workers.h"
 
 namespace instep {
 
@@ -17,6 +18,7 @@ using GirthMethod =
 struct MeasureOptions {
   GirthMethod girth = girth_by_rbf;
   GirthOptions girth_options;
+  Workers workers = one_after_the_other;  ///< does the girths; the measures are the same with any
 };
 
 /// All measures of an aligned foot with its landmarks, in a fixed order: `foot_length`,
@@ -26,7 +28,7 @@ struct MeasureOptions {
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
 /// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no
 /// landmarks, and with kInsufficientData if not even its length can be told. A left foot has the
-/// measures of its mirror image. The cost is that of the girths, some 100 ms each; `go_on` hears of
+/// measures of its mirror image. The cost is that of the girths, some 70 ms each; `go_on` hears of
 /// each measure, and once it returns false the whole fails with kCancelled.
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
                                 const GoOn& go_on = always);

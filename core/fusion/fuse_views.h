@@ -17,10 +17,10 @@
 #include "core/fusion/surface_points.h"
 #include "core/fusion/temporal_fusion.h"
 #include "core/fusion/thin.h"
-#include "core/fusion/workers.h"
 #include "core/geometry/point_cloud.h"
 #include "core/go_on.h"
 #include "core/result.h"
+#include "core/workers.h"
 
 namespace instep {
 

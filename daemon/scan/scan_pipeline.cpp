@@ -159,7 +159,9 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
     if (!foot) return tl::make_unexpected(foot.error());
 
     if (!clock.begin("girths", 0.7)) return cancelled();
-    auto measures = measure_foot(*foot, {}, go_on);
+    MeasureOptions options;
+    options.workers = one_thread_each;
+    auto measures = measure_foot(*foot, options, go_on);
     if (!measures) return tl::make_unexpected(measures.error());
     records.push_back(record_of(capture, settings, std::move(*foot), std::move(*measures)));
   }
