@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "core/geometry/point_index.h"
@@ -37,14 +38,24 @@ struct Slab {
   std::vector<Eigen::Vector3d> places;
 };
 
+/// In an order of their own, so that the cloud's does not matter.
 Slab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  Slab slab;
+  std::vector<std::pair<Eigen::Vector3d, std::size_t>> found;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double height = plane.distance(cloud.positions[i]);
     if (std::abs(height) > half_width) continue;
     const Eigen::Vector2d place = plane.project(cloud.positions[i]);
-    slab.indices.push_back(i);
-    slab.places.emplace_back(place.x(), place.y(), height);
+    found.emplace_back(Eigen::Vector3d(place.x(), place.y(), height), i);
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    const Eigen::Vector3d& p = a.first;
+    const Eigen::Vector3d& q = b.first;
+    return std::tuple(p.x(), p.y(), p.z()) < std::tuple(q.x(), q.y(), q.z());
+  });
+  Slab slab;
+  for (const auto& [place, index] : found) {
+    slab.indices.push_back(index);
+    slab.places.push_back(place);
   }
   return slab;
 }
