@@ -1,0 +1,197 @@
+#include "core/girth/contour_trace.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "tests/support/oriented_points.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using OrientedPoints = std::vector<OrientedPoint>;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = 0.5;
+
+BlendedSurface surface_of(const OrientedPoints& points) {
+  return {points, {{Vector3d::Zero(), 0.01}}};
+}
+
+std::optional<Contour> trace(BlendedSurface& surface, const Vector2d& start) {
+  return trace_contour(surface, start, 0.02, 0.2, 10.0);
+}
+
+/// Corners on a circle with its true normals, by uneven steps.
+Contour circle_of_corners(int count) {
+  Contour circle;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * kPi * (i + 0.3 * std::sin(1.7 * i)) / count;
+    circle.outward.emplace_back(std::cos(angle), std::sin(angle));
+    circle.points.push_back(Vector2d(3.0, -2.0) + kRadius * circle.outward.back());
+  }
+  return circle;
+}
+
+double polygon_length(const std::vector<Vector2d>& corners) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    length += (corners[(i + 1) % corners.size()] - corners[i]).norm();
+  }
+  return length;
+}
+
+double area_of(const std::vector<Vector2d>& corners) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d& a = corners[i];
+    const Vector2d& b = corners[(i + 1) % corners.size()];
+    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return area;
+}
+
+TEST(Contour, OfACircleIsAsLongAsItsArcs) {
+  const double length = 2.0 * kPi * kRadius;
+  const auto circle = circle_of_corners(100);
+  EXPECT_NEAR(circle.length(), length, 1e-6 * length);
+  EXPECT_LT(polygon_length(circle.points), (1.0 - 1e-4) * length);
+  // Twice the corners, a sixteenth of the error.
+  const double coarse = std::abs(circle_of_corners(20).length() - length);
+  const double fine = std::abs(circle_of_corners(40).length() - length);
+  EXPECT_LT(fine, coarse / 8.0);
+}
+
+TEST(Contour, WithoutTurnsIsAsLongAsItsChords) {
+  const Contour square{{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, {5, Vector2d(0, -1)}};
+  EXPECT_NEAR(square.length(), 8.0, 1e-12);
+}
+
+TEST(Contour, RefinedStaysOnTheCircle) {
+  const auto circle = circle_of_corners(40);
+  const auto fine = circle.refined(8);
+  ASSERT_EQ(fine.size(), 320U);
+  // The chord of the longest step, of a quarter radian, is 4e-3 off the circle in its middle.
+  for (const auto& point : fine) {
+    EXPECT_NEAR((point - Vector2d(3.0, -2.0)).norm(), kRadius, 4e-5);
+  }
+  EXPECT_NEAR(polygon_length(fine), 2.0 * kPi * kRadius, 1e-3);
+  for (std::size_t i = 0; i < circle.points.size(); ++i) {
+    EXPECT_NEAR((fine[8 * i] - circle.points[i]).norm(), 0.0, 1e-12);
+  }
+}
+
+TEST(ContourTrace, MeetsTheLengthOfACircleFromFinePoints) {
+  for (const std::size_t count : {20000U, 40000U}) {
+    auto surface = surface_of(test::sphere_points(kRadius, count, 0.0, 1));
+    const auto contour = trace(surface, {kRadius, 0.0});
+    ASSERT_TRUE(contour);
+    const double length = 2.0 * kPi * kRadius;
+    EXPECT_NEAR(contour->length(), length, 1e-6 * length) << count;
+  }
+}
+
+TEST(ContourTrace, CornersLieOnTheZeroLineInOrderAndFaceOutwards) {
+  auto surface = surface_of(test::sphere_points(kRadius, 4000, 0.002, 2));
+  // Patches added on the way change the field a little; on the second way round there are none.
+  ASSERT_TRUE(trace(surface, {kRadius, 0.0}));
+  const auto patches = surface.patches();
+  const auto contour = trace(surface, {kRadius, 0.0});
+  ASSERT_TRUE(contour);
+  ASSERT_EQ(surface.patches(), patches);
+  ASSERT_EQ(contour->points.size(), contour->outward.size());
+  EXPECT_NEAR(area_of(contour->points), kPi * kRadius * kRadius, 0.01) << "counter-clockwise";
+  for (std::size_t i = 0; i < contour->points.size(); ++i) {
+    const Vector2d& corner = contour->points[i];
+    const auto field = surface.at({corner.x(), corner.y(), 0.0});
+    ASSERT_TRUE(field);
+    EXPECT_NEAR(field->value, 0.0, 1e-9);
+    EXPECT_NEAR(contour->outward[i].norm(), 1.0, 1e-9);
+    EXPECT_GT(contour->outward[i].dot(corner.normalized()), 0.95);
+    EXPECT_GT(contour->outward[i].dot(field->gradient.head<2>().normalized()), 1.0 - 1e-6);
+    const Vector2d& next = contour->points[(i + 1) % contour->points.size()];
+    EXPECT_LE((next - corner).norm(), 0.02 * 1.5) << "a step is at most 0.02";
+    EXPECT_GT(corner.x() * next.y() - corner.y() * next.x(), 0.0) << "a step back";
+  }
+}
+
+TEST(ContourTrace, DoesNotDependOnWhereItStarts) {
+  const auto points = test::sphere_points(kRadius, 4000, 0.0, 3);
+  for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
+    for (const double off : {0.98, 1.0, 1.02}) {
+      auto surface = surface_of(points);
+      const auto contour =
+          trace(surface, off * kRadius * Vector2d(std::cos(angle), std::sin(angle)));
+      ASSERT_TRUE(contour) << angle << " " << off;
+      EXPECT_NEAR(contour->length(), 2.0 * kPi * kRadius, 1e-4);
+    }
+  }
+}
+
+TEST(ContourTrace, MeetsThePerimeterOfASquarePrism) {
+  for (const double sigma : {0.0, 0.001}) {
+    auto surface = surface_of(test::prism_points(1.0, 0.4, 0.02, sigma, 4));
+    const auto contour = trace(surface, {0.5, 0.1});
+    ASSERT_TRUE(contour) << sigma;
+    // Edges rounded off within a spacing would make it 0.034 shorter.
+    EXPECT_NEAR(contour->length(), 4.0, sigma == 0.0 ? 2e-3 : 1e-2) << sigma;
+    EXPECT_NEAR(area_of(contour->points), 1.0, 5e-3) << sigma;
+  }
+}
+
+TEST(ContourTrace, SpansAHoleWithinReachOnly) {
+  OrientedPoints rim;
+  for (const auto& point : test::sphere_points(kRadius, 6000, 0.0, 5)) {
+    if (std::acos(point.normal.x()) > 0.2) rim.push_back(point);
+  }
+  auto surface = surface_of(rim);
+  const auto contour = trace_contour(surface, {-kRadius, 0.0}, 0.02, 0.2, 10.0);
+  ASSERT_TRUE(contour);
+  EXPECT_NEAR(contour->length(), 2.0 * kPi * kRadius, 2e-3);
+  auto again = surface_of(rim);
+  EXPECT_FALSE(trace_contour(again, {-kRadius, 0.0}, 0.02, 0.05, 10.0)) << "the hole is 0.1 deep";
+}
+
+TEST(ContourTrace, FindsNothingWhereThereIsNoLoop) {
+  auto sheet =
+      surface_of(test::disc_points(Vector3d::Zero(), Vector3d::UnitX(), 0.5, 2000, 0.0, 6));
+  EXPECT_FALSE(trace(sheet, {0.0, 0.0})) << "a sheet has an end";
+  auto above = test::sphere_points(0.3, 2000, 0.0, 7);
+  for (auto& point : above) point.position.z() += 0.6;
+  auto ball = surface_of(above);
+  EXPECT_FALSE(trace(ball, {0.3, 0.0})) << "the body is above the plane";
+  auto sphere = surface_of(test::sphere_points(kRadius, 2000, 0.0, 8));
+  EXPECT_FALSE(trace(sphere, {30.0, 0.0})) << "far from the body";
+  EXPECT_FALSE(trace_contour(sphere, {kRadius, 0.0}, 0.02, 0.2, 2.0)) << "longer than allowed";
+}
+
+/// Random points make no surface; whatever is found must keep its bounds, and soon.
+TEST(ContourTrace, KeepsItsBoundsOnRandomPoints) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    test::RandomNumbers random(seed);
+    const auto any = [&] {
+      return Vector3d(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
+                      random.uniform(-0.5, 0.5));
+    };
+    OrientedPoints cloud;
+    for (int i = 0; i < 2000; ++i) cloud.push_back({any(), any().normalized(), 1e-6});
+    auto surface = surface_of(cloud);
+    for (int start = 0; start < 5; ++start) {
+      const auto contour = trace(surface, any().head<2>());
+      if (!contour) continue;
+      EXPECT_LT(polygon_length(contour->points), 10.1);
+      for (const auto& corner : contour->points) {
+        EXPECT_LT(surface.distance_to_data({corner.x(), corner.y(), 0.0}), 0.2 + 1e-9);
+      }
+    }
+    EXPECT_LT(surface.patches(), 3000U);
+  }
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,245 @@
+#include "core/surface/creased_patch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "tests/support/oriented_points.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using OrientedPoints = std::vector<OrientedPoint>;
+
+/// Two half planes that meet along the y axis, turned by `turn` from one another, like a roof
+/// (convex) or a gutter.
+struct Roof {
+  double turn;
+  bool convex = true;
+
+  double pitch() const { return (convex ? 0.5 : -0.5) * turn; }
+  Vector3d normal(double side) const { return {side * std::sin(pitch()), 0.0, std::cos(pitch())}; }
+  /// At `reach` from the edge, on the sheet towards +x (side 1) or -x (side -1).
+  Vector3d at(double side, double reach, double y) const {
+    return {side * reach * std::cos(pitch()), y, -reach * std::sin(pitch())};
+  }
+  double distance(const Vector3d& place) const {
+    const double right = normal(1.0).dot(place);
+    const double left = normal(-1.0).dot(place);
+    return convex ? std::max(left, right) : std::min(left, right);
+  }
+};
+
+/// Rows of points on each sheet, the first at `right` and `left` from the edge, some random way
+/// along it.
+OrientedPoints roof_points(const Roof& roof, double right, double left, int columns, double sigma,
+                           std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  OrientedPoints points;
+  for (const double side : {1.0, -1.0}) {
+    const double first = side > 0.0 ? right : left;
+    for (int row = 0; row < 8; ++row) {
+      for (int i = 0; i < columns; ++i) {
+        const double reach = first + (0.9 - first) * row / 7.0;
+        const Vector3d off = sigma * random.normal() * roof.normal(side);
+        const double y = -0.8 + 1.6 * (i + random.uniform(0.1, 0.9)) / columns;
+        points.push_back({roof.at(side, reach, y) + off, roof.normal(side), sigma * sigma});
+      }
+    }
+  }
+  return points;
+}
+
+OrientedPoints roof_points(const Roof& roof, double sigma, std::uint64_t seed) {
+  return roof_points(roof, 0.05, 0.05, 9, sigma, seed);
+}
+
+std::optional<CreasedPatch> fit(const OrientedPoints& points) {
+  return CreasedPatch::fit(points, Vector3d::Zero(), 1.0, 1e-3);
+}
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+std::vector<Roof> roofs() {
+  std::vector<Roof> all;
+  for (const double degrees : {40.0, 60.0, 90.0, 110.0}) {
+    for (const bool convex : {true, false}) all.push_back({degrees * kDegree, convex});
+  }
+  return all;
+}
+
+TEST(CreasedPatch, MeasuresTheTurnOfTwoPlanes) {
+  for (const auto& roof : roofs()) {
+    const auto exact = fit(roof_points(roof, 0.0, 1));
+    ASSERT_TRUE(exact) << roof.turn / kDegree << " convex " << roof.convex;
+    EXPECT_NEAR(exact->turn(), roof.turn, 1e-6);
+    const auto noisy = fit(roof_points(roof, 0.01, 2));
+    ASSERT_TRUE(noisy) << roof.turn / kDegree << " convex " << roof.convex;
+    EXPECT_NEAR(noisy->turn(), roof.turn, 3.0 * kDegree);
+  }
+}
+
+TEST(CreasedPatch, IsZeroOnBothSheetsAndAtTheEdgeAndSharpThere) {
+  for (const auto& roof : roofs()) {
+    const auto patch = fit(roof_points(roof, 0.0, 3));
+    ASSERT_TRUE(patch) << roof.turn / kDegree << " convex " << roof.convex;
+    for (const double y : {-0.3, 0.0, 0.4}) {
+      EXPECT_NEAR(patch->at({0.0, y, 0.0}).value, 0.0, 1e-8);
+      for (const double side : {-1.0, 1.0}) {
+        for (const double reach : {1e-3, 0.03, 0.4}) {
+          const auto field = patch->at(roof.at(side, reach, y));
+          EXPECT_NEAR(field.value, 0.0, 1e-8) << roof.turn / kDegree << " convex " << roof.convex;
+          EXPECT_NEAR(field.gradient.normalized().dot(roof.normal(side)), 1.0, 1e-8);
+        }
+      }
+    }
+  }
+}
+
+TEST(CreasedPatch, IsPositiveOutsideTheBodyOnly) {
+  for (const auto& roof : roofs()) {
+    const auto patch = fit(roof_points(roof, 0.0, 4));
+    ASSERT_TRUE(patch);
+    test::RandomNumbers random(5);
+    for (int i = 0; i < 100; ++i) {
+      const Vector3d place(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
+                           random.uniform(-0.5, 0.5));
+      if (std::abs(roof.distance(place)) < 1e-3) continue;
+      EXPECT_EQ(patch->at(place).value > 0.0, roof.distance(place) > 0.0)
+          << place.transpose() << " turn " << roof.turn / kDegree << " convex " << roof.convex;
+    }
+  }
+}
+
+TEST(CreasedPatch, GapIsTheEdgesDistanceFromTheSheetThatComesLessNear) {
+  const Roof roof{90.0 * kDegree};
+  const auto both = fit(roof_points(roof, 0.05, 0.05, 60, 0.0, 6));
+  const auto one = fit(roof_points(roof, 0.05, 0.3, 60, 0.0, 6));
+  ASSERT_TRUE(both && one);
+  EXPECT_GE(both->gap(), 0.05 - 1e-6);
+  EXPECT_LT(both->gap(), 0.08);
+  EXPECT_GE(one->gap(), 0.3 - 1e-6);
+  EXPECT_LT(one->gap(), 0.32);
+}
+
+TEST(CreasedPatch, GradientIsThatOfItsValue) {
+  const Roof roof{80.0 * kDegree};
+  const auto patch = fit(roof_points(roof, 0.01, 7));
+  ASSERT_TRUE(patch);
+  const auto value = [&](const Vector3d& place) { return patch->at(place).value; };
+  for (const double side : {-1.0, 1.0}) {
+    for (const double reach : {0.2, 0.5}) {
+      const Vector3d place = roof.at(side, reach, 0.2) + 0.05 * roof.normal(side);
+      EXPECT_NEAR(
+          (patch->at(place).gradient - test::slope_by_differences(value, place, 1e-5)).norm(), 0.0,
+          1e-6);
+    }
+  }
+}
+
+TEST(CreasedPatch, AveragesNoise) {
+  const double sigma = 0.01;
+  for (const bool convex : {true, false}) {
+    const Roof roof{90.0 * kDegree, convex};
+    double squares = 0.0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const auto patch = fit(roof_points(roof, sigma, seed));
+      ASSERT_TRUE(patch) << seed;
+      for (const double side : {-1.0, 1.0}) {
+        squares += std::pow(patch->at(roof.at(side, 0.45, 0.1)).value, 2) / 40.0;
+      }
+    }
+    EXPECT_LT(std::sqrt(squares), 0.6 * sigma) << "convex " << convex;
+  }
+}
+
+TEST(CreasedPatch, IsLikelierThanOneSmoothSheetOnARoof) {
+  const auto smooth = [](const OrientedPoints& points, const Vector3d& centre) {
+    return HeightPatch::fit(points, centre, Vector3d::UnitZ(), 1.0, 1e-3)->misfit();
+  };
+  const auto points = roof_points({90.0 * kDegree}, 0.005, 8);
+  const auto creased = fit(points);
+  ASSERT_TRUE(creased);
+  EXPECT_LT(creased->misfit(), smooth(points, Vector3d::Zero()));
+}
+
+TEST(CreasedPatch, HardlyTurnsWhereASmoothSurfaceWasCutInTwo) {
+  // Strongly curved caps fall in two by their normals; their halves meet evenly.
+  for (const double radius : {0.8, 1.2, 1.6}) {
+    const auto cap = test::cap_points(radius, 0.95 * std::min(radius, 1.0), 200, 0.0, 1);
+    const auto patch = CreasedPatch::fit(cap, {0, 0, radius}, 1.0, 1e-3);
+    ASSERT_TRUE(patch) << radius;
+    EXPECT_LT(patch->turn(), 5.0 * kDegree) << radius;
+  }
+}
+
+TEST(CreasedPatch, FindsNoTwoSheetsInAPlane) {
+  for (const double sigma : {0.0, 0.005}) {
+    EXPECT_FALSE(fit(test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 150, sigma, 1)));
+  }
+}
+
+TEST(CreasedPatch, IsTheSameInAnyUnit) {
+  const Roof roof{70.0 * kDegree, false};
+  const auto points = roof_points(roof, 0.01, 9);
+  const auto patch = fit(points);
+  ASSERT_TRUE(patch);
+  for (const double factor : {1e-3, 1e3}) {
+    const auto other =
+        CreasedPatch::fit(test::scaled(points, factor), Vector3d::Zero(), factor, 1e-3 / factor);
+    ASSERT_TRUE(other);
+    EXPECT_NEAR(other->turn(), patch->turn(), 1e-6);
+    EXPECT_NEAR(other->gap() / factor, patch->gap(), 1e-6);
+    const Vector3d place = roof.at(1.0, 0.3, 0.2);
+    EXPECT_NEAR(other->at(factor * place).value / factor, patch->at(place).value, 1e-7);
+  }
+}
+
+TEST(CreasedPatch, OrderOfPointsDoesNotMatter) {
+  const Roof roof{70.0 * kDegree};
+  const auto points = roof_points(roof, 0.01, 10);
+  const auto patch = fit(points);
+  const auto other = fit(test::in_another_order(points, 11));
+  ASSERT_TRUE(patch && other);
+  EXPECT_NEAR(other->turn(), patch->turn(), 1e-9);
+  for (const double side : {-1.0, 1.0}) {
+    const Vector3d place = roof.at(side, 0.3, 0.2);
+    EXPECT_NEAR(other->at(place).value, patch->at(place).value, 1e-9);
+  }
+}
+
+TEST(CreasedPatch, TakesDuplicates) {
+  const Roof roof{90.0 * kDegree};
+  auto points = roof_points(roof, 0.0, 12);
+  const auto half = static_cast<std::ptrdiff_t>(points.size() / 2);
+  points.insert(points.end(), points.begin(), points.begin() + half);
+  const auto patch = fit(points);
+  ASSERT_TRUE(patch);
+  EXPECT_NEAR(patch->turn(), roof.turn, 1e-5);
+}
+
+TEST(CreasedPatch, RefusesPointsThatMakeNoTwoSheets) {
+  const Roof roof{90.0 * kDegree};
+  OrientedPoints few;
+  for (const auto& point : roof_points(roof, 0.0, 13)) {
+    const auto on_the_left = std::count_if(
+        few.begin(), few.end(), [](const auto& other) { return other.position.x() < 0.0; });
+    if (point.position.x() > 0.0 || on_the_left < 5) few.push_back(point);
+  }
+  EXPECT_FALSE(fit(few)) << "five on one sheet";
+  EXPECT_FALSE(fit({}));
+  EXPECT_FALSE(fit(OrientedPoints(30, few.front())));
+  OrientedPoints line;
+  for (int i = -15; i < 15; ++i) {
+    line.push_back({0.05 * i * Vector3d::UnitY(), roof.normal(i < 0 ? -1.0 : 1.0), 0.0});
+  }
+  EXPECT_FALSE(fit(line));
+}
+
+}  // namespace
+}  // namespace instep

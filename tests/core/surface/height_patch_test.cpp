@@ -1,0 +1,303 @@
+#include "core/surface/height_patch.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "tests/support/oriented_points.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using OrientedPoints = std::vector<OrientedPoint>;
+
+constexpr double kSphere = 2.0;
+const Vector3d kTop(0, 0, kSphere);
+
+HeightPatch cap_patch(const OrientedPoints& points) {
+  return HeightPatch::fit(points, kTop, Vector3d::UnitZ(), 1.0, 0.01).value();
+}
+
+/// Over the unit disc under a cap of the sphere, off the sphere by `distance`.
+Vector3d near_cap(double x, double y, double distance = 0.0) {
+  const double z = std::sqrt(kSphere * kSphere - x * x - y * y);
+  return (1.0 + distance / kSphere) * Vector3d(x, y, z);
+}
+
+TEST(HeightPatch, OfAPlaneIsTheDistanceFromIt) {
+  const Vector3d normal = Vector3d(1, -2, 3).normalized();
+  const Vector3d middle(5, 6, -7);
+  for (const std::size_t count : {4U, 5U, 30U, 300U}) {
+    const auto points = test::disc_points(middle, normal, 2.0, count, 0.0, 1);
+    const auto patch = HeightPatch::fit(points, middle, normal, 2.0, 0.01);
+    ASSERT_TRUE(patch) << count;
+    for (const double distance : {-0.5, 0.0, 0.3}) {
+      const Vector3d place = middle + Vector3d(0.4, 0.2, 0.0) + distance * normal;
+      const double expected = normal.dot(place - middle);
+      EXPECT_NEAR(patch->at(place).value, expected, 1e-9) << count;
+      EXPECT_NEAR((patch->at(place).gradient - normal).norm(), 0.0, 1e-8) << count;
+    }
+  }
+}
+
+TEST(HeightPatch, TakesAPlaneThatIsTiltedAgainstItsAxis) {
+  const Vector3d normal(std::sin(0.6), 0.0, std::cos(0.6));
+  const auto points = test::disc_points(Vector3d::Zero(), normal, 1.0, 50, 0.0, 2);
+  const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.01);
+  ASSERT_TRUE(patch);
+  const Vector3d on = 0.3 * normal.unitOrthogonal();
+  EXPECT_NEAR(patch->at(on).value, 0.0, 1e-9);
+  EXPECT_NEAR(patch->at(on).gradient.normalized().dot(normal), 1.0, 1e-9);
+  EXPECT_GT(patch->at(on + 0.1 * normal).value, 0.09);
+  EXPECT_LT(patch->at(on - 0.1 * normal).value, -0.09);
+}
+
+TEST(HeightPatch, PassesThroughExactPointsAndKeepsTheRoughnessGiven) {
+  const auto points = test::cap_points(kSphere, 1.0, 55, 0.0, 3);
+  const auto patch = cap_patch(points);
+  for (const auto& point : points) EXPECT_NEAR(patch.at(point.position).value, 0.0, 1e-9);
+  EXPECT_DOUBLE_EQ(patch.roughness(), 0.01);
+}
+
+TEST(HeightPatch, FollowsASphereBetweenItsPoints) {
+  const auto patch = cap_patch(test::cap_points(kSphere, 1.0, 60, 0.0, 4));
+  for (const double x : {-0.4, 0.0, 0.3}) {
+    for (const double y : {-0.3, 0.1, 0.5}) {
+      const auto field = patch.at(near_cap(x, y));
+      EXPECT_NEAR(field.value, 0.0, 5e-4);
+      EXPECT_GT(field.gradient.normalized().dot(near_cap(x, y).normalized()), 1.0 - 1e-4);
+      EXPECT_GT(patch.at(near_cap(x, y, 0.05)).value, 0.045);
+      EXPECT_LT(patch.at(near_cap(x, y, -0.05)).value, -0.045);
+    }
+  }
+}
+
+Eigen::Matrix<double, 1, 6> terms_at(const Vector3d& p) {
+  Eigen::Matrix<double, 1, 6> row;
+  row << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+  return row;
+}
+
+double cubed_distance(const Vector3d& a, const Vector3d& b) {
+  return std::pow((a - b).head<2>().norm(), 3);
+}
+
+/// Eq. 7 in the plane, without smoothing and with six monomials, solved by LU decomposition.
+double height_by_lu(const OrientedPoints& points, const Vector3d& place) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  const auto at = [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)].position; };
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count + 6, count + 6);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count + 6);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index j = 0; j < count; ++j) matrix(i, j) = cubed_distance(at(i), at(j));
+    matrix.row(i).tail(6) = terms_at(at(i));
+    matrix.col(i).tail(6) = terms_at(at(i)).transpose();
+    right[i] = at(i).z();
+  }
+  const Eigen::VectorXd solution = matrix.fullPivLu().solve(right);
+  double height = terms_at(place).dot(solution.tail(6));
+  for (Eigen::Index i = 0; i < count; ++i) height += solution[i] * cubed_distance(place, at(i));
+  return height;
+}
+
+/// Twice the negative log of the restricted likelihood of the points' heights, up to a constant:
+/// what is left of them once any quadratic is taken out has covariance roughness * r^3 + variance.
+double misfit_by_hand(const OrientedPoints& points, double roughness) {
+  const auto count = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd covariance(count, count);
+  Eigen::MatrixXd quadratics(count, 6);
+  Eigen::VectorXd heights(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto& point = points[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < count; ++j) {
+      covariance(i, j) =
+          roughness * cubed_distance(point.position, points[static_cast<std::size_t>(j)].position);
+    }
+    covariance(i, i) += point.variance;
+    quadratics.row(i) = terms_at(point.position);
+    heights[i] = point.position.z();
+  }
+  const Eigen::MatrixXd orthogonal =
+      Eigen::HouseholderQR<Eigen::MatrixXd>(quadratics).householderQ();
+  const Eigen::MatrixXd rest = orthogonal.rightCols(count - 6);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rest.transpose() * covariance * rest);
+  const Eigen::VectorXd along = solver.eigenvectors().transpose() * rest.transpose() * heights;
+  return (along.array().square() / solver.eigenvalues().array() +
+          solver.eigenvalues().array().log())
+      .sum();
+}
+
+OrientedPoints wavy_points(std::size_t count, double amplitude, double sigma, std::uint64_t seed) {
+  auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, count, sigma, seed);
+  for (auto& point : points) {
+    point.position.z() +=
+        amplitude * std::sin(6 * point.position.x()) * std::cos(5 * point.position.y());
+  }
+  return points;
+}
+
+TEST(HeightPatch, IsTheRadialBasisFunctionThatLuDecompositionFinds) {
+  for (const std::size_t count : {12U, 20U, 60U}) {
+    const auto points = wavy_points(count, 0.1, 0.0, 5);
+    const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.05);
+    ASSERT_TRUE(patch) << count;
+    test::RandomNumbers random(6);
+    for (int i = 0; i < 20; ++i) {
+      Vector3d place(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), 0.0);
+      place.z() = height_by_lu(points, place);
+      EXPECT_NEAR(patch->at(place).value, 0.0, 1e-8) << count;
+    }
+  }
+}
+
+TEST(HeightPatch, RoughnessIsTheLikeliestToWithinAFactorOfThree) {
+  const auto points = wavy_points(50, 0.1, 0.02, 5);
+  double likeliest = 1e-4;
+  for (double roughness = 1e-4; roughness < 100.0; roughness *= 1.2) {
+    if (misfit_by_hand(points, roughness) < misfit_by_hand(points, likeliest)) {
+      likeliest = roughness;
+    }
+  }
+  for (const double prior : {0.01, 0.05, 0.1, 0.5}) {
+    const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, prior);
+    ASSERT_TRUE(patch);
+    EXPECT_LT(std::abs(std::log(patch->roughness() / likeliest)), std::log(3.0)) << prior;
+  }
+}
+
+TEST(HeightPatch, FindsWavesRougherThanAnEvenSurface) {
+  const auto roughness = [](double amplitude) {
+    return HeightPatch::fit(wavy_points(60, amplitude, 0.005, 7), Vector3d::Zero(),
+                            Vector3d::UnitZ(), 1.0, 0.01)
+        ->roughness();
+  };
+  EXPECT_GT(roughness(0.1), 5.0 * roughness(0.0));
+}
+
+TEST(HeightPatch, GradientIsThatOfItsValue) {
+  const auto patch = cap_patch(test::cap_points(kSphere, 1.0, 60, 0.01, 8));
+  const auto value = [&](const Vector3d& place) { return patch.at(place).value; };
+  test::RandomNumbers random(9);
+  for (int i = 0; i < 20; ++i) {
+    const Vector3d place =
+        near_cap(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), random.uniform(-0.2, 0.2));
+    EXPECT_NEAR((patch.at(place).gradient - test::slope_by_differences(value, place, 1e-5)).norm(),
+                0.0, 1e-7);
+  }
+}
+
+/// Root mean square of the distance of its middle from the true plane, over `trials` draws.
+double error_on_a_plane(std::size_t count, double sigma, std::uint64_t trials) {
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= trials; ++seed) {
+    const auto points =
+        test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, count, sigma, seed);
+    const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 1e-4);
+    for (const double x : {-0.4, 0.0, 0.4}) {
+      squares += std::pow(patch->at({x, 0.2, 0.0}).value, 2) / 3.0;
+    }
+  }
+  return std::sqrt(squares / static_cast<double>(trials));
+}
+
+TEST(HeightPatch, AveragesNoiseMoreTheMorePointsItHas) {
+  const double sigma = 0.02;
+  EXPECT_LT(error_on_a_plane(60, sigma, 30), 0.45 * sigma);
+  EXPECT_LT(error_on_a_plane(600, sigma, 30), 0.2 * sigma);
+}
+
+TEST(HeightPatch, AveragingOverCellsDoesNotBendACurvedSurface) {
+  const auto patch = cap_patch(test::cap_points(kSphere, 1.0, 3000, 1e-6, 10));
+  for (const double x : {-0.5, -0.2, 0.0, 0.3, 0.6}) {
+    EXPECT_NEAR(patch.at(near_cap(x, 0.1)).value, 0.0, 3e-4) << x;
+  }
+}
+
+TEST(HeightPatch, SpansAHole) {
+  OrientedPoints rim;
+  for (const auto& point : test::cap_points(kSphere, 1.0, 80, 0.0, 11)) {
+    if (point.position.head<2>().norm() > 0.5) rim.push_back(point);
+  }
+  const auto patch = cap_patch(rim);
+  // A flat cover over the hole would be 0.064 off.
+  for (const double x : {-0.3, 0.0, 0.2}) EXPECT_NEAR(patch.at(near_cap(x, 0.0)).value, 0.0, 3e-3);
+}
+
+TEST(HeightPatch, IsTheSameInAnyUnit) {
+  const auto points = test::cap_points(kSphere, 1.0, 60, 0.01, 12);
+  const auto patch = cap_patch(points);
+  for (const double factor : {1e-3, 1e3}) {
+    // A variogram, a square of lengths over a cube of them.
+    const auto other = HeightPatch::fit(test::scaled(points, factor), factor * kTop,
+                                        Vector3d::UnitZ(), factor, 0.01 / factor);
+    ASSERT_TRUE(other);
+    EXPECT_NEAR(other->roughness() * factor, patch.roughness(), 1e-6 * patch.roughness());
+    for (const double x : {-0.4, 0.0, 0.5}) {
+      const Vector3d place = near_cap(x, 0.2, 0.1);
+      EXPECT_NEAR(other->at(factor * place).value / factor, patch.at(place).value, 1e-7);
+      EXPECT_NEAR((other->at(factor * place).gradient - patch.at(place).gradient).norm(), 0.0,
+                  1e-6);
+    }
+  }
+}
+
+TEST(HeightPatch, OrderOfPointsDoesNotMatter) {
+  for (const std::size_t count : {40U, 400U}) {
+    const auto points = test::cap_points(kSphere, 1.0, count, 0.01, 13);
+    const auto patch = cap_patch(points);
+    const auto other = cap_patch(test::in_another_order(points, 14));
+    for (const double x : {-0.4, 0.0, 0.5}) {
+      EXPECT_NEAR(other.at(near_cap(x, 0.1)).value, patch.at(near_cap(x, 0.1)).value, 1e-9);
+    }
+    EXPECT_NEAR(other.misfit(), patch.misfit(), 1e-6);
+  }
+}
+
+TEST(HeightPatch, APointTwiceIsAPointOfHalfTheVariance) {
+  auto once = test::cap_points(kSphere, 1.0, 28, 0.01, 15);
+  auto twice = once;
+  twice.insert(twice.end(), once.begin(), once.end());
+  for (auto& point : once) point.variance /= 2.0;
+  const auto patch = cap_patch(once);
+  const auto other = cap_patch(twice);
+  for (const double x : {-0.4, 0.0, 0.5}) {
+    EXPECT_NEAR(other.at(near_cap(x, 0.1)).value, patch.at(near_cap(x, 0.1)).value, 1e-6);
+  }
+}
+
+TEST(HeightPatch, ExactDuplicatesDoNotMatter) {
+  const auto points = test::cap_points(kSphere, 1.0, 25, 0.0, 16);
+  auto twice = points;
+  twice.insert(twice.end(), points.begin(), points.end());
+  const auto patch = HeightPatch::fit(twice, kTop, Vector3d::UnitZ(), 1.0, 0.01);
+  ASSERT_TRUE(patch);
+  for (const auto& point : points) EXPECT_NEAR(patch->at(point.position).value, 0.0, 1e-6);
+  EXPECT_NEAR(patch->at(near_cap(0.1, 0.1)).value, cap_patch(points).at(near_cap(0.1, 0.1)).value,
+              1e-6);
+}
+
+TEST(HeightPatch, RefusesPointsThatDetermineNoSurface) {
+  const auto fits = [](const OrientedPoints& points) {
+    return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.01).has_value();
+  };
+  OrientedPoints line;
+  for (int i = -3; i <= 3; ++i) {
+    line.push_back({0.2 * i * Vector3d(0.6, 0.8, 0.1), Vector3d::UnitZ(), 0.0});
+  }
+  for (const double variance : {0.0, 1e-4}) {
+    for (auto& point : line) point.variance = variance;
+    EXPECT_FALSE(fits({}));
+    EXPECT_FALSE(fits(test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 3, 0.0, 17)));
+    EXPECT_FALSE(fits(line));
+    EXPECT_FALSE(fits(OrientedPoints(20, line.front())));
+  }
+  EXPECT_TRUE(fits(test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 4, 0.0, 17)));
+}
+
+}  // namespace
+}  // namespace instep

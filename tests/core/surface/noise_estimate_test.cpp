@@ -1,0 +1,153 @@
+#include "core/surface/noise_estimate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/oriented_points.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using Points = std::vector<Vector3d>;
+
+std::vector<std::size_t> every(std::size_t step, const Points& points) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = step / 2; i < points.size(); i += step) places.push_back(i);
+  return places;
+}
+
+NoiseEstimate estimate(const Points& points, std::optional<double> sigma = std::nullopt) {
+  return estimate_noise(points, PointIndex(points), every(points.size() / 40 + 1, points), sigma);
+}
+
+Points sphere(double sigma, std::uint64_t seed) {
+  return test::positions_of(test::sphere_points(0.5, 4000, sigma, seed));
+}
+
+double middle_roughness(const NoiseEstimate& noise) {
+  std::vector<double> all;
+  for (const auto& known : noise.roughness) all.push_back(known.roughness);
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2),
+                   all.end());
+  return all.at(all.size() / 2);
+}
+
+TEST(NoiseEstimate, MeetsTheNoiseOfASphere) {
+  for (const double sigma : {0.001, 0.003, 0.01}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      EXPECT_NEAR(estimate(sphere(sigma, seed)).sigma, sigma, 0.15 * sigma) << "seed " << seed;
+    }
+  }
+}
+
+TEST(NoiseEstimate, FindsAlmostNoneInAnExactCloud) {
+  EXPECT_LT(estimate(sphere(0.0, 1)).sigma, 1e-5);
+  EXPECT_LT(estimate(test::positions_of(test::prism_points(1.0, 0.5, 0.03, 0.0, 1))).sigma, 1e-4);
+}
+
+TEST(NoiseEstimate, IsNotMisledByCreases) {
+  const double sigma = 0.003;
+  const auto prism = test::positions_of(test::prism_points(1.0, 1.0, 0.025, sigma, 2));
+  EXPECT_NEAR(estimate(prism).sigma, sigma, 0.2 * sigma);
+}
+
+TEST(NoiseEstimate, IsNotMisledByAFewStrays) {
+  const double sigma = 0.003;
+  auto points = sphere(sigma, 4);
+  test::RandomNumbers random(5);
+  for (int i = 0; i < 20; ++i) points[random.below(points.size())] *= random.uniform(1.05, 1.3);
+  EXPECT_NEAR(estimate(points).sigma, sigma, 0.2 * sigma);
+}
+
+TEST(NoiseEstimate, KeepsASigmaThatIsKnown) {
+  const auto noise = estimate(sphere(0.003, 6), 0.007);
+  EXPECT_DOUBLE_EQ(noise.sigma, 0.007);
+  ASSERT_FALSE(noise.roughness.empty());
+  for (const auto& known : noise.roughness) EXPECT_GT(known.roughness, 0.0);
+}
+
+TEST(NoiseEstimate, TellsTheRoughnessOfSomeFortyPlaces) {
+  const auto points = sphere(0.003, 7);
+  const auto noise = estimate_noise(points, PointIndex(points), every(1, points), std::nullopt);
+  EXPECT_GE(noise.roughness.size(), 20U);
+  EXPECT_LE(noise.roughness.size(), 60U);
+  for (const auto& known : noise.roughness) {
+    EXPECT_GT(known.roughness, 0.0);
+    EXPECT_NEAR(known.place.norm(), 0.5, 0.02) << "not on the surface";
+  }
+}
+
+/// Waves of the same height over and over against none, under the same noise.
+TEST(NoiseEstimate, FindsWavesRougherThanAnEvenSphere) {
+  auto waves = test::sphere_points(0.5, 4000, 0.001, 8);
+  for (auto& point : waves) point.position *= 1.0 + 0.02 * std::sin(60.0 * point.position.z());
+  EXPECT_GT(middle_roughness(estimate(test::positions_of(waves), 0.001)),
+            5.0 * middle_roughness(estimate(sphere(0.001, 8), 0.001)));
+}
+
+TEST(NoiseEstimate, IsTheSameInAnyUnit) {
+  auto points = sphere(0.003, 9);
+  const auto noise = estimate(points);
+  for (auto& point : points) point *= 1e3;
+  const auto other = estimate(points);
+  EXPECT_NEAR(other.sigma, 1e3 * noise.sigma, 1e-6 * other.sigma);
+  ASSERT_EQ(other.roughness.size(), noise.roughness.size());
+  // A variogram, a square of lengths over a cube of them.
+  for (std::size_t i = 0; i < noise.roughness.size(); ++i) {
+    EXPECT_NEAR(1e3 * other.roughness[i].roughness, noise.roughness[i].roughness,
+                1e-4 * noise.roughness[i].roughness);
+  }
+}
+
+TEST(NoiseEstimate, OrderOfPointsDoesNotMatter) {
+  const auto points = sphere(0.003, 10);
+  const auto places = every(110, points);
+  Points turned(points.rbegin(), points.rend());
+  std::vector<std::size_t> turned_places;
+  for (const auto place : places) turned_places.push_back(points.size() - 1 - place);
+  const auto noise = estimate_noise(points, PointIndex(points), places, std::nullopt);
+  const auto other = estimate_noise(turned, PointIndex(turned), turned_places, std::nullopt);
+  EXPECT_NEAR(other.sigma, noise.sigma, 1e-9);
+}
+
+TEST(NoiseEstimate, IsFiniteForAnything) {
+  Points line;
+  for (int i = 0; i < 100; ++i) line.emplace_back(0.01 * i, 0.02 * i, 0.0);
+  test::RandomNumbers random(11);
+  Points cloud;
+  for (int i = 0; i < 300; ++i) {
+    cloud.emplace_back(random.uniform(), random.uniform(), random.uniform());
+  }
+  Points twice = sphere(0.003, 12);
+  twice.insert(twice.end(), twice.begin(), twice.begin() + 2000);
+  for (const auto& points : {line, cloud, twice, Points(50, Vector3d(1, 2, 3)), Points{{0, 0, 0}},
+                             Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}) {
+    const auto noise = estimate_noise(points, PointIndex(points), every(1, points), std::nullopt);
+    EXPECT_TRUE(std::isfinite(noise.sigma));
+    EXPECT_GE(noise.sigma, 0.0);
+    for (const auto& known : noise.roughness) {
+      EXPECT_TRUE(std::isfinite(known.roughness));
+      EXPECT_GT(known.roughness, 0.0);
+    }
+  }
+}
+
+TEST(RoughnessAt, ComesFromTheNearestPlaces) {
+  std::vector<LocalRoughness> known;
+  for (int i = 0; i < 20; ++i) {
+    known.push_back({{0.01 * i, 0.0, 0.0}, 2.0});
+    known.push_back({{50.0 + 0.01 * i, 0.0, 0.0}, 7.0});
+  }
+  EXPECT_NEAR(roughness_at(known, {0.1, 1.0, 0.0}), 2.0, 1e-3);
+  EXPECT_NEAR(roughness_at(known, {49.0, 0.0, 0.0}), 7.0, 1e-3);
+  EXPECT_NEAR(roughness_at({{Vector3d::Zero(), 3.0}}, {9, 9, 9}), 3.0, 1e-12);
+  EXPECT_GT(roughness_at({}, Vector3d::Zero()), 0.0);
+  EXPECT_LT(roughness_at({}, Vector3d::Zero()), 0.1);
+}
+
+}  // namespace
+}  // namespace instep
