@@ -14,7 +14,8 @@ struct Contour {
   std::vector<Eigen::Vector2d> points;
   std::vector<Eigen::Vector2d> outward;
 
-  /// Length along the curve: each chord is lengthened to the arc that turns as its ends do.
+  /// Length along the curve: each chord is lengthened to the arc that turns as its ends do, to the
+  /// second order of the turn.
   double length() const;
 
   /// The curve with `parts` pieces for each chord, by cubics that meet its ends in place and
@@ -24,8 +25,9 @@ struct Contour {
 
 /// Follows the zero line of the surface on the plane z = 0 from near `start`: predictor along the
 /// tangent, Newton corrector along the analytic gradient, steps of at most `step`, shorter where it
-/// turns. Patches are added on the way. Nothing if there is no surface near, or the line strays
-/// further than `reach` from all points or does not close within `longest`.
+/// turns. Patches are added on the way, and move the line under its first corners by a part of the
+/// noise: trace once to place them, and again to read. Nothing if there is no surface near, or the
+/// line strays further than `reach` from all points or does not close within `longest`.
 std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vector2d& start,
                                      double step, double reach, double longest);
 

@@ -27,8 +27,8 @@ class CreasedPatch {
   /// surface was cut in two.
   double turn() const { return turn_; }
 
-  /// Distance from where they meet to the points of the sheet that comes less near it. A crease far
-  /// from all points is a guess.
+  /// Distance from the place where they meet nearest to the points on both, to the nearest point of
+  /// the sheet that comes less near it. A crease far from all points is a guess.
   double gap() const { return gap_; }
 
   /// Comparable with that of one HeightPatch over the same points.

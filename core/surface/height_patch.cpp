@@ -53,7 +53,7 @@ class ReducedSystem {
   ReducedSystem(const HeightSamples& samples, Eigen::Index wanted_terms)
       : qr_(monomials(samples.places, wanted_terms)) {
     qr_.setThreshold(kLeastDetermined);
-    terms_ = qr_.rank();
+    terms_ = spans_a_plane(samples.places) ? qr_.rank() : 0;
     free_ = samples.size() - terms_;
     if (!is_determined()) return;
     const auto basis = qr_.householderQ().setLength(terms_);
@@ -131,6 +131,13 @@ class ReducedSystem {
   }
 
  private:
+  /// A quadratic along one line has as many terms as a plane.
+  static bool spans_a_plane(const Eigen::Matrix2Xd& places) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(monomials(places, 3));
+    qr.setThreshold(kLeastDetermined);
+    return qr.rank() == 3;
+  }
+
   static Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places) {
     const Eigen::Index count = places.cols();
     Eigen::MatrixXd kernel(count, count);

@@ -13,14 +13,15 @@ namespace instep {
 /// Zero on the surface, positive outside, of slope near one across it.
 ///
 /// The surface is the paper's radial basis functions (eqs. 6 and 7, phi = r^3, a smoothing for each
-/// point) with a quadratic polynomial, over the tangent plane: as heights, points need no others
-/// put off the surface (eq. 5) and no normals but for the side, and the system is half as large.
-/// It is solved on the null space of the polynomial block, where it is positive definite, by
-/// Cholesky, centred and in unit scale.
+/// point) with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane:
+/// as heights, points need no others put off the surface (eq. 5) and no normals but for the side,
+/// and the system is half as large. It is solved on the null space of the polynomial block, where
+/// it is positive definite, by Cholesky, centred and in unit scale.
 ///
 /// Read as kriging: once a quadratic is taken out, heights wander with variogram
-/// roughness * distance^3, and a point's variance against that is its smoothing. The roughness is
-/// the likeliest one (restricted maximum likelihood) given the points and a prior.
+/// roughness * distance^3. The roughness is the likeliest one (restricted maximum likelihood) given
+/// the points and a prior; a point's smoothing is its variance against four times that, since a
+/// length is asked for in the end, over which noise averages out but flattened bends add up.
 class HeightPatch {
  public:
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:

@@ -24,8 +24,9 @@ class HermitePatch {
   /// Coefficients of 1, x, y, z, xx, yy, zz, xy, yz, zx.
   using Polynomial = Eigen::Matrix<double, 10, 1>;
 
-  /// Nothing if the points do not determine a field (all on one line, all equal). `radius` > 0 is
-  /// the size of the neighbourhood round `centre`. O((2 points)^3).
+  /// Nothing if the points do not determine a field (all equal); points on one line
+  /// determine it along their normals only. `radius` > 0 is the size of the neighbourhood round
+  /// `centre`. O((2 points)^3).
   static std::optional<HermitePatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
                                          double roughness);

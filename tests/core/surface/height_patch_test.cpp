@@ -286,8 +286,8 @@ TEST(HeightPatch, RefusesPointsThatDetermineNoSurface) {
     return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.01).has_value();
   };
   OrientedPoints line;
-  for (int i = -3; i <= 3; ++i) {
-    line.push_back({0.2 * i * Vector3d(0.6, 0.8, 0.1), Vector3d::UnitZ(), 0.0});
+  for (int i = -14; i <= 14; ++i) {
+    line.push_back({0.07 * i * Vector3d(0.6, 0.8, 0.1), Vector3d::UnitZ(), 0.0});
   }
   for (const double variance : {0.0, 1e-4}) {
     for (auto& point : line) point.variance = variance;
