@@ -4,11 +4,13 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/principal_frame.h"
 #include "core/girth/girth.h"
+#include "core/girth/plane_slab.h"
 #include "core/girth/section_gaps.h"
 #include "core/surface/octree_surface.h"
 
@@ -44,15 +46,11 @@ struct PartialCloud {
 };
 
 PartialCloud points_within(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+  PlaneSlab slab = slab_of(cloud, plane, half_width);
   PartialCloud part;
   part.half_width = half_width;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double height = plane.distance(cloud.positions[i]);
-    if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
-    part.places.emplace_back(place.x(), place.y(), height);
-    part.seen.push_back(cloud.was_seen(i));
-  }
+  for (const std::size_t i : slab.indices) part.seen.push_back(cloud.was_seen(i));
+  part.places = std::move(slab.places);
   return part;
 }
 
