@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
+#include <utility>
+
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -101,9 +104,7 @@ double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointInd
     const auto found = index.nearest(points[i], 2);
     distances.push_back(std::sqrt(found.back().squared_distance));
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(std::move(distances));
 }
 
 }  // namespace instep

@@ -12,6 +12,7 @@
 #include "core/girth/girth.h"
 #include "core/girth/plane_slab.h"
 #include "core/girth/section_gaps.h"
+#include "core/median.h"
 #include "core/surface/octree_surface.h"
 
 namespace instep {
@@ -63,9 +64,7 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places) {
     sides.push_back(std::sqrt(std::numbers::pi * nearest.back().squared_distance /
                               static_cast<double>(nearest.size() - 1)));
   }
-  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-  std::nth_element(sides.begin(), middle, sides.end());
-  return *middle;
+  return median(std::move(sides));
 }
 
 double extent(const PointCloud& cloud) {

@@ -8,6 +8,7 @@
 
 #include "core/geometry/point_index.h"
 #include "core/girth/plane_slab.h"
+#include "core/median.h"
 #include "core/surface/noise_estimate.h"
 #include "core/surface/surface_normals.h"
 
@@ -32,13 +33,6 @@ constexpr double kNormalReachInSigmas = 5.0;
 constexpr std::size_t kFewestNormalPoints = 16;
 constexpr std::size_t kMostNormalPoints = 100;
 
-/// The middle one; puts the values in another order.
-double middle(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 /// Side of the square that a point has for itself, by the distance to its k-th neighbour.
 double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
   const auto found = static_cast<double>(nearest.size() - 1);
@@ -51,7 +45,7 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places, const PointIndex& 
   for (std::size_t i = 0; i < places.size(); i += stride) {
     spacings.push_back(own_spacing(index.nearest(places[i], kSpacingNeighbours + 1)));
   }
-  return middle(spacings);
+  return median(spacings);
 }
 
 /// Size of the cloud as the plane sees it, so that it turns with the two.
@@ -94,7 +88,7 @@ PlaneSlab without_strays(const PlaneSlab& slab) {
   for (std::size_t i = 0; i < slab.places.size(); ++i) {
     around.clear();
     for (const auto& neighbour : nearest[i]) around.push_back(spacings[neighbour.index]);
-    if (spacings[i] > kStrayRatio * middle(around)) continue;
+    if (spacings[i] > kStrayRatio * median(around)) continue;
     kept.indices.push_back(slab.indices[i]);
     kept.places.push_back(slab.places[i]);
   }
@@ -240,7 +234,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   if (own_sigma) {
     std::vector<double> sigmas;
     for (const std::size_t index : slab.indices) sigmas.push_back(cloud.sigma_mm[index]);
-    sigma_mm = middle(sigmas);
+    sigma_mm = median(sigmas);
   }
   const NoiseEstimate noise = estimate_noise(slab.places, PointIndex(slab.places),
                                              along_the_plane(slab, spacing), sigma_mm);
