@@ -2,38 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 #include "core/foot/foot_axis.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/side_from_shape.h"
+#include "core/geometry/distinct_points.h"
 
 namespace instep {
 namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
-
-/// Files of triangles name a corner once for each face.
-PointCloud without_duplicates(const PointCloud& cloud) {
-  std::vector<std::size_t> order(cloud.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto before = [&](std::size_t a, std::size_t b) {
-    const auto& p = cloud.positions[a];
-    const auto& q = cloud.positions[b];
-    const auto compared =
-        std::lexicographical_compare_three_way(p.data(), p.data() + 3, q.data(), q.data() + 3);
-    return compared != 0 ? compared < 0 : a < b;
-  };
-  std::sort(order.begin(), order.end(), before);
-  const auto end = std::unique(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return cloud.positions[a] == cloud.positions[b];
-  });
-  order.erase(end, order.end());
-  std::sort(order.begin(), order.end());
-  return cloud.subset(order);
-}
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
   if (options.standing_plane) return *options.standing_plane;
@@ -70,7 +50,8 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (auto checked = check_cloud(cloud); !checked) return tl::unexpected(checked.error());
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
   FootScan foot;
-  foot.cloud = without_duplicates(cloud);
+  // Files of triangles name a corner once for each face.
+  foot.cloud = cloud.subset(distinct_points(cloud.positions));
   if (foot.cloud.size() < kFewestPoints) {
     return fail(ErrorCode::kInsufficientData,
                 "the cloud has only " + std::to_string(foot.cloud.size()) + " points",

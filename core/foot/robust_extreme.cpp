@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -54,9 +57,7 @@ Quadratic robust_fit(LocalPoints local) {
   const Quadratic first = fit(local);
   std::vector<double> residuals;
   for (const auto& point : local) residuals.push_back(residual(first, point));
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  const double limit = std::max(4.0 * *middle, 0.05);
+  const double limit = std::max(4.0 * median(std::move(residuals)), 0.05);
   std::erase_if(local, [&](const Vector3d& point) { return residual(first, point) > limit; });
   return local.size() < kFewestForSummit ? first : fit(local);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/voxel_grid.h"
+#include "core/median.h"
 
 namespace instep {
 
@@ -16,10 +17,7 @@ std::vector<std::size_t> crowded_points(const PointCloud& cloud, const OutlierSe
     for (const std::size_t near : grid.neighbourhood(cell)) crowd += grid.members(near).size();
     for (const std::uint32_t index : grid.members(cell)) crowds[index] = crowd;
   }
-  auto ordered = crowds;
-  const auto middle = ordered.begin() + static_cast<std::ptrdiff_t>(ordered.size() / 2);
-  std::nth_element(ordered.begin(), middle, ordered.end());
-  const double least = settings.least_crowd * static_cast<double>(*middle);
+  const double least = settings.least_crowd * static_cast<double>(median(crowds));
   for (std::size_t i = 0; i < crowds.size(); ++i) {
     if (static_cast<double>(crowds[i]) >= least) kept.push_back(i);
   }

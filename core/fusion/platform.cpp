@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
+
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -117,10 +120,7 @@ double median_distance(const Candidate& plane, const std::vector<Eigen::Vector3d
     const double distance = std::abs(plane.normal.dot(point - plane.centre));
     if (distance <= reach) distances.push_back(distance);
   }
-  if (distances.empty()) return 0.0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(std::move(distances));
 }
 
 /// More points within its reach than in the layers of the same thickness on both sides together.

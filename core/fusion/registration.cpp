@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/geometry/point_index.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -171,13 +172,6 @@ void step(std::vector<MovingView>& views, const std::vector<Match>& matches, dou
     move.translation() = centre + shift - move.linear() * centre;
     views[i].correction = move * views[i].correction;
   }
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double median_residual(const std::vector<Match>& matches) {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
+
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -68,10 +71,7 @@ float usual_noise(const FusedDepth& depth) {
     const float z = depth.depth_mm[i];
     if (z > 0.0F) ratios.push_back(depth.sigma_mm[i] / (z * z));
   }
-  if (ratios.empty()) return 0.0F;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
+  return median(std::move(ratios));
 }
 
 /// 1/Z = c + a x + b y about a pixel, x and y being differences of ray coordinates in pixels.

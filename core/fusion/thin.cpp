@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/geometry/voxel_grid.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -40,10 +41,8 @@ class Thinning {
 
  private:
   /// How far a point looks: along the surface, and across it as far as the noise goes.
-  static double reach(std::vector<double> sigma_mm, double spacing_mm) {
-    const auto middle = sigma_mm.begin() + static_cast<std::ptrdiff_t>(sigma_mm.size() / 2);
-    std::nth_element(sigma_mm.begin(), middle, sigma_mm.end());
-    return std::max(spacing_mm, 2.5 * *middle);
+  static double reach(const std::vector<double>& sigma_mm, double spacing_mm) {
+    return std::max(spacing_mm, 2.5 * median(sigma_mm));
   }
 
   /// Distance from a chosen point along the surface, or infinity if it is another surface.

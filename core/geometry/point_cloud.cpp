@@ -89,8 +89,8 @@ Result<void> check_cloud(const PointCloud& cloud) {
     if (cloud.has_normals() && !(std::abs(cloud.normals[i].norm() - 1.0) < 1e-3)) {
       return bad_point(i, "has a normal that is not of unit length");
     }
-    if (cloud.has_sigma() && !(cloud.sigma_mm[i] > 0.0 && std::isfinite(cloud.sigma_mm[i]))) {
-      return bad_point(i, "has a sigma that is not positive");
+    if (cloud.has_sigma() && !(cloud.sigma_mm[i] > 0.0 && cloud.sigma_mm[i] <= kLargestSigmaMm)) {
+      return bad_point(i, "has a sigma that is not above 0, or above 100 mm");
     }
   }
   return {};

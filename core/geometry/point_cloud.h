@@ -27,7 +27,7 @@ struct PointCloud {
   /// Unit length, pointing out of the body.
   std::vector<Eigen::Vector3d> normals;
 
-  /// Standard deviation of a point's position along its normal, > 0.
+  /// Standard deviation of a point's position along its normal, > 0, at most kLargestSigmaMm.
   std::vector<double> sigma_mm;
 
   /// Unit vector from the point towards the camera that saw it. It orients normals without
@@ -62,9 +62,12 @@ PointCloud transformed(const RigidTransform& target_from_source, const PointClou
 /// damage or another unit, never a foot.
 inline constexpr double kLargestCoordinateMm = 1e5;
 
+/// The largest standard deviation, in millimetres, that a point may have: as large as a foot.
+inline constexpr double kLargestSigmaMm = 100.0;
+
 /// The gate through which every cloud from outside passes: consistent lists, finite numbers,
-/// coordinates within kLargestCoordinateMm, unit normals, positive sigma. The first fault is
-/// reported with the index of its point. Cost: one pass.
+/// coordinates within kLargestCoordinateMm, unit normals, sigma above 0 and up to kLargestSigmaMm.
+/// The first fault is reported with the index of its point. Cost: one pass.
 Result<void> check_cloud(const PointCloud& cloud);
 
 }  // namespace instep

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nanoflann.hpp>
+#include <utility>
+
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -22,8 +25,20 @@ struct PointsAdaptor {
   }
 };
 
-using KdTree = nanoflann::KDTreeSingleIndexAdaptor<
-    nanoflann::L2_Simple_Adaptor<double, PointsAdaptor>, PointsAdaptor, 3, std::size_t>;
+using KdTree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointsAdaptor>,
+                                        PointsAdaptor, 3, std::size_t>;
+
+/// Full of points at the query itself it wants no others: the library would look at every one more
+/// that lies there, and a crowd at one place would be searched whole for each of its points.
+struct NearestFound : nanoflann::KNNResultSet<double, std::size_t, std::size_t> {
+  using KNNResultSet::KNNResultSet;
+
+  double worstDist() const {
+    const double worst = KNNResultSet::worstDist();
+    return worst > 0.0 ? worst : -1.0;
+  }
+};
 
 void order(std::vector<PointIndex::Neighbour>& found) {
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
@@ -56,9 +71,11 @@ std::vector<PointIndex::Neighbour> PointIndex::nearest(const Eigen::Vector3d& qu
   if (count == 0) return found;
   std::vector<std::size_t> indices(count);
   std::vector<double> squared(count);
-  const std::size_t got = tree_->tree.knnSearch(query.data(), count, indices.data(), squared.data());
-  found.reserve(got);
-  for (std::size_t i = 0; i < got; ++i) found.push_back({indices[i], squared[i]});
+  NearestFound nearest(count);
+  nearest.init(indices.data(), squared.data());
+  tree_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
+  found.reserve(nearest.size());
+  for (std::size_t i = 0; i < nearest.size(); ++i) found.push_back({indices[i], squared[i]});
   order(found);
   return found;
 }
@@ -87,9 +104,7 @@ double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointInd
     const auto found = index.nearest(points[i], 2);
     distances.push_back(std::sqrt(found.back().squared_distance));
   }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(std::move(distances));
 }
 
 }  // namespace instep

@@ -17,6 +17,7 @@ constexpr double kShortestStep = 1.0 / 64.0;
 /// angle.
 constexpr double kCreaseStep = 1.0 / 64.0;
 constexpr int kCreaseAngles = 48;
+constexpr double kFirstCreaseAngle = 0.05;
 constexpr double kSharpestCrease = 2.8;
 /// Most corners of a line; one that has more is no section but noise.
 constexpr int kMostCorners = 64;
@@ -81,9 +82,8 @@ std::optional<Place> turn_corner(BlendedSurface& surface, const Place& from, dou
     const auto field = surface.at({point.x(), point.y(), 0.0});
     return field ? field->value : 1.0;
   };
-  const double first = 0.5 * std::numbers::pi - kSharpestCrease;
   const double step = 2.0 * kSharpestCrease / kCreaseAngles;
-  double outside = std::max(first, 0.05);
+  double outside = kFirstCreaseAngle;
   if (!(value_at(outside) > 0.0)) return std::nullopt;
   double inside = outside;
   while (inside < 0.5 * std::numbers::pi + kSharpestCrease && value_at(inside) > 0.0) {

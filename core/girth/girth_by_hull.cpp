@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
@@ -35,10 +36,12 @@ std::vector<std::size_t> band(const PointCloud& cloud, const TapePlane& plane, d
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
-  if (cloud.size() < kFewestBandPoints) {
+  std::vector<Eigen::Vector3d> places;
+  for (const std::size_t i : distinct_points(cloud.positions)) places.push_back(cloud.positions[i]);
+  if (places.size() < kFewestBandPoints) {
     return fail(ErrorCode::kInsufficientData, "the cloud has fewer than ten points", "scan again");
   }
-  const double spacing = median_spacing(cloud.positions, PointIndex(cloud.positions));
+  const double spacing = median_spacing(places, PointIndex(places));
   const auto indices = band(cloud, plane, spacing);
   std::vector<Eigen::Vector2d> points, seen;
   for (const std::size_t index : indices) {

@@ -4,12 +4,15 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/principal_frame.h"
 #include "core/girth/girth.h"
+#include "core/girth/plane_slab.h"
 #include "core/girth/section_gaps.h"
+#include "core/median.h"
 #include "core/surface/octree_surface.h"
 
 namespace instep {
@@ -44,15 +47,11 @@ struct PartialCloud {
 };
 
 PartialCloud points_within(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+  PlaneSlab slab = slab_of(cloud, plane, half_width);
   PartialCloud part;
   part.half_width = half_width;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double height = plane.distance(cloud.positions[i]);
-    if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
-    part.places.emplace_back(place.x(), place.y(), height);
-    part.seen.push_back(cloud.was_seen(i));
-  }
+  for (const std::size_t i : slab.indices) part.seen.push_back(cloud.was_seen(i));
+  part.places = std::move(slab.places);
   return part;
 }
 
@@ -65,9 +64,7 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places) {
     sides.push_back(std::sqrt(std::numbers::pi * nearest.back().squared_distance /
                               static_cast<double>(nearest.size() - 1)));
   }
-  const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
-  std::nth_element(sides.begin(), middle, sides.end());
-  return *middle;
+  return median(std::move(sides));
 }
 
 double extent(const PointCloud& cloud) {

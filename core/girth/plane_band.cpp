@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <tuple>
 #include <utility>
 
 #include "core/geometry/point_index.h"
+#include "core/girth/plane_slab.h"
+#include "core/median.h"
 #include "core/surface/noise_estimate.h"
 #include "core/surface/surface_normals.h"
 
@@ -32,41 +33,6 @@ constexpr double kNormalReachInSigmas = 5.0;
 constexpr std::size_t kFewestNormalPoints = 16;
 constexpr std::size_t kMostNormalPoints = 100;
 
-/// Points of the cloud within a half-width of the plane, in the plane's frame.
-struct Slab {
-  std::vector<std::size_t> indices;
-  std::vector<Eigen::Vector3d> places;
-};
-
-/// In an order of their own, so that the cloud's does not matter.
-Slab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  std::vector<std::pair<Eigen::Vector3d, std::size_t>> found;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double height = plane.distance(cloud.positions[i]);
-    if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
-    found.emplace_back(Eigen::Vector3d(place.x(), place.y(), height), i);
-  }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    const Eigen::Vector3d& p = a.first;
-    const Eigen::Vector3d& q = b.first;
-    return std::tuple(p.x(), p.y(), p.z()) < std::tuple(q.x(), q.y(), q.z());
-  });
-  Slab slab;
-  for (const auto& [place, index] : found) {
-    slab.indices.push_back(index);
-    slab.places.push_back(place);
-  }
-  return slab;
-}
-
-/// The middle one; puts the values in another order.
-double middle(std::vector<double>& values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 /// Side of the square that a point has for itself, by the distance to its k-th neighbour.
 double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
   const auto found = static_cast<double>(nearest.size() - 1);
@@ -79,7 +45,7 @@ double spacing_of(const std::vector<Eigen::Vector3d>& places, const PointIndex& 
   for (std::size_t i = 0; i < places.size(); i += stride) {
     spacings.push_back(own_spacing(index.nearest(places[i], kSpacingNeighbours + 1)));
   }
-  return middle(spacings);
+  return median(spacings);
 }
 
 /// Size of the cloud as the plane sees it, so that it turns with the two.
@@ -93,10 +59,11 @@ double extent(const PointCloud& cloud, const TapePlane& plane) {
 }
 
 /// Widens the slab until it holds the neighbourhoods of all points on the plane.
-Result<std::pair<Slab, double>> wide_enough_slab(const PointCloud& cloud, const TapePlane& plane) {
+Result<std::pair<PlaneSlab, double>> wide_enough_slab(const PointCloud& cloud,
+                                                      const TapePlane& plane) {
   const double size = extent(cloud, plane);
   for (double half_width = 0.01 * size; half_width < 0.6 * size; half_width *= 1.4) {
-    Slab slab = slab_of(cloud, plane, half_width);
+    PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.indices.size() < kFewestPoints) continue;
     const double spacing = spacing_of(slab.places, PointIndex(slab.places));
     if (half_width >= kBandInSpacings * spacing) return std::pair(std::move(slab), spacing);
@@ -106,7 +73,7 @@ Result<std::pair<Slab, double>> wide_enough_slab(const PointCloud& cloud, const 
 }
 
 /// Leaves out points that are far from all others, compared with their neighbours.
-Slab without_strays(const Slab& slab) {
+PlaneSlab without_strays(const PlaneSlab& slab) {
   const PointIndex index(slab.places);
   std::vector<std::vector<PointIndex::Neighbour>> nearest;
   std::vector<double> spacings;
@@ -116,12 +83,12 @@ Slab without_strays(const Slab& slab) {
     nearest.push_back(index.nearest(place, kSpacingNeighbours + 1));
     spacings.push_back(own_spacing(nearest.back()));
   }
-  Slab kept;
+  PlaneSlab kept;
   std::vector<double> around;
   for (std::size_t i = 0; i < slab.places.size(); ++i) {
     around.clear();
     for (const auto& neighbour : nearest[i]) around.push_back(spacings[neighbour.index]);
-    if (spacings[i] > kStrayRatio * middle(around)) continue;
+    if (spacings[i] > kStrayRatio * median(around)) continue;
     kept.indices.push_back(slab.indices[i]);
     kept.places.push_back(slab.places[i]);
   }
@@ -137,7 +104,7 @@ Eigen::Vector3d known_direction(const std::vector<Eigen::Vector3d>& directions,
 
 /// Averages points within `reach` of each other, unless their known normals face apart. Weights are
 /// those of the variances, so that a platform point does not outvote a seen one.
-void average(const PointCloud& cloud, const TapePlane& plane, const Slab& slab, double reach,
+void average(const PointCloud& cloud, const TapePlane& plane, const PlaneSlab& slab, double reach,
              double sigma_mm, bool use_own_sigma, PlaneBand& band,
              std::vector<Eigen::Vector3d>& views) {
   const PointIndex index(slab.places);
@@ -221,7 +188,7 @@ void normalise(PlaneBand& band) {
 }
 
 /// Points next to the plane, in the order in which they lie round the middle.
-std::vector<std::size_t> along_the_plane(const Slab& slab, double spacing) {
+std::vector<std::size_t> along_the_plane(const PlaneSlab& slab, double spacing) {
   Eigen::AlignedBox3d box;
   for (const auto& place : slab.places) box.extend(place);
   std::vector<std::pair<double, std::size_t>> angles;
@@ -236,11 +203,16 @@ std::vector<std::size_t> along_the_plane(const Slab& slab, double spacing) {
   return indices;
 }
 
-bool lies_on_both_sides(const Slab& slab) {
+bool lies_on_both_sides(const PlaneSlab& slab) {
   const auto above = std::count_if(slab.places.begin(), slab.places.end(),
                                    [](const auto& place) { return place.z() > 0.0; });
   const auto count = static_cast<std::ptrdiff_t>(slab.places.size());
   return above * 20 > count && (count - above) * 20 > count;
+}
+
+tl::unexpected<Error> no_surface() {
+  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
+              "scan again");
 }
 
 }  // namespace
@@ -253,19 +225,16 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   }
   auto found = wide_enough_slab(cloud, plane);
   if (!found) return tl::make_unexpected(found.error());
-  Slab slab = without_strays(found->first);
+  PlaneSlab slab = without_strays(found->first);
   double spacing = found->second;
-  if (slab.places.size() < kFewestPoints || !(spacing > 0.0)) {
-    return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
-                "scan again");
-  }
+  if (slab.places.size() < kFewestPoints || !(spacing > 0.0)) return no_surface();
 
   PlaneBand band;
   const bool own_sigma = !sigma_mm && cloud.has_sigma();
   if (own_sigma) {
     std::vector<double> sigmas;
     for (const std::size_t index : slab.indices) sigmas.push_back(cloud.sigma_mm[index]);
-    sigma_mm = middle(sigmas);
+    sigma_mm = median(sigmas);
   }
   const NoiseEstimate noise = estimate_noise(slab.places, PointIndex(slab.places),
                                              along_the_plane(slab, spacing), sigma_mm);
@@ -292,6 +261,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
           std::max(noise.sigma, 1e-9 * spacing), own_sigma, band, views);
   find_normals(cloud, views, band);
   normalise(band);
+  if (!(band.unit_mm > 0.0)) return no_surface();
   return band;
 }
 

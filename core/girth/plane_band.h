@@ -7,8 +7,8 @@
 #include "core/geometry/point_cloud.h"
 #include "core/girth/tape_plane.h"
 #include "core/result.h"
-#include "core/surface/oriented_point.h"
 #include "core/surface/noise_estimate.h"
+#include "core/surface/oriented_point.h"
 
 namespace instep {
 

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/median.h"
+
 namespace instep {
 namespace {
 
@@ -78,13 +80,6 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 }  // namespace
 
 BlendedSurface::BlendedSurface(std::vector<OrientedPoint> points,
@@ -152,10 +147,10 @@ BlendedSurface::Surroundings BlendedSurface::surroundings_of(const Eigen::Vector
 void BlendedSurface::drop_strays(Members& members) {
   std::vector<double> heights;
   for (const auto& point : members.all) heights.push_back(members.outward.dot(point.position));
-  const double level = median_of(heights);
+  const double level = median(heights);
   std::vector<double> offsets;
   for (const double height : heights) offsets.push_back(std::abs(height - level));
-  const double most = std::max(kStrayDeviations * median_of(offsets), kStrayRise * members.radius);
+  const double most = std::max(kStrayDeviations * median(offsets), kStrayRise * members.radius);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (offsets[i] <= most) members.all[kept++] = members.all[i];

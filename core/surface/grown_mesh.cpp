@@ -7,12 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
-#include <numeric>
 #include <queue>
 #include <span>
-#include <tuple>
 #include <utility>
 
+#include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
 #include "core/surface/partial_mesh.h"
 
@@ -53,20 +52,6 @@ struct BorderEdge {
   Corner behind;                      ///< third corner of its triangle
   std::vector<Candidate> candidates;  ///< the best is last
 };
-
-/// The first of the points at each place.
-std::vector<Corner> distinct(const std::vector<Eigen::Vector3d>& points) {
-  std::vector<Corner> order(points.size());
-  std::iota(order.begin(), order.end(), Corner{0});
-  const auto key = [&](Corner i) {
-    return std::tuple(points[i].x(), points[i].y(), points[i].z(), i);
-  };
-  std::sort(order.begin(), order.end(), [&](Corner a, Corner b) { return key(a) < key(b); });
-  const auto same = [&](Corner a, Corner b) { return points[a] == points[b]; };
-  order.erase(std::unique(order.begin(), order.end(), same), order.end());
-  std::sort(order.begin(), order.end());
-  return order;
-}
 
 class Growth {
  public:
@@ -239,10 +224,12 @@ class Growth {
 }  // namespace
 
 TriangleMesh grow_mesh(const std::vector<Eigen::Vector3d>& points) {
-  const auto used = distinct(points);
+  std::vector<Corner> used;
   std::vector<Eigen::Vector3d> places;
-  places.reserve(used.size());
-  for (const Corner corner : used) places.push_back(points[corner]);
+  for (const std::size_t corner : distinct_points(points)) {
+    used.push_back(static_cast<Corner>(corner));
+    places.push_back(points[corner]);
+  }
   TriangleMesh mesh{points, {}};
   if (places.size() < 3) return mesh;
   Growth growth(places);

@@ -33,9 +33,6 @@ class HermitePatch {
 
   FieldValue at(const Eigen::Vector3d& position) const;
 
-  const Eigen::Vector3d& centre() const { return centre_; }
-  double radius() const { return radius_; }
-
  private:
   HermitePatch() = default;
 

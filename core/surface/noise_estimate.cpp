@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/median.h"
+
 namespace instep {
 namespace {
 
@@ -136,12 +138,6 @@ double likely_roughness(const Spectrum& spectrum, double variance, std::optional
   return roughness;
 }
 
-double middle(std::vector<double> values) {
-  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), half, values.end());
-  return *half;
-}
-
 }  // namespace
 
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
@@ -159,13 +155,13 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
     estimate.roughness.push_back({place, 0.0});
   }
   if (spectra.empty()) return {sigma.value_or(0.0), {}};
-  estimate.sigma = sigma ? *sigma : std::sqrt(middle(std::move(variances)));
+  estimate.sigma = sigma ? *sigma : std::sqrt(median(std::move(variances)));
   const double variance = std::max(estimate.sigma * estimate.sigma, 1e-24);
   std::vector<double> free;
   for (const auto& spectrum : spectra) {
     free.push_back(likely_roughness(spectrum, variance, std::nullopt));
   }
-  const double usual = std::max(middle(std::move(free)), 1e-300);
+  const double usual = std::max(median(std::move(free)), 1e-300);
   for (std::size_t i = 0; i < spectra.size(); ++i) {
     estimate.roughness[i].roughness = likely_roughness(spectra[i], variance, usual);
   }

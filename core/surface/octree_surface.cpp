@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/spanning_tree.h"
 #include "core/surface/box_normals.h"
@@ -42,7 +43,8 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
     if (progress) progress(done);
   };
   report(0.0);
-  const auto distinct = without_near_duplicates(input, 0.0);
+  std::vector<Eigen::Vector3d> distinct;
+  for (const std::size_t i : distinct_points(input)) distinct.push_back(input[i]);
   const double spacing = median_spacing(distinct, PointIndex(distinct));
   auto points = without_near_duplicates(distinct, kDuplicate * spacing);
   if (2 * points.size() < options.fewest) return no_surface();

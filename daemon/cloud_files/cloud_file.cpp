@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "core/geometry/mesh_sampling.h"
+#include "core/median.h"
 #include "daemon/cloud_files/mesh_reader.h"
 #include "daemon/cloud_files/pcd_reader.h"
 #include "daemon/cloud_files/ply_reader.h"
@@ -111,10 +112,7 @@ void cover_faces(CloudFile& read) {
     for (std::size_t i = 0; i < added.size(); ++i) added[i] = corners + i;
     PointCloud extra = on_faces.subset(added);
     if (cloud.has_sigma()) {
-      std::vector<double> sorted = cloud.sigma_mm;
-      const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-      std::nth_element(sorted.begin(), middle, sorted.end());
-      extra.sigma_mm.assign(extra.size(), *middle);
+      extra.sigma_mm.assign(extra.size(), median(cloud.sigma_mm));
     }
     if (cloud.has_normals() == extra.has_normals() || extra.empty()) cloud.append(extra);
     return;

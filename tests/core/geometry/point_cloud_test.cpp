@@ -85,6 +85,9 @@ TEST(CheckCloud, RefusesWhatNoFootHolds) {
   PointCloud no_noise = two_points();
   no_noise.sigma_mm[0] = 0.0;
   EXPECT_FALSE(check_cloud(no_noise));
+  PointCloud all_noise = two_points();
+  all_noise.sigma_mm[1] = 1e30;
+  EXPECT_FALSE(check_cloud(all_noise));
   PointCloud torn = two_points();
   torn.normals.pop_back();
   EXPECT_FALSE(check_cloud(torn));

@@ -18,7 +18,8 @@ std::vector<Vector3d> random_points(std::size_t count) {
   return points;
 }
 
-std::vector<std::size_t> by_brute_force(const std::vector<Vector3d>& points, const Vector3d& query) {
+std::vector<std::size_t> by_brute_force(const std::vector<Vector3d>& points,
+                                        const Vector3d& query) {
   std::vector<std::size_t> order(points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -52,6 +53,21 @@ TEST(PointIndex, OrdersDuplicatesByIndex) {
   const auto found = index.within({1, 2, 3}, 0.1);
   ASSERT_EQ(found.size(), 1000U);
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].index, i);
+}
+
+TEST(PointIndex, FindsTheNearestInACrowdAtOnePlaceWithoutSearchingItAll) {
+  // Whole searches for each of 200,000 points would take minutes.
+  std::vector<Vector3d> points(200000, Vector3d(1, 2, 3));
+  points.emplace_back(1, 2, 3.5);
+  const PointIndex index(points);
+  for (const auto& point : points) {
+    const auto found = index.nearest(point, 9);
+    ASSERT_EQ(found.size(), 9U);
+    ASSERT_EQ(found.front().squared_distance, 0.0);
+  }
+  const auto beside = index.nearest({1, 2, 4}, 2);
+  EXPECT_EQ(beside.front().index, 200000U);
+  EXPECT_EQ(beside.back().squared_distance, 1.0);
 }
 
 TEST(PointIndex, AnswersOnNoPoints) {

@@ -51,6 +51,16 @@ TEST(GirthByHull, TellsTheStretchThatNoCameraSaw) {
   EXPECT_NEAR(girth->largest_gap_mm, 40 * std::numbers::pi, 5.0);
 }
 
+TEST(GirthByHull, IsNotMovedByCopies) {
+  auto cloud = rings(60, 10, 3.0);
+  const auto once = girth_by_hull(cloud, level(13.1));
+  const auto positions = cloud.positions;
+  cloud.positions.insert(cloud.positions.end(), positions.begin(), positions.end());
+  const auto twice = girth_by_hull(cloud, level(13.1));
+  ASSERT_TRUE(once && twice);
+  EXPECT_EQ(twice->stretched_mm, once->stretched_mm);
+}
+
 TEST(GirthByHull, RefusesWhatHoldsNoRing) {
   EXPECT_FALSE(girth_by_hull({}, level(0)));
   EXPECT_FALSE(girth_by_hull(rings(60, 10, 3.0), level(200)));

@@ -238,6 +238,24 @@ TEST(GirthByRbf, IsNotMovedByDuplicates) {
   EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.01);
 }
 
+TEST(GirthByRbf, IsNotMovedByACrowdAtOnePlace) {
+  auto cloud = cylinder(2000);
+  const auto alone = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(alone) << alone.error().line();
+  cloud.positions.resize(100000, cloud.positions.front());
+  const auto crowded = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(crowded) << crowded.error().line();
+  EXPECT_EQ(crowded->contact_mm, alone->contact_mm);
+}
+
+TEST(GirthByRbf, RefusesALineThroughThePlane) {
+  PointCloud cloud;
+  for (int i = -500; i <= 500; ++i) cloud.positions.emplace_back(0.0, 0.0, 0.05 * i);
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_FALSE(girth);
+  EXPECT_EQ(girth.error().code, ErrorCode::kInsufficientData);
+}
+
 TEST(GirthByRbf, ChoosesTheLargerOfTwoBodiesAndNamesTheOther) {
   PointCloud cloud = test::random_points(test::elliptic_cylinder(30, 30), 4000, -30, 30, 0.0, 1);
   const auto other = test::random_points(test::elliptic_cylinder(20, 20), 3000, -30, 30, 0.0, 2);

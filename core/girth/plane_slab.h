@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/geometry/point_cloud.h"
+#include "core/girth/tape_plane.h"
+
+namespace instep {
+
+/// The points of a cloud on and beside a tape plane, each place once (the first of
+/// copies counts), in an order that the places alone decide, so that the cloud's does not matter.
+struct PlaneSlab {
+  std::vector<std::size_t> indices;     ///< in the cloud
+  std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it
+};
+
+/// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
+PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width);
+
+}  // namespace instep
