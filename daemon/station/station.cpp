@@ -280,7 +280,9 @@ void Station::scan_ended(const ScanOutcome& outcome) {
   outcome_ = outcome;
   stage_.clear();
   done_ = 0.0;
-  check_timer_.set(settings_.capture.check_every);
+  // A scan that failed may have lost a camera: that is looked into at once.
+  const bool failed = outcome.error && outcome.error->code != ErrorCode::kCancelled;
+  check_timer_.set(failed ? std::chrono::nanoseconds(1) : settings_.capture.check_every);
   if (!outcome.stored.empty()) last_result_ = outcome.stored.back().id;
   if (!outcome.error) {
     ++scans_;

@@ -238,14 +238,15 @@ TEST(Station, RecoversACameraThatComesBack) {
       << "camera left: vanish after 3 frames, return after 500 ms\n";
   station.start();
   ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
-  const auto scan = station.run_instep("scan");
-  if (scan.exit_code != 0) {
+  // It may be lost in one scan, and missed by the next, before the station has looked for it.
+  auto scan = station.run_instep("scan");
+  for (int attempt = 0; scan.exit_code != 0 && attempt < 3; ++attempt) {
     EXPECT_THAT(scan.text, HasSubstr("left"));
     const auto ready = station.run_instep("status --wait-ready 20");
     ASSERT_EQ(ready.exit_code, 0) << ready.text;
-    const auto next = station.run_instep("scan");
-    EXPECT_EQ(next.exit_code, 0) << next.text;
+    scan = station.run_instep("scan");
   }
+  EXPECT_EQ(scan.exit_code, 0) << scan.text;
 }
 
 TEST(Station, RefusesASecondDaemonOnItsSocket) {

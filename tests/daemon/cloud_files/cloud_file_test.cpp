@@ -56,7 +56,7 @@ TEST_F(CloudFiles, WrittenCloudComesBackBitByBit) {
   for (int i = 0; i < 1000; ++i) {
     cloud.positions.emplace_back(normal(random), normal(random), normal(random));
     cloud.normals.push_back(Vector3d(normal(random), normal(random), 9).normalized());
-    cloud.sigma_mm.push_back(0.25 + i * 0.125);
+    cloud.sigma_mm.push_back(0.25 + i * 0.0625);
     cloud.origins.push_back(i % 3 == 0 ? PointOrigin::kPlatform : PointOrigin::kSeen);
   }
   ASSERT_TRUE(write_cloud_ply(cloud, folder_.path() / "cloud.ply"));
