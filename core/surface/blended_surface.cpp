@@ -41,7 +41,7 @@ constexpr double kTooWide = 1.5;
 constexpr double kLeastTurn = 0.9;
 constexpr double kLeastGain = 8.0;
 /// Its place is a guess where the points of a sheet are further from it, in spacings.
-constexpr double kWidestCreaseGap = 2.0;
+constexpr double kWidestCreaseGap = 1.4;
 /// A patch counts up to this part of its radius round the middle of its points, beyond which it has
 /// none on all sides.
 constexpr double kReach = 0.75;
