@@ -28,8 +28,8 @@ struct MeasureOptions {
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
 /// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no
 /// landmarks, and with kInsufficientData if not even its length can be told. A left foot has the
-/// measures of its mirror image. The cost is that of the girths, some 70 ms each; `go_on` hears of
-/// each measure, and once it returns false the whole fails with kCancelled.
+/// measures of its mirror image. The cost is that of the girths; `go_on` hears of each
+/// measure, and once it returns false the whole fails with kCancelled.
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
                                 const GoOn& go_on = always);
 

@@ -57,7 +57,8 @@ std::string check_plane(const std::string& text) {
 
 std::string check_sigma(const std::string& text) {
   const auto sigma = number_in(text);
-  return sigma && *sigma > 0.0 && *sigma <= kLargestSigmaMm ? "" : "needs a number above 0, at most 100";
+  return sigma && *sigma > 0.0 && *sigma <= kLargestSigmaMm ? ""
+                                                            : "needs a number above 0, at most 100";
 }
 
 Result<TapePlane> plane_of(const GirthCommand& command) {

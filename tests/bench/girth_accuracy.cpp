@@ -100,6 +100,7 @@ PointCloud sample(const PointCloud& cloud, std::size_t count, double sigma, std:
 
 /// Points of a mesh that keep about the same distance from each other: random ones, from which each
 /// that lies too near an earlier one is left out. The distance is found by halving.
+/// The noise goes in all directions alike, not along the normal alone.
 PointCloud even_points_on(const TriangleMesh& mesh, std::size_t count, double sigma,
                           std::uint64_t seed) {
   const PointCloud crowd = test::points_on(mesh, 12 * count, 0.0, seed);
