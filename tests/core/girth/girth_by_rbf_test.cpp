@@ -281,6 +281,21 @@ TEST(GirthByRbf, LeavesStrayPointsOut) {
   EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.5);
 }
 
+TEST(GirthByRbf, RunsThroughTheMiddleOfAThickShell) {
+  PointCloud cloud;
+  test::RandomNumbers random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const double angle = random.uniform(0, 2 * M_PI);
+    const double radius = random.uniform(45, 50);
+    cloud.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                                 random.uniform(-30, 30));
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->stretched_mm, 95 * M_PI, 1.0);
+  EXPECT_NEAR(girth->contact_mm, 95 * M_PI, 1.0);
+}
+
 void expect_refusal(const PointCloud& cloud, const TapePlane& plane) {
   const auto girth = girth_by_rbf(cloud, plane);
   ASSERT_FALSE(girth) << girth->contact_mm;
