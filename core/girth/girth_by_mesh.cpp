@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/geometry/polygon.h"
+#include "core/girth/crowd_average.h"
 #include "core/girth/girth.h"
 #include "core/girth/loop_choice.h"
 #include "core/girth/mesh_section.h"
@@ -35,11 +36,12 @@ struct MeshedBand {
 MeshedBand mesh_of(const PlaneBand& band) {
   std::vector<Eigen::Vector3d> places;
   std::vector<bool> seen;
-  for (std::size_t i = 0; i < band.points.size(); ++i) {
-    const auto& place = band.points[i].position;
-    if (std::abs(place.z()) > kMeshedInSpacings * band.spacing) continue;
+  const CrowdAverage average = average_crowds(band);
+  for (std::size_t i = 0; i < average.points.size(); ++i) {
+    const auto& place = average.points[i].position;
+    if (std::abs(place.z()) > kMeshedInSpacings * band.grain) continue;
     places.push_back(place);
-    seen.push_back(band.seen[i]);
+    seen.push_back(average.seen[i]);
   }
   return {grow_mesh(places), std::move(seen)};
 }
@@ -116,13 +118,13 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   girth.contact_mm = perimeter(girth.contour);
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
   girth.points = cloud.size();
-  girth.band_points = band->used;
+  girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
   girth.largest_gap_mm = gap_under(girth.contour, *band, meshed);
-  if (girth.largest_gap_mm > kNotableGapInSpacings * band->unit_mm * band->spacing) {
+  if (girth.largest_gap_mm > kNotableGapInSpacings * band->unit_mm * band->grain) {
     girth.warnings.push_back("a part of the section that no camera saw was bridged");
   }
-  if (band->sigma > kHarmlessNoise * band->spacing) {
+  if (band->sigma > kHarmlessNoise * band->grain) {
     girth.warnings.push_back(
         "a mesh follows the noise of its points, so both lengths are too long");
   }

@@ -6,6 +6,13 @@
 #include <limits>
 
 namespace instep {
+namespace {
+
+/// So many pivots are multiplied before a logarithm is taken: few enough not to leave the range of
+/// numbers.
+constexpr Eigen::Index kFactorsALog = 8;
+
+}  // namespace
 
 KrigingLikelihood::KrigingLikelihood(const HeightKriging& kriging) : free_(kriging.free()) {
   const Eigen::Tridiagonalization<Eigen::MatrixXd> form(kriging.reduced());
@@ -19,14 +26,20 @@ KrigingLikelihood::Reading KrigingLikelihood::at(double ratio) const {
   Reading reading;
   double pivot = 0.0;
   double rest = 0.0;
+  double product = 1.0;
   for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
     const double factor = i > 0 ? beside_[i - 1] / pivot : 0.0;
     rest = heights_[i] - factor * rest;
     pivot = diagonal_[i] + ratio - (i > 0 ? factor * beside_[i - 1] : 0.0);
     if (!(pivot > 0.0)) return {std::numeric_limits<double>::infinity(), 0.0};
-    reading.log_volume += std::log(pivot);
+    product *= pivot;
+    if (i % kFactorsALog == kFactorsALog - 1) {
+      reading.log_volume += std::log(product);
+      product = 1.0;
+    }
     reading.excess += rest * rest / pivot;
   }
+  reading.log_volume += std::log(product);
   // On the polynomials stands a one.
   reading.log_volume -= static_cast<double>(diagonal_.size() - free_) * std::log(1.0 + ratio);
   return reading;
