@@ -15,11 +15,13 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 24;
 /// Half-width of the band in grains: a patch reaches five to each side, and normals two more.
-constexpr double kBandInGrains = 7.5;
-constexpr double kFirstHalfWidth = 0.03;
-/// Points of a slab thinner than their spacing seem farther apart than they are.
-constexpr double kWidening = 1.6;
-constexpr double kMostWidening = 2.6;
+constexpr double kBandInGrains = 6.5;
+/// Of the slab that is looked at first, against the extent of the cloud. Points of a slab thinner
+/// than their spacing seem farther apart than they are.
+constexpr double kFirstHalfWidth = 0.012;
+constexpr double kWidening = 2.0;
+constexpr double kWideEnough = 1.15;
+constexpr int kMostRounds = 3;
 constexpr std::size_t kSpacingSample = 200;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
 constexpr double kGrainInSigmas = 2.0;
@@ -44,80 +46,111 @@ double extent(const PointCloud& cloud, const TapePlane& plane) {
   return std::sqrt(std::max(squares / count - (sum / count).squaredNorm(), 0.0));
 }
 
-double section_size(const std::vector<Eigen::Vector3d>& places) {
+Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
   for (const auto& place : places) box.extend(place.head<2>().eval());
-  return box.diagonal().norm();
+  return box;
 }
 
-double grain_of(double spacing, double sigma, double size) {
-  const double noisy = std::min(kGrainInSigmas * sigma, kCoarsestGrain * size);
-  return std::max({spacing, noisy, kFinestGrain * size});
+double grain_of(double spacing, double sigma) {
+  return std::max({spacing, std::min(kGrainInSigmas * sigma, kCoarsestGrain), kFinestGrain});
 }
 
-/// Points beside the plane with their index.
-struct Gathered {
-  std::vector<std::size_t> sources;
-  PointIndex index;
-  double half_width = 0.0;
-  double spacing = 0.0;
+/// Where the section lies and how fine it is.
+struct Probe {
+  Eigen::Vector3d middle_mm;
+  double unit_mm = 1.0;
+  double spacing = 0.0;  ///< in the unit
 };
 
-Gathered gather(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  PlaneSlab slab = slab_of(cloud, plane, half_width);
-  Gathered gathered{std::move(slab.indices), PointIndex(std::move(slab.places)), half_width, 0.0};
-  gathered.spacing = usual_spacing(gathered.index, kSpacingSample);
-  return gathered;
-}
-
-/// Widens the slab until it holds the neighbourhoods of all points on the plane.
-Result<Gathered> gather_enough(const PointCloud& cloud, const TapePlane& plane) {
+/// Widens a slab until it is a ring of points that tells their spacing.
+Result<Probe> probe(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud, plane);
-  double half_width = kFirstHalfWidth * size;
-  while (half_width < 3.0 * size) {
-    Gathered gathered = gather(cloud, plane, half_width);
-    if (gathered.sources.size() < kFewestPoints) {
-      half_width *= kWidening;
-      continue;
-    }
-    const double grain = grain_of(gathered.spacing, 0.0, section_size(gathered.index.points()));
-    if (half_width >= kBandInGrains * grain) return gathered;
-    half_width *= std::clamp(1.05 * kBandInGrains * grain / half_width, kWidening, kMostWidening);
+  for (double half_width = kFirstHalfWidth * size; half_width < 3.0 * size;
+       half_width *= kWidening) {
+    PlaneSlab slab = slab_of(cloud, plane, half_width);
+    if (slab.places.size() < kFewestPoints) continue;
+    const Eigen::AlignedBox2d box = section_box(slab.places);
+    const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
+    const double unit = box.diagonal().norm();
+    if (half_width < spacing || !(unit > 0.0)) continue;
+    return Probe{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
   }
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");
 }
 
-void drop_strays(Gathered& gathered) {
-  if (!(gathered.spacing > 0.0)) return;
-  const auto strays = stray_points(gathered.index, gathered.spacing);
+/// The points within `half_width` of the plane; lengths in the probe's unit.
+PlaneBand gather(const PointCloud& cloud, const TapePlane& plane, const Probe& found,
+                 double half_width) {
+  PlaneSlab slab = slab_of(cloud, plane, half_width * found.unit_mm);
+  for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
+  PlaneBand band{found.unit_mm,
+                 found.middle_mm.head<2>(),
+                 {},
+                 PointIndex(std::move(slab.places)),
+                 std::move(slab.indices),
+                 {},
+                 0.0,
+                 0.0,
+                 0.0,
+                 {}};
+  band.spacing = usual_spacing(band.index, kSpacingSample);
+  return band;
+}
+
+/// As wide a band as its grain asks for.
+PlaneBand gather_enough(const PointCloud& cloud, const TapePlane& plane, const Probe& found,
+                        double sigma) {
+  double half_width = kBandInGrains * grain_of(found.spacing, sigma);
+  for (int round = 0;; ++round) {
+    PlaneBand band = gather(cloud, plane, found, half_width);
+    band.grain = grain_of(band.spacing, sigma);
+    if (round == kMostRounds || kBandInGrains * band.grain < kWideEnough * half_width) return band;
+    half_width = kBandInGrains * band.grain;
+  }
+}
+
+void drop_strays(PlaneBand& band) {
+  if (!(band.spacing > 0.0)) return;
+  const auto strays = stray_points(band.index, band.spacing);
   if (std::find(strays.begin(), strays.end(), true) == strays.end()) return;
   std::vector<std::size_t> sources;
   std::vector<Eigen::Vector3d> places;
   for (std::size_t i = 0; i < strays.size(); ++i) {
     if (strays[i]) continue;
-    sources.push_back(gathered.sources[i]);
-    places.push_back(gathered.index.points()[i]);
+    sources.push_back(band.sources[i]);
+    places.push_back(band.index.points()[i]);
   }
-  gathered.sources = std::move(sources);
-  gathered.index = PointIndex(std::move(places));
+  band.sources = std::move(sources);
+  band.index = PointIndex(std::move(places));
 }
 
 /// Points next to the plane, in the order in which they lie round the middle.
-std::vector<std::size_t> along_the_plane(const Gathered& gathered) {
-  const auto& places = gathered.index.points();
-  Eigen::AlignedBox3d box;
-  for (const auto& place : places) box.extend(place);
+std::vector<std::size_t> along_the_plane(const PlaneBand& band) {
+  const auto& places = band.index.points();
   std::vector<std::pair<double, std::size_t>> angles;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (std::abs(places[i].z()) > 1.5 * gathered.spacing) continue;
-    const Eigen::Vector3d arm = places[i] - box.center();
-    angles.emplace_back(std::atan2(arm.y(), arm.x()), i);
+    if (std::abs(places[i].z()) > 1.5 * band.spacing) continue;
+    angles.emplace_back(std::atan2(places[i].y(), places[i].x()), i);
   }
   std::sort(angles.begin(), angles.end());
   std::vector<std::size_t> indices;
   for (const auto& [angle, index] : angles) indices.push_back(index);
   return indices;
+}
+
+double usual_sigma(const PointCloud& cloud, const PlaneBand& band) {
+  std::vector<double> sigmas;
+  for (const std::size_t source : band.sources) sigmas.push_back(cloud.sigma_mm[source]);
+  return median(std::move(sigmas));
+}
+
+/// In the band's unit.
+NoiseEstimate noise_of(const PlaneBand& band, std::optional<double> sigma_mm) {
+  std::optional<double> sigma;
+  if (sigma_mm) sigma = *sigma_mm / band.unit_mm;
+  return estimate_noise(band.index.points(), band.index, along_the_plane(band), sigma);
 }
 
 bool lies_on_both_sides(const std::vector<Eigen::Vector3d>& places) {
@@ -130,28 +163,6 @@ bool lies_on_both_sides(const std::vector<Eigen::Vector3d>& places) {
 /// A direction of the cloud as the plane sees it.
 Eigen::Vector3d turned(const Eigen::Vector3d& direction, const TapePlane& plane) {
   return {plane.u().dot(direction), plane.v().dot(direction), plane.normal().dot(direction)};
-}
-
-/// Moves the band into its own unit, in which the section is about one long.
-PlaneBand in_own_unit(const PointCloud& cloud, const Gathered& gathered,
-                      const NoiseEstimate& noise) {
-  Eigen::AlignedBox2d box;
-  for (const auto& place : gathered.index.points()) box.extend(place.head<2>().eval());
-  const double unit = box.diagonal().norm();
-  const Eigen::Vector3d middle(box.center().x(), box.center().y(), 0.0);
-  std::vector<Eigen::Vector3d> positions;
-  positions.reserve(gathered.sources.size());
-  for (const auto& place : gathered.index.points()) positions.push_back((place - middle) / unit);
-  PlaneBand band{unit, box.center(), {}, PointIndex(std::move(positions)), {}, {}, 0, 0, 0, {}};
-  band.sources = gathered.sources;
-  for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
-  band.spacing = gathered.spacing / unit;
-  band.sigma = noise.sigma / unit;
-  band.grain = grain_of(band.spacing, band.sigma, 1.0);
-  for (const auto& local : noise.roughness) {
-    band.roughness.push_back({(local.place - middle) / unit, local.roughness * unit});
-  }
-  return band;
 }
 
 std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const TapePlane& plane,
@@ -199,31 +210,26 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
                 "scan again");
   }
-  auto gathered = gather_enough(cloud, plane);
-  if (!gathered) return tl::make_unexpected(gathered.error());
-  drop_strays(*gathered);
-  if (gathered->sources.size() < kFewestPoints || !(gathered->spacing > 0.0)) return no_surface();
+  const auto found = probe(cloud, plane);
+  if (!found) return tl::make_unexpected(found.error());
+  PlaneBand band = gather_enough(cloud, plane, *found, 0.0);
+  drop_strays(band);
+  if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return no_surface();
 
   const bool own_sigma = !sigma_mm && cloud.has_sigma();
-  if (own_sigma) {
-    std::vector<double> sigmas;
-    for (const std::size_t source : gathered->sources) sigmas.push_back(cloud.sigma_mm[source]);
-    sigma_mm = median(sigmas);
+  if (own_sigma) sigma_mm = usual_sigma(cloud, band);
+  NoiseEstimate noise = noise_of(band, sigma_mm);
+  if (grain_of(band.spacing, noise.sigma) > band.grain) {
+    band = gather_enough(cloud, plane, *found, noise.sigma);
+    drop_strays(band);
   }
-  const NoiseEstimate noise = estimate_noise(gathered->index.points(), gathered->index,
-                                             along_the_plane(*gathered), sigma_mm);
-  const double size = section_size(gathered->index.points());
-  const double half_width = kBandInGrains * grain_of(gathered->spacing, noise.sigma, size);
-  if (half_width > gathered->half_width) {
-    *gathered = gather(cloud, plane, half_width);
-    drop_strays(*gathered);
-  }
-  if (!lies_on_both_sides(gathered->index.points())) {
+  if (!lies_on_both_sides(band.index.points())) {
     return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                 "give control points that cut the body");
   }
-  if (!(section_size(gathered->index.points()) > 0.0)) return no_surface();
-  PlaneBand band = in_own_unit(cloud, *gathered, noise);
+  band.sigma = noise.sigma;
+  band.roughness = std::move(noise.roughness);
+  for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
   set_points(cloud, plane, own_sigma, band);
   return band;
 }
