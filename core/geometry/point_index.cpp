@@ -87,7 +87,9 @@ std::vector<PointIndex::Neighbour> PointIndex::within(const Eigen::Vector3d& que
   return found;
 }
 
-const std::vector<Eigen::Vector3d>& PointIndex::points() const { return tree_->adaptor.points; }
+const std::vector<Eigen::Vector3d>& PointIndex::points() const {
+  return tree_->adaptor.points;
+}
 
 std::vector<PointIndex::Neighbour> PointIndex::around(const Eigen::Vector3d& query,
                                                       double radius) const {

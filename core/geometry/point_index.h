@@ -9,8 +9,9 @@ namespace instep {
 
 /// Finds neighbours among points in space (a k-d tree).
 ///
-/// Keeps the points itself. All coordinates must be finite. Building costs O(n log n); queries O(log n + found) on typical data, and may be made
-/// from many threads at once. Duplicates are allowed.
+/// Keeps the points itself. All coordinates must be finite. Building costs O(n log n); queries
+/// O(log n + found) on typical data, and may be made from many threads at once. Duplicates are
+/// allowed.
 class PointIndex {
  public:
   struct Neighbour {

@@ -104,8 +104,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   drop_unfounded(*band, loops);
   largest_first(loops);
   const Contour& contour = loops.front().contour;
-  const auto evidence =
-      evidence_for(*band, loops.front().index, kEvidenceInGrains * band->grain);
+  const auto evidence = evidence_for(*band, loops.front().index, kEvidenceInGrains * band->grain);
   const double length = contour.length();
   if (evidence.gap > kWidestBridge * length) {
     return fail(ErrorCode::kInsufficientData,

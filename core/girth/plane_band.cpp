@@ -27,7 +27,7 @@ constexpr std::size_t kSpacingSample = 200;
 constexpr double kGrainInSigmas = 2.0;
 constexpr double kCoarsestGrain = 0.018;
 /// Points nearer than this part of the section tell no more than fewer would.
-constexpr double kFinestGrain = 0.01;
+constexpr double kFinestGrain = 0.0075;
 /// Side of the cells that share a normal, and the fewest points for one.
 constexpr double kNormalCellInGrains = 1.5;
 constexpr double kNormalCellInSigmas = 3.3;
@@ -174,8 +174,7 @@ std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const Tape
     }
     return normals;
   }
-  const double side =
-      std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma);
+  const double side = std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma);
   CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
   normals = cells.of_points();

@@ -31,10 +31,9 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
     found.push_back({{place.x(), place.y(), height}, i});
   }
   std::sort(found.begin(), found.end());
-  found.erase(
-      std::unique(found.begin(), found.end(),
-                  [](const Found& a, const Found& b) { return a.place == b.place; }),
-      found.end());
+  found.erase(std::unique(found.begin(), found.end(),
+                          [](const Found& a, const Found& b) { return a.place == b.place; }),
+              found.end());
   PlaneSlab slab;
   slab.indices.reserve(found.size());
   slab.places.reserve(found.size());

@@ -14,8 +14,8 @@ namespace instep {
 /// surface, positive outside.
 ///
 /// Patches are fitted where they are asked for, around the places that were visited; so only those
-/// that a plane crosses are ever solved. The field changes a little when a patch is added: visit all
-/// places first, then read. Not for use from several threads at once.
+/// that a plane crosses are ever solved. The field changes a little when a patch is added: visit
+/// all places first, then read. Not for use from several threads at once.
 class BlendedSurface {
  public:
   explicit BlendedSurface(PatchFitter fitter);

@@ -18,12 +18,31 @@ Eigen::ArrayXd cubed_distances(const Eigen::Matrix2Xd& places, const Eigen::Vect
   return squared * squared.sqrt();
 }
 
-Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places) {
-  Eigen::MatrixXd kernel(places.cols(), places.cols());
-  for (Eigen::Index j = 0; j < places.cols(); ++j) {
-    kernel.col(j) = cubed_distances(places, places.col(j));
+/// Its lower triangle; both sides scaled.
+Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places, const Eigen::ArrayXd& scales) {
+  const Eigen::Index count = places.cols();
+  const Eigen::ArrayXd x = places.row(0);
+  const Eigen::ArrayXd y = places.row(1);
+  Eigen::MatrixXd kernel(count, count);
+  Eigen::ArrayXd squared(count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::Index rest = count - j;
+    squared.tail(rest) = (x.tail(rest) - x[j]).square() + (y.tail(rest) - y[j]).square();
+    kernel.col(j).tail(rest) =
+        scales[j] * scales.tail(rest) * squared.tail(rest) * squared.tail(rest).sqrt();
   }
   return kernel;
+}
+
+/// Takes a * b' + b * a' from the lower triangle.
+void subtract_both_ways(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                        Eigen::MatrixXd& matrix) {
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    const Eigen::Index rest = matrix.cols() - j;
+    for (Eigen::Index k = 0; k < a.cols(); ++k) {
+      matrix.col(j).tail(rest) -= b(j, k) * a.col(k).tail(rest) + a(j, k) * b.col(k).tail(rest);
+    }
+  }
 }
 
 /// A quadratic along one line has as many terms as a plane.
@@ -54,17 +73,14 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
   kriging.basis_.applyOnTheLeft(kriging.qr_.householderQ().setLength(rank));
 
   const Eigen::MatrixXd& basis = kriging.basis_;
-  kriging.reduced_ =
-      scales.asDiagonal() * kernel_between(samples.places) * scales.asDiagonal();
-  kriging.on_basis_ = kriging.reduced_ * basis;
+  kriging.reduced_ = kernel_between(samples.places, kriging.scales_);
+  kriging.on_basis_ = kriging.reduced_.selfadjointView<Eigen::Lower>() * basis;
   const Eigen::MatrixXd square = basis.transpose() * kriging.on_basis_;
   const Eigen::MatrixXd off =
       kriging.on_basis_ - 0.5 * basis * (square + Eigen::MatrixXd::Identity(rank, rank));
-  kriging.reduced_.noalias() -= off * basis.transpose();
-  kriging.reduced_.noalias() -= basis * off.transpose();
+  subtract_both_ways(off, basis, kriging.reduced_);
   kriging.heights_ = scales.asDiagonal() * samples.heights;
-  kriging.free_heights_ =
-      kriging.heights_ - basis * (basis.transpose() * kriging.heights_).eval();
+  kriging.free_heights_ = kriging.heights_ - basis * (basis.transpose() * kriging.heights_).eval();
   return kriging;
 }
 
@@ -81,9 +97,8 @@ std::optional<HeightKriging::Solution> HeightKriging::solve(double ratio) const 
   if (solution.cholesky.info() != Eigen::Success) return std::nullopt;
   solution.on_null_space = solution.cholesky.solve(free_heights_);
   if (!solution.on_null_space.allFinite()) return std::nullopt;
-  solution.log_volume =
-      2.0 * solution.cholesky.matrixLLT().diagonal().array().log().sum() -
-      static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
+  solution.log_volume = 2.0 * solution.cholesky.matrixLLT().diagonal().array().log().sum() -
+                        static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
   solution.excess = free_heights_.dot(solution.on_null_space);
   return solution;
 }
@@ -96,8 +111,10 @@ Quadratic HeightKriging::polynomial(const Solution& solution) const {
   const Eigen::Index rank = basis_.cols();
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(qr_.cols());
   coefficients.head(rank) =
-      qr_.matrixQR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(
-          basis_.transpose() * heights_ - on_basis_.transpose() * solution.on_null_space);
+      qr_.matrixQR()
+          .topLeftCorner(rank, rank)
+          .triangularView<Eigen::Upper>()
+          .solve(basis_.transpose() * heights_ - on_basis_.transpose() * solution.on_null_space);
   Quadratic polynomial = Quadratic::Zero();
   polynomial.head(qr_.cols()) = qr_.colsPermutation() * coefficients;
   return polynomial;
@@ -112,9 +129,11 @@ Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::
   }
   const Eigen::VectorXd terms = monomials(places, qr_.cols()).transpose() * shares;
   const Eigen::VectorXd sought = qr_.colsPermutation().transpose() * terms;
-  const Eigen::VectorXd along =
-      qr_.matrixQR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().transpose().solve(
-          sought.head(rank));
+  const Eigen::VectorXd along = qr_.matrixQR()
+                                    .topLeftCorner(rank, rank)
+                                    .triangularView<Eigen::Upper>()
+                                    .transpose()
+                                    .solve(sought.head(rank));
   Eigen::VectorXd right = (scales_ * kernels).matrix() - on_basis_ * along;
   right -= basis_ * (basis_.transpose() * right).eval();
   const Eigen::VectorXd scaled = basis_ * along + solution.cholesky.solve(right);

@@ -27,7 +27,8 @@ class HeightKriging {
   double level() const { return level_; }
   /// Samples that the polynomial leaves over.
   Eigen::Index free() const { return places_.cols() - basis_.cols(); }
-  /// The kernel on the null space of the polynomials, with one in its place on them.
+  /// The kernel on the null space of the polynomials, with one in its place on them: the lower
+  /// triangle of a symmetric matrix.
   const Eigen::MatrixXd& reduced() const { return reduced_; }
   /// The weighed heights there.
   const Eigen::VectorXd& free_heights() const { return free_heights_; }
@@ -67,7 +68,7 @@ class HeightKriging {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
   Eigen::MatrixXd basis_;     ///< orthonormal columns that span the polynomial block
   Eigen::MatrixXd on_basis_;  ///< kernel times basis
-  Eigen::MatrixXd reduced_;   ///< the kernel on the null space, one on the basis
+  Eigen::MatrixXd reduced_;   ///< lower triangle
   Eigen::VectorXd heights_;
   Eigen::VectorXd free_heights_;
 };

@@ -32,7 +32,9 @@ constexpr double kCoefficientVariance = 0.1;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
-bool is_exact(const HeightKriging& kriging) { return !(kriging.level() > kExactVariance); }
+bool is_exact(const HeightKriging& kriging) {
+  return !(kriging.level() > kExactVariance);
+}
 
 double smoothing(const HeightKriging& kriging, double roughness) {
   return is_exact(kriging) ? kLeastSmoothing : kriging.level() / roughness + kLeastSmoothing;
@@ -145,10 +147,10 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const double x = local.x();
   const double y = local.y();
   const Quadratic& c = polynomial_;
-  const Eigen::ArrayXd along = x - x_;
-  const Eigen::ArrayXd across = y - y_;
-  const Eigen::ArrayXd squared = along.square() + across.square();
-  const Eigen::ArrayXd weighted = weights_ * squared.sqrt();
+  const Column along = x - x_;
+  const Column across = y - y_;
+  const Column squared = along.square() + across.square();
+  const Column weighted = weights_ * squared.sqrt();
   const double height = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y +
                         (weighted * squared).sum();
   const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * (weighted * along).sum();

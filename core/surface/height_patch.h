@@ -16,9 +16,10 @@ namespace instep {
 /// The surface is the paper's radial basis functions (eqs. 6 and 7, phi = r^3, a smoothing for each
 /// point) with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane:
 /// as heights, points need no others put off the surface (eq. 5) and no normals but for the side,
-/// and the system (HeightKriging), centred and in unit scale, is half as large. The roughness is the likeliest one (restricted maximum likelihood) given
-/// the points and a prior; a point's smoothing is its variance against four times that, since a
-/// length is asked for in the end, over which noise averages out but flattened bends add up.
+/// and the system (HeightKriging), centred and in unit scale, is half as large. The roughness is
+/// the likeliest one (restricted maximum likelihood) given the points and a prior; a point's
+/// smoothing is its variance against four times that, since a length is asked for in the end, over
+/// which noise averages out but flattened bends add up.
 class HeightPatch {
  public:
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:
@@ -52,6 +53,9 @@ class HeightPatch {
   double misfit() const { return misfit_; }
 
  private:
+  /// A number for each sample, kept in place: fields are read far more often than fitted.
+  using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostHeightSamples, 1>;
+
   HeightPatch() = default;
 
   Eigen::Vector3d centre_;
@@ -59,9 +63,9 @@ class HeightPatch {
   double radius_ = 1.0;
   std::optional<HeightKriging> kriging_;
   HeightKriging::Solution solution_;
-  Eigen::ArrayXd x_;  ///< of the samples
-  Eigen::ArrayXd y_;
-  Eigen::ArrayXd weights_;
+  Column x_;  ///< of the samples
+  Column y_;
+  Column weights_;
   std::vector<Eigen::Index> cells_;  ///< the sample that each point went into; empty for itself
   Eigen::VectorXd shares_;
   double wander_ = 0.0;  ///< roughness in unit scale

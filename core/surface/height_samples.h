@@ -7,6 +7,9 @@
 
 namespace instep {
 
+/// As many samples as a patch is fitted to; more points are averaged first.
+inline constexpr int kMostHeightSamples = 64;
+
 /// Points of a small piece of surface as heights over a plane: the patch's own coordinates, in
 /// which the neighbourhood has radius one.
 struct HeightSamples {

@@ -13,7 +13,7 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbourhoods = 40;
+constexpr std::size_t kNeighbourhoods = 24;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 /// The shape between the neighbourhoods may be rougher than they are: measured on scanned feet,
@@ -24,6 +24,10 @@ constexpr double kLeastRoughness = 1e-12;
 constexpr double kLeastRatio = 1e-12;
 constexpr double kMostRatio = 1e3;
 constexpr double kRatioStep = 2.0;
+/// Roughnesses that are tried, against one that explains all heights.
+constexpr double kRoughest = 4.0;
+constexpr double kSmoothest = 1e-8;
+constexpr double kRoughnessStep = 0.5;
 constexpr std::size_t kPoints = 60;
 /// Terms of a quadratic in two variables: curvature is shape, not roughness.
 constexpr Eigen::Index kTerms = 6;
@@ -103,13 +107,12 @@ double own_variance(const Neighbourhood& here) {
 /// shape, so it is held near `usual`, if that is known.
 double likely_roughness(const Neighbourhood& here, double variance, std::optional<double> usual) {
   const double noise = variance / (here.radius * here.radius);
-  const double level =
-      std::max(here.likelihood.profile(kMostRatio * here.likelihood.mean_diagonal()).roughness *
-                   kMostRatio,
-               1e-300);
+  const double level = std::max(
+      here.likelihood.profile(kMostRatio * here.likelihood.mean_diagonal()).roughness * kMostRatio,
+      1e-300);
   double best = std::numeric_limits<double>::infinity();
   double roughness = level;
-  for (double trial = 4.0 * level; trial > 1e-8 * level; trial *= 0.7) {
+  for (double trial = kRoughest * level; trial > kSmoothest * level; trial *= kRoughnessStep) {
     double misfit = here.likelihood.misfit(noise, trial);
     if (usual) misfit += std::pow(std::log(trial / here.radius / *usual) / kRoughnessSpread, 2);
     if (misfit < best) {

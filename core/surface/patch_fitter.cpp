@@ -28,9 +28,10 @@ constexpr std::size_t kPointsInSpace = 80;
 /// Points nearer to each other than this part of the spacing are copies of one.
 constexpr double kTwin = 0.02;
 /// A patch is at least this part of the body wide.
-constexpr double kLeastReach = 0.044;
-/// Cosine to the outward direction of normals that tell of no crease, and how many must tell of one.
-constexpr double kHardlyBent = 0.955;
+constexpr double kLeastReach = 0.033;
+/// Cosine to the outward direction of normals that tell of no crease, and how many must tell of
+/// one.
+constexpr double kHardlyBent = 0.93;
 constexpr std::ptrdiff_t kFewestBent = 6;
 /// The shape between the estimates of roughness may be rougher than they are.
 constexpr double kAllowanceInSpace = 4.0;
@@ -39,8 +40,8 @@ constexpr double kStrayDeviations = 5.0;
 constexpr double kStrayRise = 0.7;
 /// Where there is noise, a patch is wider than the kriging's bandwidth by this factor, up to this
 /// part of the body.
-constexpr double kBandwidths = 2.5;
-constexpr double kWidest = 0.15;
+constexpr double kBandwidths = 2.0;
+constexpr double kWidest = 0.12;
 /// It is fitted again, narrower, if it turns out rougher than thought.
 constexpr int kMostAttempts = 4;
 constexpr double kTooWide = 1.5;
@@ -120,7 +121,8 @@ void PatchFitter::drop_strays(Members& members) const {
   members.all.resize(kept);
 }
 
-/// Leaves out points that nearly repeat another: the slope between the two would be one of rounding.
+/// Leaves out points that nearly repeat another: the slope between the two would be one of
+/// rounding.
 void PatchFitter::drop_twins(std::vector<std::size_t>& members, double nearest) const {
   if (members.size() > kPointsInSpace) return;
   std::size_t kept = 0;
@@ -213,8 +215,7 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   auto creased = CreasedPatch::fit(points, place, members.radius, roughness);
   if (!creased || creased->turn() <= kLeastTurn) return std::nullopt;
   if (creased->gap() >= kWidestCreaseGap * surroundings.spacing) return std::nullopt;
-  const auto smooth =
-      HeightPatch::fit(points, place, members.outward, members.radius, roughness);
+  const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
   if (smooth && creased->misfit() + kLeastGain >= smooth->misfit()) return std::nullopt;
   return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all};
 }

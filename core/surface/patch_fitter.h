@@ -27,9 +27,9 @@ struct SurfacePatch {
 };
 
 /// Chooses what piece of surface the points round a place make, and fits it: as wide as its
-/// neighbours make it, wider where noise asks for it and the surface allows it, and over holes; with
-/// two sheets where the points tell a crease; a field in space where a thin part shows both of its
-/// sides. Read-only: may be used from several threads.
+/// neighbours make it, wider where noise asks for it and the surface allows it, and over holes;
+/// with two sheets where the points tell a crease; a field in space where a thin part shows both of
+/// its sides. Read-only: may be used from several threads.
 class PatchFitter {
  public:
   /// At least four points, in a unit in which the body is about one long, whose positions `index`
