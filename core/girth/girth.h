@@ -30,6 +30,7 @@ struct Girth {
   std::optional<double> stretched_u95_mm;
   std::optional<double> contact_u95_mm;
 
+  std::vector<double> debug;
   std::size_t points = 0;       ///< points of the whole cloud
   std::size_t band_points = 0;  ///< points near the plane that took part
   double sigma_mm = 0.0;        ///< noise that was used

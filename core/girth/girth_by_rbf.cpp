@@ -6,6 +6,7 @@
 #include "core/girth/contour_index.h"
 #include "core/girth/contour_trace.h"
 #include "core/girth/girth.h"
+#include "core/girth/length_doubt.h"
 #include "core/girth/loop_choice.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
@@ -112,7 +113,9 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
+  const ContourDoubt doubt = doubt_of(contour, surface);
   Girth girth;
+  girth.debug = {band->unit_mm * std::sqrt(doubt.stretched.noise), band->unit_mm * std::sqrt(doubt.stretched.wandering), band->unit_mm * std::sqrt(doubt.contact.noise), band->unit_mm * std::sqrt(doubt.contact.wandering), band->unit_mm*doubt.wiggle, band->unit_mm*doubt.unseen};
   girth.contact_mm = band->unit_mm * length;
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));

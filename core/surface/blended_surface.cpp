@@ -69,6 +69,18 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
   return FieldValue{value, (sum.gradient - value * weights_gradient) / weights};
 }
 
+const SurfacePatch* BlendedSurface::leading_patch(const Eigen::Vector3d& place) const {
+  const SurfacePatch* leading = nullptr;
+  double most = 0.0;
+  for (const auto& patch : patches_) {
+    const double weight = wendland(place - patch.middle, kReach * patch.radius).value;
+    if (weight <= most) continue;
+    most = weight;
+    leading = &patch;
+  }
+  return leading;
+}
+
 double BlendedSurface::distance_to_data(const Eigen::Vector3d& place) const {
   return std::sqrt(fitter_.index().nearest(place, 1).front().squared_distance);
 }

@@ -29,6 +29,11 @@ class BlendedSurface {
   /// Distance from the place to the nearest point.
   double distance_to_data(const Eigen::Vector3d& place) const;
 
+  /// The patch that counts most at a place; null outside all patches.
+  const SurfacePatch* leading_patch(const Eigen::Vector3d& place) const;
+
+  const std::vector<OrientedPoint>& points() const { return fitter_.points(); }
+
   std::size_t patches() const { return patches_.size(); }
 
  private:
