@@ -54,9 +54,6 @@ void measure(Tally& tally, const PointCloud& cloud, const test::KnownSection& se
     if (std::abs(error) <= *girth->stretched_u95_mm) ++tally.held;
   }
   if (g_verbose) {
-    fmt::print("D {} {:.5f} {:.5f} {:.3f} {} {:.4f}", label.empty()?std::string("x"):std::string(label.begin(), std::find(label.begin(),label.end(),' ')), error, girth->contact_mm-section.contact_mm, girth->sigma_mm, girth->band_points, girth->largest_gap_mm);
-    for (double d : girth->debug) fmt::print(" {:.5f}", d);
-    fmt::print("\n");
     fmt::print(
         "    {:<44} stretched {:+8.4f} contact {:+8.4f} u95 {:.4f} sigma {:.4f} gap {:.1f} "
         "band {} {:.1f} ms\n",
