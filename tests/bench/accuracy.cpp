@@ -55,9 +55,11 @@ void report_floor(const std::vector<test::Outcome>& outcomes) {
 void report(const Wishes& wishes) {
   CaseCsv csv(wishes.csv);
   std::vector<test::Outcome> noisy;
-  print_heading("classes");
+  bool headed = false;
   for (const auto& chosen : all_classes()) {
     if (!wishes.wants(chosen.part)) continue;
+    if (!headed) print_heading("classes");
+    headed = true;
     const auto outcomes = measure(chosen, wishes.verbose, csv);
     print_class(chosen.name, chosen.bar, test::summary_of(outcomes));
     if (chosen.part == "noise") noisy.insert(noisy.end(), outcomes.begin(), outcomes.end());

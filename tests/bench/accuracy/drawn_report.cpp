@@ -40,7 +40,7 @@ std::string hole_of(const test::CaseMaking& making) {
 std::string density_of(const test::GirthCase& drawn) {
   constexpr std::array kOfShapes = {400.0, 1000.0, 2000.0, 4000.0, 8001.0};
   constexpr std::array kOfFeet = {800.0, 2000.0, 4000.0, 8000.0, 18001.0};
-  const bool whole_foot = drawn.making.body == "last" || drawn.making.body == "foot";
+  const bool whole_foot = drawn.making.body.ends_with("foot") || drawn.making.body == "last";
   const auto points = static_cast<double>(drawn.cloud.size());
   return whole_foot ? "foot or last, " + fmt::format("{:>13}", range_of(points, kOfFeet, ""))
                     : "shape, " + fmt::format("{:>13}", range_of(points, kOfShapes, ""));

@@ -34,26 +34,14 @@ double bending_of(const std::vector<Vector2d>& polygon) {
   return sum;
 }
 
-TapePlane plane_at(const Vector3d& place, const Vector3d& normal) {
-  const Vector3d u = normal.unitOrthogonal();
-  return TapePlane::through(place, place + 10.0 * u, place + 10.0 * normal.cross(u)).value();
-}
-
-/// A direction that differs from `axis` by at most so much, evenly over the cap.
-Vector3d tilted(const Vector3d& axis, double most_degrees, RandomNumbers& random) {
-  const double tilt = most_degrees * std::numbers::pi / 180.0 * std::sqrt(random.uniform());
-  const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
-  const Vector3d across = Eigen::AngleAxisd(turn, axis) * axis.unitOrthogonal();
-  return Eigen::AngleAxisd(tilt, across) * axis;
-}
-
 CaseBody analytic_body(std::string name, const AnalyticShape& shape) {
-  return {std::move(name),
-          [shape](std::size_t count, std::uint64_t seed) {
-            return points_by_area(shape, count, -kHalfLengthMm, kHalfLengthMm, seed);
-          },
-          [](RandomNumbers& random) { return tilted_plane(kMostTiltDegrees, random); },
-          [shape](const TapePlane& plane) -> std::optional<TrueLengths> {
+  return {.name = std::move(name),
+          .crowd =
+              [shape](std::size_t count, std::uint64_t seed) {
+                return points_by_area(shape, count, -kHalfLengthMm, kHalfLengthMm, seed);
+              },
+          .plane = [](RandomNumbers& random) { return tilted_plane(kMostTiltDegrees, random); },
+          .lengths = [shape](const TapePlane& plane) -> std::optional<TrueLengths> {
             const auto section = true_section(shape, plane, kRays);
             return TrueLengths{perimeter(convex_hull(section)), perimeter(section),
                                bending_of(section)};
@@ -67,6 +55,18 @@ TapePlane moved_plane(const TapePlane& plane, RandomNumbers& random) {
 }
 
 }  // namespace
+
+TapePlane plane_at(const Vector3d& place, const Vector3d& normal) {
+  const Vector3d u = normal.unitOrthogonal();
+  return TapePlane::through(place, place + 10.0 * u, place + 10.0 * normal.cross(u)).value();
+}
+
+Vector3d tilted(const Vector3d& axis, double most_degrees, RandomNumbers& random) {
+  const double tilt = most_degrees * std::numbers::pi / 180.0 * std::sqrt(random.uniform());
+  const double turn = random.uniform(0.0, 2.0 * std::numbers::pi);
+  const Vector3d across = Eigen::AngleAxisd(turn, axis) * axis.unitOrthogonal();
+  return Eigen::AngleAxisd(tilt, across) * axis;
+}
 
 TapePlane tilted_plane(double most_degrees, RandomNumbers& random) {
   const double z = random.uniform(-5.0, 5.0);
@@ -108,14 +108,16 @@ std::vector<CaseBody> scanned_feet() {
     for (const auto& section : known_sections("feet")) {
       if (section.file == file) planes.push_back(section.plane);
     }
-    feet.push_back({"foot",
-                    [mesh](std::size_t count, std::uint64_t seed) {
-                      return oriented_points_on(*mesh, count, 0.0, seed);
-                    },
-                    [planes](RandomNumbers& random) {
-                      return moved_plane(planes[random.below(planes.size())], random);
-                    },
-                    [mesh](const TapePlane& plane) -> std::optional<TrueLengths> {
+    feet.push_back({.name = "foot",
+                    .crowd =
+                        [mesh](std::size_t count, std::uint64_t seed) {
+                          return oriented_points_on(*mesh, count, 0.0, seed);
+                        },
+                    .plane =
+                        [planes](RandomNumbers& random) {
+                          return moved_plane(planes[random.below(planes.size())], random);
+                        },
+                    .lengths = [mesh](const TapePlane& plane) -> std::optional<TrueLengths> {
                       const auto girth = girth_by_section(*mesh, plane);
                       if (!girth || !girth->warnings.empty()) return std::nullopt;
                       return TrueLengths{girth->stretched_mm, girth->contact_mm, 0.0};

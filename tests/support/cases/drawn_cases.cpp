@@ -9,6 +9,7 @@
 
 #include "tests/support/cases/case_bodies.h"
 #include "tests/support/cases/point_patterns.h"
+#include "tests/support/cases/simulated_feet.h"
 #include "tests/support/places.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
@@ -16,9 +17,10 @@
 namespace instep::test {
 namespace {
 
-constexpr double kShareOfSmooth = 0.45;
+constexpr double kShareOfSmooth = 0.40;
 constexpr double kShareOfCreased = 0.10;
-constexpr double kShareOfLasts = 0.20;  // the rest are feet
+constexpr double kShareOfSimulatedFeet = 0.10;
+constexpr double kShareOfLasts = 0.15;  // the rest are scanned feet
 constexpr double kShareOfExact = 0.30;
 constexpr double kShareOfHoles = 0.25;
 constexpr double kShareOfNormalsTold = 0.25;
@@ -40,11 +42,12 @@ Pattern drawn_pattern(RandomNumbers& random) {
 }  // namespace
 
 struct DrawnCases::Bodies {
+  std::vector<CaseBody> simulated_feet;
   std::vector<CaseBody> feet;
   std::vector<KnownSection> last_sections;
   std::map<std::string, PointCloud> lasts;
 
-  bool any() const { return !feet.empty(); }
+  bool with_trial_data() const { return !feet.empty(); }
   GirthCase whole_case(RandomNumbers& random) const;
   GirthCase on_body(const CaseBody& body, double most_points, RandomNumbers& random) const;
   GirthCase on_last(RandomNumbers& random) const;
@@ -80,9 +83,11 @@ GirthCase DrawnCases::Bodies::on_body(const CaseBody& body, double most_points,
   const Pattern pattern = drawn_pattern(random);
   const auto crowd =
       body.crowd(pattern == Pattern::kRandom ? count : kCrowd * count, random.below(1U << 30));
+  PointCloud cloud = chosen(crowd, count, pattern, random.below(1U << 30));
+  body.settle(cloud);
   return {.name = body.name,
           .making = {.body = body.name, .sampling = name_of(pattern)},
-          .cloud = chosen(crowd, count, pattern, random.below(1U << 30)),
+          .cloud = std::move(cloud),
           .plane = plane,
           .stretched_mm = lengths->stretched_mm,
           .contact_mm = lengths->contact_mm,
@@ -93,20 +98,27 @@ GirthCase DrawnCases::Bodies::on_body(const CaseBody& body, double most_points,
 GirthCase DrawnCases::Bodies::whole_case(RandomNumbers& random) const {
   constexpr double kMostPoints = 8000;
   constexpr double kMostPointsOfFeet = 18000;
-  const double without_trial_data = kShareOfSmooth + kShareOfCreased;
-  const double draw = random.uniform() * (any() ? 1.0 : without_trial_data);
+  const double analytic = kShareOfSmooth + kShareOfCreased;
+  const double without_trial_data = analytic + kShareOfSimulatedFeet;
+  const double draw = random.uniform() * (with_trial_data() ? 1.0 : without_trial_data);
   if (draw < kShareOfSmooth) {
     const auto shapes = smooth_bodies(1 + random.below(1U << 30));
     return on_body(shapes[random.below(shapes.size())], kMostPoints, random);
   }
-  if (draw < without_trial_data)
+  if (draw < analytic) {
     return on_body(creased_body(random.below(1U << 30)), kMostPoints, random);
+  }
+  if (draw < without_trial_data) {
+    return on_body(simulated_feet[random.below(simulated_feet.size())], kMostPointsOfFeet, random);
+  }
   if (draw < without_trial_data + kShareOfLasts) return on_last(random);
   return on_body(feet[random.below(feet.size())], kMostPointsOfFeet, random);
 }
 
 DrawnCases::DrawnCases() {
+  constexpr std::size_t kSimulatedFeet = 12;
   Bodies bodies;
+  bodies.simulated_feet = simulated_feet(kSimulatedFeet);
   if (std::filesystem::exists(trial_data())) {
     bodies.feet = scanned_feet();
     bodies.last_sections = known_sections("lasts");

@@ -7,9 +7,10 @@
 
 namespace instep::test {
 
-/// Cases of all kinds, drawn at random: smooth and creased shapes, lasts and feet, of any density,
+/// Cases of all kinds, drawn at random: smooth and creased shapes, simulated and
+/// scanned feet, and lasts, of any density,
 /// sampling and noise, with holes, on oblique planes, with and without normals and sigma told.
-/// Lasts and feet come in only where the trial data is present.
+/// Lasts and scanned feet come in only where the trial data is present.
 class DrawnCases {
  public:
   DrawnCases();
