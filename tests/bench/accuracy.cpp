@@ -8,6 +8,7 @@
 
 #include "tests/bench/accuracy/case_csv.h"
 #include "tests/bench/accuracy/drawn_report.h"
+#include "tests/bench/accuracy/error_plots.h"
 #include "tests/bench/accuracy/outcome_line.h"
 #include "tests/bench/accuracy/report_table.h"
 #include "tests/support/cases/case_classes.h"
@@ -78,8 +79,14 @@ int main(int count, char** words) {
       ->check(CLI::IsMember({"rings", "shapes", "noise", "holes", "lasts", "feet", "drawn"}));
   app.add_flag("-v,--verbose", wishes.verbose, "Print each case");
   app.add_option("--cases", wishes.drawn, "How many cases to draw")->capture_default_str();
+  std::string plots;
+  app.add_option("--plots", plots, "Only draw the plots, as SVG files in this folder");
   app.add_option("--csv", wishes.csv, "Write a line for each case to this file");
   CLI11_PARSE(app, count, words);
-  instep::bench::report(wishes);
+  if (plots.empty()) {
+    instep::bench::report(wishes);
+  } else {
+    instep::bench::write_error_plots(plots);
+  }
   return 0;
 }

@@ -11,12 +11,16 @@
 #include "daemon/cloud_files/cloud_file.h"
 #include "daemon/cloud_files/cloud_ply_writer.h"
 #include "tests/bench/scaling/timed_girth.h"
+#include "tests/bench/shared/girth_methods.h"
+#include "tests/bench/shared/line_plot.h"
 #include "tests/support/cases/point_patterns.h"
 #include "tests/support/cases/simulated_feet.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep::bench {
 namespace {
+
+constexpr double kNoiseMm = 0.3;
 
 struct Contender {
   std::string name;
@@ -25,17 +29,10 @@ struct Contender {
 };
 
 std::vector<Contender> contenders() {
-  const auto rbf = [](const auto& cloud, const auto& plane) { return girth_by_rbf(cloud, plane); };
-  return {
-      {"rbf", rbf, 0.0},
-      {"rbf, noise", rbf, 0.3},
-      {"hull", [](const auto& cloud, const auto& plane) { return girth_by_hull(cloud, plane); },
-       0.0},
-      {"mesh", [](const auto& cloud, const auto& plane) { return girth_by_mesh(cloud, plane); },
-       0.0},
-      {"rbf-paper",
-       [](const auto& cloud, const auto& plane) { return girth_by_paper(cloud, plane); }, 0.0},
-  };
+  std::vector<Contender> all;
+  for (auto& method : girth_methods()) all.push_back({method.name, std::move(method.girth)});
+  all.insert(all.begin() + 1, {"rbf, noise", all.front().girth, kNoiseMm});
+  return all;
 }
 
 /// A simulated foot, its points evenly at random; a plane over it at a part of its length.
@@ -47,7 +44,7 @@ struct Subject {
   explicit Subject(std::size_t most) {
     points = body.crowd(most, 1);
     body.settle(points);
-    noisy = test::with_noise(points, 0.3, 2);
+    noisy = test::with_noise(points, kNoiseMm, 2);
     points.normals.clear();
     noisy.normals.clear();
   }
@@ -148,7 +145,7 @@ void bars(const Timings& timings) {
 
 /// As when a foot is measured: one cloud, several tapes.
 void six_girths(const Subject& subject, std::size_t count) {
-  const PointCloud cloud = subject.first(count, 0.3);
+  const PointCloud cloud = subject.first(count, kNoiseMm);
   std::vector<TapePlane> planes;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) planes.push_back(plane_over(subject, seed));
   const double all = median_milliseconds([&] {
@@ -156,6 +153,25 @@ void six_girths(const Subject& subject, std::size_t count) {
   });
   fmt::print("six girths of one cloud of {} noisy points, one after the other: {:.1f} ms\n", count,
              all);
+}
+
+void plot(const Timings& timings, const std::filesystem::path& folder) {
+  LinePlot plot = {.title = "The time of a girth",
+                   .note = "simulated foot, one thread; rbf, noise: with 0.3 mm of it",
+                   .x = {"points on the foot"},
+                   .y = {"processor time, ms"},
+                   .lines = {}};
+  for (const auto& contender : contenders()) {
+    PlotLine line = {.name = contender.name, .points = {}, .dashed = false};
+    for (const auto& girth : timings.at(contender.name)) {
+      line.points.emplace_back(static_cast<double>(girth.points), girth.milliseconds);
+    }
+    plot.lines.push_back(std::move(line));
+  }
+  // Its colour is that of rbf, whose it is.
+  std::rotate(plot.lines.begin() + 1, plot.lines.begin() + 2, plot.lines.end());
+  plot.lines.back().dashed = true;
+  write_svg(plot, folder / "time_over_points.svg");
 }
 
 }  // namespace
@@ -171,6 +187,8 @@ int main(int count, char** words) {
       ->capture_default_str();
   app.add_option("--patience", patience_s, "A method that took longer, s, gets no larger cloud")
       ->capture_default_str();
+  std::string plots;
+  app.add_option("--plots", plots, "Also draw the times, as an SVG file in this folder");
   CLI11_PARSE(app, count, words);
   std::vector<std::size_t> counts;
   for (const std::size_t step : {10000U, 20000U, 50000U, 100000U, 200000U, 500000U, 1000000U,
@@ -180,6 +198,7 @@ int main(int count, char** words) {
   const Subject subject(counts.back());
   const auto timings = table(subject, plane_over(subject, 1), counts, patience_s);
   bars(timings);
+  if (!plots.empty()) plot(timings, plots);
   six_girths(subject, std::min<std::size_t>(200000, counts.back()));
   return 0;
 }

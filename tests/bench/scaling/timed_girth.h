@@ -4,11 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/girth/girth.h"
+#include "tests/bench/shared/girth_methods.h"
 
 namespace instep::bench {
-
-using GirthMethod = std::function<Result<Girth>(const PointCloud& cloud, const TapePlane& plane)>;
 
 /// What a girth cost.
 struct TimedGirth {
