@@ -30,7 +30,6 @@ struct Girth {
   std::optional<double> stretched_u95_mm;
   std::optional<double> contact_u95_mm;
 
-  std::vector<double> debug;
   std::size_t points = 0;       ///< points of the whole cloud
   std::size_t band_points = 0;  ///< points near the plane that took part
   double sigma_mm = 0.0;        ///< noise that was used
@@ -51,7 +50,7 @@ struct Girth {
 /// A section of which more than a quarter has no points is refused; a narrower hole is bridged by
 /// the surface and reported. Strays and loops that far fewer points make are left out; of several
 /// loops the one round the largest area counts, and the others are named in a warning. A crease
-/// such as a last's featherline stays sharp. It gives no interval.
+/// such as a last's featherline stays sharp. The intervals are LengthDoubt's.
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});

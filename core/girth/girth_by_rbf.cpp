@@ -113,13 +113,14 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
-  const ContourDoubt doubt = doubt_of(contour, surface);
   Girth girth;
-  girth.debug = {band->unit_mm * std::sqrt(doubt.stretched.noise), band->unit_mm * std::sqrt(doubt.stretched.wandering), band->unit_mm * std::sqrt(doubt.contact.noise), band->unit_mm * std::sqrt(doubt.contact.wandering), band->unit_mm*doubt.wiggle, band->unit_mm*doubt.unseen};
   girth.contact_mm = band->unit_mm * length;
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
+  const LengthDoubt doubt = doubt_of(contour, surface);
+  girth.contact_u95_mm = band->unit_mm * doubt.contact_u95;
+  girth.stretched_u95_mm = band->unit_mm * doubt.stretched_u95;
   girth.points = cloud.size();
   girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;

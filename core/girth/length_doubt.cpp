@@ -2,140 +2,140 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <utility>
+#include <cstddef>
+#include <iterator>
+#include <vector>
 
-#include "core/geometry/polygon.h"
+#include "core/girth/contour_turns.h"
 
 namespace instep {
 namespace {
 
-double turn_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-}
+/// How much each part counts, so that intervals hold.
+constexpr double kNoise = 1.05;
+constexpr double kWandering = 1.5;
+constexpr double kUnseenWaves = 2.0;
+constexpr double kDeviations = 2.0;
+/// What first order leaves out, against the length.
+constexpr double kLeast = 1e-5;
+/// A surface hardly crosses the plane where its slope on it is less.
+constexpr double kLeastSlope = 0.1;
 
-/// By how much each corner's move outwards lengthens the contour.
-std::vector<double> turns_of(const Contour& contour) {
-  const std::size_t count = contour.points.size();
-  std::vector<double> turns(count, 0.0);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = (i + 1) % count;
-    const double turn = turn_between(contour.outward[i], contour.outward[next]);
-    turns[i] += 0.5 * turn;
-    turns[next] += 0.5 * turn;
-  }
-  return turns;
-}
-
-/// The same for a tape round it: it turns only at the corners of the hull.
-std::vector<double> hull_turns_of(const Contour& contour) {
-  const auto hull = convex_hull(contour.points);
-  std::map<std::pair<double, double>, double> turn_at;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Eigen::Vector2d before = hull[i] - hull[(i + hull.size() - 1) % hull.size()];
-    const Eigen::Vector2d after = hull[(i + 1) % hull.size()] - hull[i];
-    turn_at[{hull[i].x(), hull[i].y()}] = turn_between(before, after);
-  }
-  std::vector<double> turns;
-  for (const auto& point : contour.points) {
-    const auto found = turn_at.find({point.x(), point.y()});
-    turns.push_back(found == turn_at.end() ? 0.0 : found->second);
-  }
-  return turns;
-}
-
-/// One sheet of a patch and the stretch of the contour on which it counts most.
+/// A part of the contour that one sheet of one patch decides.
 struct Stretch {
-  const HeightPatch* patch = nullptr;
-  std::vector<std::size_t> members;
-  std::vector<std::size_t> corners;
-  double doubt = 0.0;
+  SurfacePatch::Sheet sheet;
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<double> contact;  ///< what each corner's height counts for the lengths
+  std::vector<double> stretched;
+  std::vector<double> slopes;  ///< heights to moves on the plane
+  double length = 0.0;
 };
+
+/// What is gathered over the stretches.
+struct Sums {
+  std::vector<double> contact;  ///< influence of each point on the length
+  std::vector<double> stretched;
+  double contact_wandering = 0.0;  ///< variance
+  double stretched_wandering = 0.0;
+  double noise_waves = 0.0;  ///< length
+  double unseen_waves = 0.0;
+};
+
+std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& surface) {
+  const ContourTurns turns = turns_of(contour);
+  const std::size_t count = contour.points.size();
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d place(contour.points[i].x(), contour.points[i].y(), 0.0);
+    const SurfacePatch* patch = surface.leading_patch(place);
+    if (patch == nullptr) continue;
+    const auto sheet = patch->sheet_at(place);
+    auto here = std::find_if(stretches.begin(), stretches.end(),
+                             [&](const Stretch& stretch) { return stretch.sheet.is_same(sheet); });
+    if (here == stretches.end()) {
+      stretches.push_back({sheet, {}, {}, {}, {}, 0.0});
+      here = std::prev(stretches.end());
+    }
+    Stretch& stretch = *here;
+    const double slope = std::max(patch->at(place).gradient.head<2>().norm(), kLeastSlope);
+    stretch.corners.push_back(place);
+    stretch.contact.push_back(turns.contact[i] / slope);
+    stretch.stretched.push_back(turns.stretched[i] / slope);
+    stretch.slopes.push_back(slope);
+    stretch.length += (contour.points[(i + 1) % count] - contour.points[i]).norm();
+  }
+  return stretches;
+}
+
+Eigen::VectorXd column(const std::vector<double>& values) {
+  return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// Adds the influence of the points on a sum of heights; returns the variance by wandering.
+double add(const Stretch& stretch, const std::vector<double>& shares,
+           std::vector<double>& influence) {
+  const auto sum = stretch.sheet.patch->sum(stretch.corners, column(shares));
+  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
+    influence[stretch.sheet.member(i)] += sum.influence[static_cast<Eigen::Index>(i)];
+  }
+  return sum.variance;
+}
+
+/// A line of that length whose direction varies by `variance` is longer by half of it.
+void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {
+  if (stretch.corners.size() < 2) return;
+  const std::size_t at = (stretch.corners.size() - 1) / 2;
+  const std::vector<Eigen::Vector3d> pair = {stretch.corners[at], stretch.corners[at + 1]};
+  const double rise = 1.0 / ((pair[1] - pair[0]).norm() * stretch.slopes[at]);
+  const auto tilt = stretch.sheet.patch->sum(pair, Eigen::Vector2d(-rise, rise));
+  double noise = 0.0;
+  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
+    const double influence = tilt.influence[static_cast<Eigen::Index>(i)];
+    noise += influence * influence * points[stretch.sheet.member(i)].variance;
+  }
+  sums.noise_waves += 0.5 * stretch.length * noise;
+  sums.unseen_waves += 0.5 * stretch.length * tilt.variance;
+}
+
+/// A patch in space knows no sums: all of its stretch may be off by as much as its middle.
+double coherent_variance(const Stretch& stretch, const std::vector<double>& shares) {
+  double sum = 0.0;
+  for (const double share : shares) sum += share;
+  return sum * sum * stretch.sheet.variance;
+}
+
+double half_width(const std::vector<double>& influence, double wandering, const Sums& sums,
+                  const std::vector<OrientedPoint>& points, double length) {
+  double noise = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    noise += influence[i] * influence[i] * points[i].variance;
+  }
+  const double unseen = std::min(kUnseenWaves * sums.unseen_waves, length);
+  const double variance = kNoise * kNoise * noise + kWandering * kWandering * wandering +
+                          unseen * unseen + sums.noise_waves * sums.noise_waves;
+  return kDeviations * std::sqrt(variance) + kLeast * length;
+}
 
 }  // namespace
 
-ContourDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
-  const std::size_t count = contour.points.size();
-  const auto turns = turns_of(contour);
-  const auto hull_turns = hull_turns_of(contour);
-  std::vector<Eigen::Vector3d> places;
-  std::vector<double> slopes;
-  std::vector<std::pair<const void*, Stretch>> stretches;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d place(contour.points[i].x(), contour.points[i].y(), 0.0);
-    places.push_back(place);
-    const SurfacePatch* patch = surface.leading_patch(place);
-    const HeightPatch* sheet = nullptr;
-    std::vector<std::size_t> members;
-    double slope = 1.0;
-    if (patch) {
-      slope = patch->at(place).gradient.head<2>().norm();
-      if (const auto* smooth = std::get_if<HeightPatch>(&patch->field)) {
-        sheet = smooth;
-        members = patch->members;
-      } else if (const auto* creased = std::get_if<CreasedPatch>(&patch->field)) {
-        const auto& one = creased->sheet_at(place);
-        sheet = &one.patch;
-        for (const auto member : one.members) members.push_back(patch->members[member]);
-      }
-    }
-    slopes.push_back(std::max(slope, 0.1));
-    if (!sheet) continue;
-    auto found = std::find_if(stretches.begin(), stretches.end(),
-                              [&](const auto& one) { return one.first == sheet; });
-    if (found == stretches.end()) {
-      stretches.push_back({sheet, {sheet, std::move(members), {}, 0.0}});
-      found = std::prev(stretches.end());
-    }
-    found->second.corners.push_back(i);
-  }
-
-  ContourDoubt doubt;
+LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
   const auto& points = surface.points();
-  std::vector<double> contact(points.size(), 0.0);
-  std::vector<double> stretched(points.size(), 0.0);
-  for (const auto& [key, stretch] : stretches) {
-    std::vector<Eigen::Vector3d> at;
-    const auto n = static_cast<Eigen::Index>(stretch.corners.size());
-    Eigen::VectorXd shares(n);
-    Eigen::VectorXd hull_shares(n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const std::size_t corner = stretch.corners[static_cast<std::size_t>(k)];
-      at.push_back(places[corner]);
-      shares[k] = turns[corner] / slopes[corner];
-      hull_shares[k] = hull_turns[corner] / slopes[corner];
+  Sums sums;
+  sums.contact.assign(points.size(), 0.0);
+  sums.stretched.assign(points.size(), 0.0);
+  for (const auto& stretch : stretches_of(contour, surface)) {
+    if (stretch.sheet.patch == nullptr) {
+      sums.contact_wandering += coherent_variance(stretch, stretch.contact);
+      sums.stretched_wandering += coherent_variance(stretch, stretch.stretched);
+      continue;
     }
-    const auto one = stretch.patch->sum(at, shares);
-    const auto two = stretch.patch->sum(at, hull_shares);
-    doubt.contact.wandering += one.variance;
-    doubt.stretched.wandering += two.variance;
-    for (std::size_t m = 0; m < stretch.members.size(); ++m) {
-      contact[stretch.members[m]] += one.influence[static_cast<Eigen::Index>(m)];
-      stretched[stretch.members[m]] += two.influence[static_cast<Eigen::Index>(m)];
-    }
-    // slope
-    const std::size_t corner = stretch.corners[stretch.corners.size() / 2];
-    const std::size_t next = (corner + 1) % count;
-    const double step = (places[next] - places[corner]).norm();
-    double way = 0.0;
-    for (const std::size_t c : stretch.corners) way += (places[(c + 1) % count] - places[c]).norm();
-    Eigen::VectorXd pair(2);
-    pair << 1.0 / (step * slopes[corner]), -1.0 / (step * slopes[corner]);
-    const auto tilt = stretch.patch->sum({places[next], places[corner]}, pair);
-    double variance = 0.0;
-    for (std::size_t m = 0; m < stretch.members.size(); ++m) {
-      const double influence = tilt.influence[static_cast<Eigen::Index>(m)];
-      variance += influence * influence * points[stretch.members[m]].variance;
-    }
-    doubt.wiggle += 0.5 * way * variance;
-    doubt.unseen += 0.5 * way * tilt.variance;
+    sums.contact_wandering += add(stretch, stretch.contact, sums.contact);
+    sums.stretched_wandering += add(stretch, stretch.stretched, sums.stretched);
+    add_waves(stretch, points, sums);
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    doubt.contact.noise += contact[i] * contact[i] * points[i].variance;
-    doubt.stretched.noise += stretched[i] * stretched[i] * points[i].variance;
-  }
-  return doubt;
+  const double length = contour.length();
+  return {half_width(sums.contact, sums.contact_wandering, sums, points, length),
+          half_width(sums.stretched, sums.stretched_wandering, sums, points, length)};
 }
 
 }  // namespace instep

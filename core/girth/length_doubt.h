@@ -5,22 +5,25 @@
 
 namespace instep {
 
-/// How far a length read off the surface may be from the true one.
+/// How far the lengths of a contour on the plane z = 0, read off a fitted surface, may be from the
+/// true ones: half-widths of 95 % intervals in the unit of the surface.
+///
+/// To first order a length changes by what each corner moves outwards times what the line turns
+/// there (ContourTurns). Each height of the surface is a sum over the heights of points, so their
+/// noise goes through to the length exactly (HeightPatch::sum()), however patches overlap. The
+/// same sums tell how far the surface may wander between the points (kriging), holes and the reach
+/// beyond the last points of a crease included. To second order waves lengthen a line: by those
+/// that noise put into the contour it is too long, by those that the true one has between the
+/// points it is too short; neither is known to be there, so both count as doubt.
+///
+/// The parts are weighed so that over thousands of drawn shapes, feet and lasts of any density,
+/// noise and sampling about 95 % of the intervals hold (tests/bench/accuracy).
 struct LengthDoubt {
-  double noise = 0.0;      ///< variance that the noise of the points gives it
-  double wandering = 0.0;  ///< variance that the surface between the points gives it
+  double contact_u95 = 0.0;
+  double stretched_u95 = 0.0;
 };
 
-/// Of both lengths of a contour on the plane z = 0. To first order a length changes by what the
-/// contour moves outwards times what it turns there; a tape that bridges hollows turns only where
-/// it touches.
-struct ContourDoubt {
-  LengthDoubt contact;
-  LengthDoubt stretched;
-  double wiggle = 0.0;
-  double unseen = 0.0;
-};
-
-ContourDoubt doubt_of(const Contour& contour, const BlendedSurface& surface);
+/// `contour` as traced on `surface`. O(patches x samples^2).
+LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface);
 
 }  // namespace instep

@@ -199,7 +199,9 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   auto field = HermitePatch::fit(points_at(members), place, radius,
                                  kAllowanceInSpace * surroundings.roughness);
   if (!field) return std::nullopt;
-  return SurfacePatch{place, place, radius, std::move(*field), std::move(members)};
+  const double variance = surroundings.roughness * std::pow(surroundings.spacing, 3) +
+                          surroundings.noise_area / (surroundings.spacing * surroundings.spacing);
+  return SurfacePatch{place, place, radius, std::move(*field), std::move(members), variance};
 }
 
 /// Where the points tell a crease better than one smooth sheet.
@@ -217,7 +219,8 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   if (creased->gap() >= kWidestCreaseGap * surroundings.spacing) return std::nullopt;
   const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
   if (smooth && creased->misfit() + kLeastGain >= smooth->misfit()) return std::nullopt;
-  return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all};
+  return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all,
+                      0.0};
 }
 
 std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const {
@@ -235,8 +238,8 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     if (!smooth) return std::nullopt;
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
     if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) {
-      return SurfacePatch{place, middle_of(points), members.front_radius, std::move(*smooth),
-                          members.front};
+      return SurfacePatch{
+          place, middle_of(points), members.front_radius, std::move(*smooth), members.front, 0.0};
     }
     width = fitting;
   }
@@ -244,6 +247,17 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
 
 FieldValue SurfacePatch::at(const Eigen::Vector3d& place) const {
   return std::visit([&](const auto& surface) { return surface.at(place); }, field);
+}
+
+SurfacePatch::Sheet SurfacePatch::sheet_at(const Eigen::Vector3d& place) const {
+  if (const auto* smooth = std::get_if<HeightPatch>(&field)) {
+    return {this, smooth, nullptr, variance};
+  }
+  if (const auto* creased = std::get_if<CreasedPatch>(&field)) {
+    const auto& sheet = creased->sheet_at(place);
+    return {this, &sheet.patch, &sheet.members, variance};
+  }
+  return {this, nullptr, nullptr, variance};
 }
 
 }  // namespace instep

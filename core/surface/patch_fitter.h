@@ -22,8 +22,23 @@ struct SurfacePatch {
   double radius;
   std::variant<HeightPatch, CreasedPatch, HermitePatch> field;
   std::vector<std::size_t> members;  ///< the points it was fitted to
+  double variance = 0.0;             ///< of the surface round the true one, for a patch in space
 
   FieldValue at(const Eigen::Vector3d& place) const;
+
+  /// The one smooth surface that the patch is at some place, seen from there. Borrows the patch.
+  struct Sheet {
+    const SurfacePatch* owner = nullptr;
+    const HeightPatch* patch = nullptr;                ///< null in space
+    const std::vector<std::size_t>* chosen = nullptr;  ///< of the owner's members; null for all
+    double variance = 0.0;
+
+    bool is_same(const Sheet& other) const { return owner == other.owner && patch == other.patch; }
+    std::size_t size() const { return chosen ? chosen->size() : owner->members.size(); }
+    /// The index of the i-th point of the sheet.
+    std::size_t member(std::size_t i) const { return owner->members[chosen ? (*chosen)[i] : i]; }
+  };
+  Sheet sheet_at(const Eigen::Vector3d& place) const;
 };
 
 /// Chooses what piece of surface the points round a place make, and fits it: as wide as its

@@ -48,7 +48,6 @@ Outcome measured(const GirthCase& measured_case) {
   outcome.stretched_u95_mm = girth->stretched_u95_mm;
   outcome.contact_u95_mm = girth->contact_u95_mm;
   outcome.sigma_mm = girth->sigma_mm;
-  outcome.debug = girth->debug; outcome.debug.push_back(girth->largest_gap_mm);
   outcome.band_points = girth->band_points;
   outcome.floor_mm = measured_case.floor_mm;
   return outcome;

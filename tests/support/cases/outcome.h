@@ -20,7 +20,6 @@ struct Outcome {
   std::size_t band_points = 0;
   double milliseconds = 0.0;  ///< processor time
   std::optional<double> floor_mm;
-  std::vector<double> debug;
 };
 
 Outcome measured(const GirthCase& measured_case);
