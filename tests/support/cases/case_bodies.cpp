@@ -43,8 +43,8 @@ CaseBody analytic_body(std::string name, const AnalyticShape& shape) {
           .plane = [](RandomNumbers& random) { return tilted_plane(kMostTiltDegrees, random); },
           .lengths = [shape](const TapePlane& plane) -> std::optional<TrueLengths> {
             const auto section = true_section(shape, plane, kRays);
-            return TrueLengths{perimeter(convex_hull(section)), perimeter(section),
-                               bending_of(section)};
+            const auto hull = convex_hull(section);
+            return TrueLengths{perimeter(hull), perimeter(section), bending_of(hull)};
           }};
 }
 
