@@ -29,6 +29,7 @@ struct Wishes {
 
 std::vector<test::CaseClass> all_classes() {
   auto classes = test::smooth_classes();
+  for (auto& foot : test::simulated_foot_classes()) classes.push_back(std::move(foot));
   for (auto& last : test::last_classes()) classes.push_back(std::move(last));
   for (auto& foot : test::foot_classes()) classes.push_back(std::move(foot));
   return classes;
@@ -75,8 +76,10 @@ void report(const Wishes& wishes) {
 int main(int count, char** words) {
   CLI::App app("Errors of the girth by rbf over cases whose girths are known");
   instep::bench::Wishes wishes;
-  app.add_option("parts", wishes.parts, "Only these: rings shapes noise holes lasts feet drawn")
-      ->check(CLI::IsMember({"rings", "shapes", "noise", "holes", "lasts", "feet", "drawn"}));
+  app.add_option("parts", wishes.parts,
+                 "Only these: rings shapes noise holes simulated lasts feet drawn")
+      ->check(CLI::IsMember(
+          {"rings", "shapes", "noise", "holes", "simulated", "lasts", "feet", "drawn"}));
   app.add_flag("-v,--verbose", wishes.verbose, "Print each case");
   app.add_option("--cases", wishes.drawn, "How many cases to draw")->capture_default_str();
   std::string plots;

@@ -18,7 +18,7 @@ namespace instep::test {
 struct TrueLengths {
   double stretched_mm = 0.0;
   double contact_mm = 0.0;
-  /// Integral of the section's squared curvature along it, 1/mm; of analytic shapes only.
+  /// Integral of the squared curvature along the stretched tape, 1/mm; of analytic shapes only.
   double bending = 0.0;
 };
 

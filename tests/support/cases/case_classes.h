@@ -28,6 +28,10 @@ struct CaseClass {
 /// Regular rings, exact points, noise, holes: shapes whose sections are known by themselves.
 std::vector<CaseClass> smooth_classes();
 
+/// Feet of the simulated station, with no bar: their sections are known better than those of real
+/// ones.
+std::vector<CaseClass> simulated_foot_classes();
+
 /// The lasts and feet of the trial data; none where it is absent.
 std::vector<CaseClass> last_classes();
 std::vector<CaseClass> foot_classes();

@@ -49,7 +49,7 @@ Indices evenly(const PointCloud& crowd, std::size_t count) {
   double near = 0.1 * spacing;
   double far = 1.1 * spacing;
   Indices kept;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 9; ++round) {
     const double distance = 0.5 * (near + far);
     std::vector<bool> gone(crowd.size(), false);
     Indices found;
