@@ -11,11 +11,11 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kNeighbours = 8;
-constexpr double kStrayRatio = 2.5;
-/// A cell and those round it hold some forty points of an even surface; a stray has fewer than this
-/// for company.
-constexpr double kCellInSpacings = 2.0;
-constexpr std::size_t kCompany = 12;
+constexpr double kStrayRatio = 2.2;
+/// A cell and those round it hold some twenty points of an even surface; a stray, more than three
+/// spacings off, has fewer than this for company.
+constexpr double kCellInSpacings = 1.5;
+constexpr std::size_t kCompany = 10;
 
 double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
   const auto found = static_cast<double>(nearest.size() - 1);

@@ -18,7 +18,7 @@ constexpr std::size_t kFewestPoints = 24;
 constexpr double kBandInGrains = 6.5;
 /// Of the slab that is looked at first, against the extent of the cloud. Points of a slab thinner
 /// than their spacing seem farther apart than they are.
-constexpr double kFirstHalfWidth = 0.012;
+constexpr double kFirstHalfWidth = 0.004;
 constexpr double kWidening = 2.0;
 constexpr double kWideEnough = 1.15;
 constexpr int kMostRounds = 3;
@@ -33,17 +33,14 @@ constexpr double kNormalCellInGrains = 1.5;
 constexpr double kNormalCellInSigmas = 3.3;
 constexpr std::size_t kFewestNormalPoints = 16;
 
-/// How far the points lie from their middle: a length that turns and scales with them.
+/// Size of the cloud as the plane sees it, so that it turns with the two.
 double extent(const PointCloud& cloud, const TapePlane& plane) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double squares = 0.0;
+  Eigen::AlignedBox3d box;
   for (const auto& position : cloud.positions) {
-    const Eigen::Vector3d arm = position - plane.origin();
-    sum += arm;
-    squares += arm.squaredNorm();
+    const Eigen::Vector2d place = plane.project(position);
+    box.extend(Eigen::Vector3d(place.x(), place.y(), plane.distance(position)));
   }
-  const auto count = static_cast<double>(cloud.size());
-  return std::sqrt(std::max(squares / count - (sum / count).squaredNorm(), 0.0));
+  return box.diagonal().norm();
 }
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
@@ -56,6 +53,11 @@ double grain_of(double spacing, double sigma) {
   return std::max({spacing, std::min(kGrainInSigmas * sigma, kCoarsestGrain), kFinestGrain});
 }
 
+tl::unexpected<Error> no_surface() {
+  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
+              "scan again");
+}
+
 /// Where the section lies and how fine it is.
 struct Probe {
   Eigen::Vector3d middle_mm;
@@ -66,16 +68,19 @@ struct Probe {
 /// Widens a slab until it is a ring of points that tells their spacing.
 Result<Probe> probe(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud, plane);
-  for (double half_width = kFirstHalfWidth * size; half_width < 3.0 * size;
+  bool found_some = false;
+  for (double half_width = kFirstHalfWidth * size; half_width < size;
        half_width *= kWidening) {
     PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestPoints) continue;
+    found_some = true;
     const Eigen::AlignedBox2d box = section_box(slab.places);
     const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
     const double unit = box.diagonal().norm();
     if (half_width < spacing || !(unit > 0.0)) continue;
     return Probe{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
   }
+  if (found_some) return no_surface();
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");
 }
@@ -194,11 +199,6 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, bool own_sigma,
         own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : std::max(band.sigma, least);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
   }
-}
-
-tl::unexpected<Error> no_surface() {
-  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
-              "scan again");
 }
 
 }  // namespace

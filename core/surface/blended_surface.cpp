@@ -10,7 +10,7 @@ namespace {
 /// none on all sides.
 constexpr double kReach = 0.75;
 /// A place needs a patch centred within this part of the patch's radius.
-constexpr double kNearEnough = 0.45;
+constexpr double kNearEnough = 0.42;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;

@@ -13,7 +13,6 @@ namespace {
 
 /// Fewer points than this carry a plane only.
 constexpr std::size_t kFewestForQuadratic = 9;
-constexpr std::size_t kMostSamples = 60;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
 /// Points whose variance is less, in unit scale, are exact: nothing is smoothed.
@@ -92,7 +91,7 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   patch.axes_ = axes_with(outward);
   HeightSamples samples = samples_over(points, patch.axes_, centre, radius);
   Quadratic trend = Quadratic::Zero();
-  if (points.size() > kMostSamples) {
+  if (points.size() > kMostHeightSamples) {
     trend = least_squares(samples);
     CellAverages averages = averaged_rest(samples, trend);
     samples = std::move(averages.samples);

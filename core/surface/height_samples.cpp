@@ -7,7 +7,7 @@
 namespace instep {
 namespace {
 
-constexpr int kCellsAcross = 6;
+constexpr int kCellsAcross = 7;
 /// Stands for no variance at all where variances are divided by.
 constexpr double kLeastVariance = 1e-18;
 

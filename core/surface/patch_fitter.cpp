@@ -170,10 +170,16 @@ std::vector<OrientedPoint> PatchFitter::points_at(const std::vector<std::size_t>
   return points;
 }
 
+/// The mean normal of the nearest points on this side of the body: those that do not face away from
+/// the nearest one.
 Eigen::Vector3d PatchFitter::outward_of(const Neighbours& nearest) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   const std::size_t count = std::min(kFacingPoints, nearest.size());
-  for (std::size_t i = 0; i < count; ++i) sum += points_[nearest[i].index].normal;
+  const Eigen::Vector3d& first = points_[nearest.front().index].normal;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d& normal = points_[nearest[i].index].normal;
+    if (normal.dot(first) > 0.0) sum += normal;
+  }
   return sum.normalized();
 }
 
