@@ -30,6 +30,10 @@ constexpr double kNotableGapInGrains = 6.0;
 constexpr int kPiecesOfChord = 8;
 /// Points along a loop, against those along the best founded one.
 constexpr double kLeastFounded = 0.25;
+/// Half of a 95 % interval that leaves nothing to be told, and one that is worth a warning, against
+/// the length.
+constexpr double kMostDoubt = 0.1;
+constexpr double kNotableDoubt = 0.02;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 
@@ -113,12 +117,18 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
+  const LengthDoubt doubt = doubt_of(contour, surface);
+  if (doubt.stretched_u95 > kMostDoubt * length) {
+    return fail(ErrorCode::kInsufficientData,
+                "the points near the tape plane are too few or too noisy to tell the girth",
+                "scan again, with more or better frames");
+  }
+
   Girth girth;
   girth.contact_mm = band->unit_mm * length;
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
-  const LengthDoubt doubt = doubt_of(contour, surface);
   girth.contact_u95_mm = band->unit_mm * doubt.contact_u95;
   girth.stretched_u95_mm = band->unit_mm * doubt.stretched_u95;
   girth.points = cloud.size();
@@ -130,6 +140,9 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   }
   if (evidence.seen_gap > kNotableGapInGrains * band->grain) {
     girth.warnings.push_back("a part of the section that no camera saw was bridged");
+  }
+  if (doubt.stretched_u95 > kNotableDoubt * length) {
+    girth.warnings.push_back("the points are so few or noisy that the girth is uncertain");
   }
   return girth;
 }

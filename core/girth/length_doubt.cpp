@@ -12,9 +12,9 @@ namespace instep {
 namespace {
 
 /// How much each part counts, so that intervals hold.
-constexpr double kNoise = 1.05;
-constexpr double kWandering = 1.5;
-constexpr double kUnseenWaves = 2.0;
+constexpr double kNoise = 1.0;
+constexpr double kWandering = 1.4;
+constexpr double kUnseenWaves = 1.7;
 constexpr double kDeviations = 2.0;
 /// What first order leaves out, against the length.
 constexpr double kLeast = 1e-5;

@@ -31,6 +31,8 @@ constexpr double kFinestGrain = 0.0075;
 /// Side of the cells that share a normal, and the fewest points for one.
 constexpr double kNormalCellInGrains = 1.5;
 constexpr double kNormalCellInSigmas = 3.3;
+/// Of a cell, against the section: three of them in a row must not reach round the body.
+constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
 
 /// Size of the cloud as the plane sees it, so that it turns with the two.
@@ -179,7 +181,9 @@ std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const Tape
     }
     return normals;
   }
-  const double side = std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma);
+  const double side =
+      std::min(std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma),
+               kLargestNormalCell);
   CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
   normals = cells.of_points();

@@ -18,7 +18,7 @@ constexpr double kLeastSmoothing = 1e-10;
 /// Points whose variance is less, in unit scale, are exact: nothing is smoothed.
 constexpr double kExactVariance = 1e-10;
 /// Standard deviation of the logarithm of the roughness round its likely value.
-constexpr double kRoughnessSpread = 2.0;
+constexpr double kRoughnessSpread = 4.0;
 /// The roughnesses that are tried, against the likely one.
 constexpr double kRoughest = 1e5;
 constexpr double kSmoothest = 1e-3;

@@ -41,7 +41,7 @@ constexpr double kStrayRise = 0.7;
 /// Where there is noise, a patch is wider than the kriging's bandwidth by this factor, up to this
 /// part of the body.
 constexpr double kBandwidths = 2.0;
-constexpr double kWidest = 0.12;
+constexpr double kWidest = 0.10;
 /// It is fitted again, narrower, if it turns out rougher than thought.
 constexpr int kMostAttempts = 4;
 constexpr double kTooWide = 1.5;

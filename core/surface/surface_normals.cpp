@@ -7,6 +7,10 @@
 namespace instep {
 namespace {
 
+/// A cell with fewer neighbours stands in a sparse part, where others are further off.
+constexpr std::size_t kFewestLinks = 7;
+constexpr std::size_t kNearestLinks = 10;
+
 /// A bend between two cells; the flattest comes first.
 struct Bend {
   double size;
@@ -47,7 +51,7 @@ struct Moments {
 
 CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                          double side, std::size_t fewest)
-    : grid_(points, side), points_(points.size()) {
+    : grid_(points, side), points_(points.size()), middle_index_({}) {
   const std::size_t cells = grid_.cell_count();
   std::vector<Moments> moments(cells);
   middles_.assign(cells, Eigen::Vector3d::Zero());
@@ -71,6 +75,7 @@ CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const Point
     }
     normals_.push_back(round.normal());
   }
+  middle_index_ = PointIndex(middles_);
 }
 
 void CellNormals::orient_by_neighbours() {
@@ -78,6 +83,17 @@ void CellNormals::orient_by_neighbours() {
   for (std::size_t root = 0; root < normals_.size(); ++root) {
     if (!reached[root]) turn_outwards(orient_part(root, reached));
   }
+}
+
+/// The cells round one, or where they are few its nearest ones.
+std::vector<std::size_t> CellNormals::links_of(std::size_t cell) const {
+  auto links = grid_.neighbourhood(cell);
+  if (links.size() >= kFewestLinks) return links;
+  links.clear();
+  for (const auto& nearest : middle_index_.nearest(middles_[cell], kNearestLinks)) {
+    links.push_back(nearest.index);
+  }
+  return links;
 }
 
 /// Turns the cells that hang together with `root`; returns them.
@@ -92,7 +108,7 @@ std::vector<std::size_t> CellNormals::orient_part(std::size_t root, std::vector<
     reached[bend.to] = true;
     part.push_back(bend.to);
     if (normals_[bend.from].dot(normals_[bend.to]) < 0.0) normals_[bend.to] *= -1.0;
-    for (const auto next : grid_.neighbourhood(bend.to)) {
+    for (const auto next : links_of(bend.to)) {
       if (reached[next]) continue;
       bends.push({1.0 - std::abs(normals_[bend.to].dot(normals_[next])), bend.to, next});
     }

@@ -28,12 +28,14 @@ class CellNormals {
   std::vector<Eigen::Vector3d> of_points() const;
 
  private:
+  std::vector<std::size_t> links_of(std::size_t cell) const;
   std::vector<std::size_t> orient_part(std::size_t root, std::vector<bool>& reached);
   void turn_outwards(const std::vector<std::size_t>& part);
 
   VoxelGrid grid_;
   std::size_t points_;
   std::vector<Eigen::Vector3d> middles_;
+  PointIndex middle_index_;
   std::vector<Eigen::Vector3d> normals_;
 };
 
