@@ -14,8 +14,13 @@ namespace {
 /// How much each part counts, so that intervals hold.
 constexpr double kNoise = 1.0;
 constexpr double kWandering = 1.4;
-constexpr double kUnseenWaves = 1.7;
-constexpr double kDeviations = 2.0;
+constexpr double kUnseenWaves = 2.0;
+constexpr double kDeviations = 1.96;
+/// A surface through points wanders no further between them, against the radius of a patch, however
+/// rough a crease within it seems.
+constexpr double kWidestWandering = 0.06;
+/// Variance of a direction (square radians) beyond which waves would be folds.
+constexpr double kSteepestWaves = 0.01;
 /// What first order leaves out, against the length.
 constexpr double kLeast = 1e-5;
 /// A surface hardly crosses the plane where its slope on it is less.
@@ -78,7 +83,10 @@ double add(const Stretch& stretch, const std::vector<double>& shares,
   for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
     influence[stretch.sheet.member(i)] += sum.influence[static_cast<Eigen::Index>(i)];
   }
-  return sum.variance;
+  double turn = 0.0;
+  for (const double share : shares) turn += std::abs(share);
+  const double widest = kWidestWandering * stretch.sheet.owner->radius * turn;
+  return std::min(sum.variance, widest * widest);
 }
 
 /// A line of that length whose direction varies by `variance` is longer by half of it.
@@ -93,8 +101,8 @@ void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points,
     const double influence = tilt.influence[static_cast<Eigen::Index>(i)];
     noise += influence * influence * points[stretch.sheet.member(i)].variance;
   }
-  sums.noise_waves += 0.5 * stretch.length * noise;
-  sums.unseen_waves += 0.5 * stretch.length * tilt.variance;
+  sums.noise_waves += 0.5 * stretch.length * std::min(noise, kSteepestWaves);
+  sums.unseen_waves += 0.5 * stretch.length * std::min(tilt.variance, kSteepestWaves);
 }
 
 /// A patch in space knows no sums: all of its stretch may be off by as much as its middle.
@@ -110,7 +118,7 @@ double half_width(const std::vector<double>& influence, double wandering, const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     noise += influence[i] * influence[i] * points[i].variance;
   }
-  const double unseen = std::min(kUnseenWaves * sums.unseen_waves, length);
+  const double unseen = kUnseenWaves * sums.unseen_waves;
   const double variance = kNoise * kNoise * noise + kWandering * kWandering * wandering +
                           unseen * unseen + sums.noise_waves * sums.noise_waves;
   return kDeviations * std::sqrt(variance) + kLeast * length;

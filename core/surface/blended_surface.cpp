@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace instep {
 namespace {
@@ -9,8 +10,10 @@ namespace {
 /// A patch counts up to this part of its radius round the middle of its points, beyond which it has
 /// none on all sides.
 constexpr double kReach = 0.75;
-/// A place needs a patch centred within this part of the patch's radius.
-constexpr double kNearEnough = 0.42;
+/// A place needs a patch centred within this part of the patch's radius; at creases and thin parts,
+/// where it changes faster, a nearer one.
+constexpr double kNearEnough = 0.4;
+constexpr double kNearEnoughAtEdges = 0.3;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;
@@ -39,7 +42,8 @@ bool BlendedSurface::visit(const Eigen::Vector3d& place) {
   for (const auto& patch : patches_) {
     const double off = (place - patch.centre).norm();
     if (off < kAlmostThere * patch.radius) return true;
-    if (off < kNearEnough * patch.radius &&
+    const bool smooth = std::holds_alternative<HeightPatch>(patch.field);
+    if (off < (smooth ? kNearEnough : kNearEnoughAtEdges) * patch.radius &&
         (place - patch.middle).norm() < kWellWithin * patch.radius) {
       return true;
     }

@@ -25,13 +25,17 @@ constexpr double kBehind = -0.3;
 /// With more than this part of the points on the other side, the patch is one in space.
 constexpr double kThin = 0.1;
 constexpr std::size_t kPointsInSpace = 80;
+/// How far its surface may be off: the variance half-way between points, against roughness times the
+/// cube of their spacing, and how many points share in averaging noise.
+constexpr double kWanderingInSpace = 0.1;
+constexpr int kAveragedInSpace = 6;
 /// Points nearer to each other than this part of the spacing are copies of one.
 constexpr double kTwin = 0.02;
 /// A patch is at least this part of the body wide.
 constexpr double kLeastReach = 0.033;
 /// Cosine to the outward direction of normals that tell of no crease, and how many must tell of
 /// one.
-constexpr double kHardlyBent = 0.93;
+constexpr double kHardlyBent = 0.96;
 constexpr std::ptrdiff_t kFewestBent = 6;
 /// The shape between the estimates of roughness may be rougher than they are.
 constexpr double kAllowanceInSpace = 4.0;
@@ -205,8 +209,10 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   auto field = HermitePatch::fit(points_at(members), place, radius,
                                  kAllowanceInSpace * surroundings.roughness);
   if (!field) return std::nullopt;
-  const double variance = surroundings.roughness * std::pow(surroundings.spacing, 3) +
-                          surroundings.noise_area / (surroundings.spacing * surroundings.spacing);
+  const double noise = surroundings.noise_area / (surroundings.spacing * surroundings.spacing);
+  const double variance =
+      kWanderingInSpace * surroundings.roughness * std::pow(surroundings.spacing, 3) +
+      noise / static_cast<double>(kAveragedInSpace);
   return SurfacePatch{place, place, radius, std::move(*field), std::move(members), variance};
 }
 

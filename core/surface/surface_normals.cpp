@@ -1,6 +1,8 @@
 #include "core/surface/surface_normals.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 #include <queue>
 #include <utility>
 
@@ -10,6 +12,12 @@ namespace {
 /// A cell with fewer neighbours stands in a sparse part, where others are further off.
 constexpr std::size_t kFewestLinks = 7;
 constexpr std::size_t kNearestLinks = 10;
+
+/// Across a larger bend (one less its cosine) a normal tells little of its neighbour's side.
+constexpr double kLargestBend = 0.12;
+/// A part whose normals face away from the middle by this share of what they could needs no
+/// neighbours to tell its side.
+constexpr double kPlainlyOutward = 0.25;
 
 /// A bend between two cells; the flattest comes first.
 struct Bend {
@@ -80,9 +88,61 @@ CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const Point
 
 void CellNormals::orient_by_neighbours() {
   std::vector<bool> reached(normals_.size(), false);
+  std::vector<Part> parts;
+  const Eigen::Vector2d middle = middle_of_all();
   for (std::size_t root = 0; root < normals_.size(); ++root) {
-    if (!reached[root]) turn_outwards(orient_part(root, reached));
+    if (reached[root]) continue;
+    Part part{orient_part(root, reached), 0.0};
+    part.outward = outward_share(part.cells, middle);
+    parts.push_back(std::move(part));
   }
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    return std::abs(a.outward) > std::abs(b.outward);
+  });
+  std::vector<bool> sure(normals_.size(), false);
+  for (const Part& part : parts) {
+    double outward = part.outward;
+    if (std::abs(outward) < kPlainlyOutward) {
+      const double agreement = agreement_with(sure, part.cells);
+      if (agreement != 0.0) outward = agreement;
+    }
+    for (const std::size_t cell : part.cells) {
+      if (outward < 0.0) normals_[cell] *= -1.0;
+      sure[cell] = true;
+    }
+  }
+}
+
+Eigen::Vector2d CellNormals::middle_of_all() const {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& place : middles_) middle += place.head<2>();
+  return middle / std::max(1.0, static_cast<double>(middles_.size()));
+}
+
+/// Between -1 and 1: how far the normals of some cells face away from the middle.
+double CellNormals::outward_share(const std::vector<std::size_t>& cells,
+                                  const Eigen::Vector2d& middle) const {
+  double outward = 0.0;
+  double most = 0.0;
+  for (const std::size_t cell : cells) {
+    const Eigen::Vector2d arm = middles_[cell].head<2>() - middle;
+    outward += normals_[cell].head<2>().dot(arm);
+    most += arm.norm();
+  }
+  return most > 0.0 ? outward / most : 0.0;
+}
+
+/// Sum of the cosines between the normals of some cells and those of their neighbours that are
+/// sure.
+double CellNormals::agreement_with(const std::vector<bool>& sure,
+                                   const std::vector<std::size_t>& cells) const {
+  double agreement = 0.0;
+  for (const std::size_t cell : cells) {
+    for (const std::size_t other : links_of(cell)) {
+      if (sure[other]) agreement += normals_[cell].dot(normals_[other]);
+    }
+  }
+  return agreement;
 }
 
 /// The cells round one, or where they are few its nearest ones.
@@ -96,7 +156,7 @@ std::vector<std::size_t> CellNormals::links_of(std::size_t cell) const {
   return links;
 }
 
-/// Turns the cells that hang together with `root`; returns them.
+/// Turns the cells that hang together with `root`, round no sharp bend; returns them.
 std::vector<std::size_t> CellNormals::orient_part(std::size_t root, std::vector<bool>& reached) {
   std::vector<std::size_t> part;
   std::priority_queue<Bend> bends;
@@ -110,22 +170,11 @@ std::vector<std::size_t> CellNormals::orient_part(std::size_t root, std::vector<
     if (normals_[bend.from].dot(normals_[bend.to]) < 0.0) normals_[bend.to] *= -1.0;
     for (const auto next : links_of(bend.to)) {
       if (reached[next]) continue;
-      bends.push({1.0 - std::abs(normals_[bend.to].dot(normals_[next])), bend.to, next});
+      const double size = 1.0 - std::abs(normals_[bend.to].dot(normals_[next]));
+      if (size < kLargestBend) bends.push({size, bend.to, next});
     }
   }
   return part;
-}
-
-void CellNormals::turn_outwards(const std::vector<std::size_t>& part) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const std::size_t cell : part) middle += middles_[cell].head<2>();
-  middle /= static_cast<double>(part.size());
-  double outward = 0.0;
-  for (const std::size_t cell : part) {
-    outward += normals_[cell].head<2>().dot(middles_[cell].head<2>() - middle);
-  }
-  if (outward >= 0.0) return;
-  for (const std::size_t cell : part) normals_[cell] *= -1.0;
 }
 
 std::vector<Eigen::Vector3d> CellNormals::of_points() const {

@@ -20,17 +20,27 @@ class CellNormals {
               std::size_t fewest);
 
   /// Turns normals to agree with their neighbours along a minimum spanning tree of the bends (Hoppe
-  /// 1992), then each connected part as a whole outwards: the sum of normal times place over a ring
-  /// round the third axis is twice its area, so it tells the side.
+  /// 1992), within parts that no sharp edge crosses. A part that plainly faces away from the middle
+  /// of all, or towards it, is turned as a whole: over a ring round the third axis the sum of
+  /// normal times place is twice its area, wherever the middle is taken. The others follow their
+  /// neighbours.
   void orient_by_neighbours();
 
   /// The normal of each point: that of its cell.
   std::vector<Eigen::Vector3d> of_points() const;
 
  private:
+  /// Cells that hang together without a sharp bend, their normals on one side.
+  struct Part {
+    std::vector<std::size_t> cells;
+    double outward = 0.0;
+  };
+
   std::vector<std::size_t> links_of(std::size_t cell) const;
   std::vector<std::size_t> orient_part(std::size_t root, std::vector<bool>& reached);
-  void turn_outwards(const std::vector<std::size_t>& part);
+  Eigen::Vector2d middle_of_all() const;
+  double outward_share(const std::vector<std::size_t>& cells, const Eigen::Vector2d& middle) const;
+  double agreement_with(const std::vector<bool>& sure, const std::vector<std::size_t>& cells) const;
 
   VoxelGrid grid_;
   std::size_t points_;
