@@ -131,13 +131,18 @@ tl::unexpected<Error> damaged_file(const std::string& file, const std::string& w
 }
 
 Result<CloudFile> read_cloud_file(const std::filesystem::path& path, LengthUnit unit) {
-  const std::string file = path.string();
   const auto bytes = read_file_bytes(path, kMostFileBytes);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  if (bytes->empty()) {
+  return read_cloud_bytes(*bytes, path, unit);
+}
+
+Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem::path& name,
+                                   LengthUnit unit) {
+  const std::string file = name.string();
+  if (bytes.empty()) {
     return fail(ErrorCode::kCorruptData, file + " is empty", "export or copy it again");
   }
-  auto raw = read_by_content(*bytes, path);
+  auto raw = read_by_content(bytes, name);
   if (!raw) return tl::make_unexpected(raw.error());
   if (raw->cloud.empty()) {
     return fail(ErrorCode::kInsufficientData, file + " has no points", "scan or export it again");
