@@ -38,22 +38,20 @@ constexpr std::size_t kSpacingNeighbours = 8;
 /// where a longer part of it has none.
 constexpr double kFewestMet = 0.5;
 constexpr double kWidestGap = 0.25;
+/// A part without an intersection that is worth a warning.
+constexpr double kNotableGap = 0.1;
+/// A ring this much shorter than a tape round the neighbourhood goes round a crowd in it.
+constexpr double kCrowd = 0.5;
+/// Contact against stretched length; no foot's is so long.
+constexpr double kJumping = 1.2;
 
 /// The paper's point set S: the points near the tape plane, in the plane's frame.
 struct PartialCloud {
-  std::vector<Eigen::Vector3d> places;
-  std::vector<bool> seen;
+  PlaneSlab slab;
   double half_width = 0.0;
+  /// The shortest tape round the points up to a hundredth of the cloud's size from the plane.
+  double tape_about_mm = 0.0;
 };
-
-PartialCloud points_within(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  PlaneSlab slab = slab_of(cloud, plane, half_width);
-  PartialCloud part;
-  part.half_width = half_width;
-  for (const std::size_t i : slab.indices) part.seen.push_back(cloud.was_seen(i));
-  part.places = std::move(slab.places);
-  return part;
-}
 
 /// Side of the square that a point has for itself; the middle one over all points.
 double spacing_of(const std::vector<Eigen::Vector3d>& places) {
@@ -77,10 +75,16 @@ double extent(const PointCloud& cloud) {
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud);
   for (double half_width = 0.005 * size; half_width < 0.5 * size; half_width *= 1.4) {
-    PartialCloud part = points_within(cloud, plane, half_width);
-    if (part.places.size() < kFewestPoints) continue;
-    const double wanted = kBandInSpacings * spacing_of(part.places);
-    if (half_width >= wanted && wanted > 0.0) return points_within(cloud, plane, wanted);
+    const PlaneSlab slab = slab_of(cloud, plane, half_width);
+    if (slab.places.size() < kFewestPoints) continue;
+    const double wanted = kBandInSpacings * spacing_of(slab.places);
+    if (!(half_width >= wanted && wanted > 0.0)) continue;
+    if (!is_cut(slab)) {
+      return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
+                  "give control points that cut the body");
+    }
+    const double about = perimeter(hull_of(slab_of(cloud, plane, 0.01 * size)));
+    return PartialCloud{slab_of(cloud, plane, wanted), wanted, about};
   }
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");
@@ -191,11 +195,12 @@ std::vector<Eigen::Vector2d> ordered_round(const std::vector<Eigen::Vector2d>& h
 }
 
 /// Where the seen points near the plane lie on it.
-std::vector<Eigen::Vector2d> seen_within(const PartialCloud& part, double distance) {
+std::vector<Eigen::Vector2d> seen_within(const PointCloud& cloud, const PlaneSlab& slab,
+                                         double distance) {
   std::vector<Eigen::Vector2d> places;
-  for (std::size_t i = 0; i < part.places.size(); ++i) {
-    if (part.seen[i] && std::abs(part.places[i].z()) <= distance) {
-      places.emplace_back(part.places[i].head<2>());
+  for (std::size_t i = 0; i < slab.places.size(); ++i) {
+    if (cloud.was_seen(slab.indices[i]) && std::abs(slab.places[i].z()) <= distance) {
+      places.emplace_back(slab.places[i].head<2>());
     }
   }
   return places;
@@ -214,9 +219,9 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
   const auto part = partial_cloud(cloud, plane);
   if (!part) return tl::make_unexpected(part.error());
-  const RigidTransform principal = principal_from_input(part->places);
+  const RigidTransform principal = principal_from_input(part->slab.places);
   std::vector<Eigen::Vector3d> turned;
-  for (const auto& place : part->places) turned.emplace_back(principal * place);
+  for (const auto& place : part->slab.places) turned.emplace_back(principal * place);
   const auto surface = OctreeSurface::reconstruct(turned);
   if (!surface) return tl::make_unexpected(surface.error());
 
@@ -224,10 +229,9 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
   const auto met = section.intersections();
   const auto hull = convex_hull(met);
   const double length = perimeter(hull);
-  const bool is_ring = hull.size() >= 3 && signed_area(hull) > 1e-6 * length * length;
-  if (!is_ring ||
-      static_cast<double>(met.size()) < kFewestMet * static_cast<double>(section.initial()) ||
-      largest_gap(hull, met) > kWidestGap * length) {
+  const double gap = is_ring(hull) ? largest_gap(hull, met) : length;
+  if (static_cast<double>(met.size()) < kFewestMet * static_cast<double>(section.initial()) ||
+      gap > kWidestGap * length || length < kCrowd * part->tape_about_mm) {
     return ring_lost();
   }
 
@@ -236,13 +240,21 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
   girth.contour = ordered_round(hull, met);
   girth.contact_mm = perimeter(girth.contour);
   girth.points = cloud.size();
-  girth.band_points = part->places.size();
+  girth.band_points = part->slab.places.size();
   girth.sigma_mm = options.sigma_mm.value_or(0.0);
-  girth.largest_gap_mm = largest_gap(hull, seen_within(*part, section.threshold()));
+  girth.largest_gap_mm = largest_gap(hull, seen_within(cloud, part->slab, section.threshold()));
   girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
   if (const std::size_t missed = section.initial() - met.size(); missed > 0) {
     girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(missed) + " of " +
                              std::to_string(section.initial()) + " points");
+  }
+  if (gap > kNotableGap * length) {
+    girth.warnings.push_back("a part of the section without points was bridged");
+  }
+  if (girth.contact_mm > kJumping * girth.stretched_mm) {
+    girth.warnings.push_back(
+        "the contact length jumps to and fro: there are stray points, noise, hollows or more than "
+        "one body, which the paper's method takes for one ring");
   }
   return girth;
 }

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/polygon.h"
+
 namespace instep {
 namespace {
 
@@ -33,6 +35,24 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
     slab.places.push_back(place);
   }
   return slab;
+}
+
+bool is_cut(const PlaneSlab& slab) {
+  constexpr std::size_t kOneOf = 50;
+  std::size_t above = 0;
+  std::size_t below = 0;
+  for (const auto& place : slab.places) {
+    if (place.z() >= 0.0) ++above;
+    if (place.z() <= 0.0) ++below;
+  }
+  return std::min(above, below) * kOneOf >= slab.places.size();
+}
+
+std::vector<Eigen::Vector2d> hull_of(const PlaneSlab& slab) {
+  std::vector<Eigen::Vector2d> flat;
+  flat.reserve(slab.places.size());
+  for (const auto& place : slab.places) flat.emplace_back(place.head<2>());
+  return convex_hull(std::move(flat));
 }
 
 }  // namespace instep

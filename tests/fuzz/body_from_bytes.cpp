@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostPoints = 600;
+constexpr std::size_t kMostPoints = 300;
 constexpr int kMostSteps = 24;
 
 /// Takes numbers off the front of bytes; zeros at their end.
@@ -49,8 +49,8 @@ class Bytes {
 
 /// Rows of points round the z axis, and the faces between them.
 void add_tube(Bytes& bytes, FuzzedBody& body, bool ball) {
-  const int columns = 3 + static_cast<int>(bytes.byte() % 38);
-  const int rows = 1 + static_cast<int>(bytes.byte() % 15);
+  const int columns = 3 + static_cast<int>(bytes.byte() % 28);
+  const int rows = 1 + static_cast<int>(bytes.byte() % 10);
   const double twist = bytes.part();
   const double flatness = bytes.within(0.05, 1.0);
   for (int row = 0; row < rows; ++row) {
@@ -79,7 +79,7 @@ void add_tube(Bytes& bytes, FuzzedBody& body, bool ball) {
 void add_scatter(Bytes& bytes, FuzzedBody& body) {
   RandomNumbers random(bytes.byte());
   const Vector3d spread(bytes.within(0, 40), bytes.within(0, 40), bytes.within(0, 40));
-  const std::size_t count = 1 + 2 * bytes.byte();
+  const std::size_t count = 1 + bytes.byte();
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d place(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     body.cloud.positions.push_back(spread.cwiseProduct(place));

@@ -21,7 +21,7 @@ struct FuzzedBody {
 /// say is done to it, one step after the other: points doubled, crowded, flattened, snapped to a
 /// grid, scaled, thrown about, taken away, made no numbers; normals, noise and origins told truly
 /// or not. The first bytes choose the body and the plane, so that a change of one byte is a small
-/// change. At most some 600 points. The same bytes make the same body.
+/// change. At most some 300 points. The same bytes make the same body.
 FuzzedBody body_from_bytes(const std::uint8_t* data, std::size_t size);
 
 }  // namespace instep::test

@@ -26,8 +26,16 @@ struct HostileCase {
   std::function<HostileCloud()> make;
 };
 
-/// Numbers that are none, copies and crowds, points that form no body or a broken one, uneven
-/// spacing, outliers, and planes that hardly meet the body. All truths are analytic.
-std::vector<HostileCase> hostile_cases();
+/// Clouds that no method may measure: numbers that are none, too few points, points that span no
+/// surface, planes that miss the body.
+std::vector<HostileCase> unmeasurable_clouds();
+
+/// Points of no body, or of one that the plane cuts in no ring, so that there is no truth: a method
+/// may refuse them or warn.
+std::vector<HostileCase> ringless_clouds();
+
+/// Points of a body with a known girth, spoilt: repeated, crowded, uneven, among outliers, in
+/// several shells, inside-out, with holes, in another unit, hardly cut.
+std::vector<HostileCase> spoilt_clouds();
 
 }  // namespace instep::test
