@@ -60,12 +60,15 @@ Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::
               "give PLY, XYZ or CSV text, PCD, OBJ or STL");
 }
 
+/// A coordinate beyond this is damage in any unit: a million kilometres of millimetres.
+constexpr double kLargestInFile = 1e15;
+
 /// The longest side of the box round the points. Fails on what is no number or absurd in any unit.
 Result<double> extent_of(const std::vector<Eigen::Vector3d>& positions, const std::string& file) {
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto& position = positions[i];
-    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
+    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kLargestInFile) {
       return fail(ErrorCode::kInvalidInput,
                   fmt::format("point {} of {} has a coordinate that is no number or absurdly large",
                               i, file),
@@ -164,6 +167,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
     read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
                                      to_string(*settled), *extent * scale));
   }
+  if (const auto doubt = doubt_of_unit(*settled, *extent)) read.notes.push_back(*doubt);
   settle_normals(read);
   if (!raw->triangles.empty()) {
     read.mesh = {read.cloud.positions, std::move(raw->triangles)};

@@ -199,6 +199,26 @@ TEST_F(CloudFiles, SettlesTheUnit) {
                LengthUnit::kAuto);
 }
 
+TEST_F(CloudFiles, NamesTheUnitOfAFootThatIsTooSmallOrTooLarge) {
+  for (const auto unit : {LengthUnit::kMillimetre, LengthUnit::kAuto}) {
+    expect_fault("micrometres.xyz", "0 0 0\n250000 0 0\n1e4 1e5 0\n", ErrorCode::kInvalidInput,
+                 "micrometres", unit);
+  }
+  expect_fault("metres.xyz", "0 0 0\n0.25 0 0\n", ErrorCode::kInvalidInput, "--unit m");
+  // Ten times too small can be a toe, so it is read, but not without a word.
+  const auto centimetres = read("centimetres.xyz", "0 0 0\n25 0 0\n10 10 5\n");
+  ASSERT_TRUE(centimetres) << centimetres.error().line();
+  ASSERT_EQ(centimetres->notes.size(), 1U);
+  EXPECT_NE(centimetres->notes[0].find("--unit cm"), std::string::npos) << centimetres->notes[0];
+  const auto millimetres = read("mm.xyz", "0 0 0\n250 0 0\n100 100 50\n", LengthUnit::kCentimetre);
+  ASSERT_TRUE(millimetres) << millimetres.error().line();
+  ASSERT_EQ(millimetres->notes.size(), 1U);
+  EXPECT_NE(millimetres->notes[0].find("--unit mm"), std::string::npos) << millimetres->notes[0];
+  const auto sound = read("mm.xyz", "0 0 0\n250 0 0\n100 100 50\n");
+  ASSERT_TRUE(sound);
+  EXPECT_TRUE(sound->notes.empty());
+}
+
 TEST_F(CloudFiles, TellsEveryFault) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex ";
   const std::string xyz = "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
