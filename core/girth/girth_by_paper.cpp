@@ -42,6 +42,10 @@ constexpr double kWidestGap = 0.25;
 constexpr double kNotableGap = 0.1;
 /// A ring this much shorter than a tape round the neighbourhood goes round a crowd in it.
 constexpr double kCrowd = 0.5;
+/// A ring this much longer than a tape round all points of S swells where nothing was seen; and
+/// what of it is worth a warning.
+constexpr double kSwollen = 1.25;
+constexpr double kNotableSwelling = 1.05;
 /// Contact against stretched length; no foot's is so long.
 constexpr double kJumping = 1.2;
 
@@ -212,6 +216,39 @@ tl::unexpected<Error> ring_lost() {
               "use --method rbf, or give a denser or more even cloud");
 }
 
+/// The shortest tape round the intersections, against what else is known of the ring.
+struct Ring {
+  std::vector<Eigen::Vector2d> hull;
+  double length = 0.0;
+  double gap = 0.0;               ///< longest part without an intersection
+  double round_the_points = 0.0;  ///< tape round all points of S
+};
+
+bool is_lost(const Ring& ring, const PartialCloud& part) {
+  return !is_ring(ring.hull) || ring.gap > kWidestGap * ring.length ||
+         ring.length < kCrowd * part.tape_about_mm ||
+         ring.length > kSwollen * ring.round_the_points;
+}
+
+void warn(const Ring& ring, std::size_t initial, std::size_t met, Girth& girth) {
+  girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
+  if (met < initial) {
+    girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(initial - met) +
+                             " of " + std::to_string(initial) + " points");
+  }
+  if (ring.length > kNotableSwelling * ring.round_the_points) {
+    girth.warnings.push_back("the surface swells beyond all points near the plane");
+  }
+  if (ring.gap > kNotableGap * ring.length) {
+    girth.warnings.push_back("a part of the section without points was bridged");
+  }
+  if (girth.contact_mm > kJumping * girth.stretched_mm) {
+    girth.warnings.push_back(
+        "the contact length jumps to and fro: there are stray points, noise, hollows or more than "
+        "one body, which the paper's method takes for one ring");
+  }
+}
+
 }  // namespace
 
 Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
@@ -228,34 +265,21 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
   const SectionOfSurface section(*surface, principal, part->half_width);
   const auto met = section.intersections();
   const auto hull = convex_hull(met);
-  const double length = perimeter(hull);
-  const double gap = is_ring(hull) ? largest_gap(hull, met) : length;
-  if (static_cast<double>(met.size()) < kFewestMet * static_cast<double>(section.initial()) ||
-      gap > kWidestGap * length || length < kCrowd * part->tape_about_mm) {
+  const Ring ring{hull, perimeter(hull), largest_gap(hull, met), perimeter(hull_of(part->slab))};
+  const auto initial = static_cast<double>(section.initial());
+  if (static_cast<double>(met.size()) < kFewestMet * initial || is_lost(ring, *part)) {
     return ring_lost();
   }
 
   Girth girth;
-  girth.stretched_mm = length;
+  girth.stretched_mm = ring.length;
   girth.contour = ordered_round(hull, met);
   girth.contact_mm = perimeter(girth.contour);
   girth.points = cloud.size();
   girth.band_points = part->slab.places.size();
   girth.sigma_mm = options.sigma_mm.value_or(0.0);
   girth.largest_gap_mm = largest_gap(hull, seen_within(cloud, part->slab, section.threshold()));
-  girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
-  if (const std::size_t missed = section.initial() - met.size(); missed > 0) {
-    girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(missed) + " of " +
-                             std::to_string(section.initial()) + " points");
-  }
-  if (gap > kNotableGap * length) {
-    girth.warnings.push_back("a part of the section without points was bridged");
-  }
-  if (girth.contact_mm > kJumping * girth.stretched_mm) {
-    girth.warnings.push_back(
-        "the contact length jumps to and fro: there are stray points, noise, hollows or more than "
-        "one body, which the paper's method takes for one ring");
-  }
+  warn(ring, section.initial(), met.size(), girth);
   return girth;
 }
 
