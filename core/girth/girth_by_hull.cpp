@@ -26,8 +26,12 @@ constexpr double kWidestBandInSpacings = 4.0;
 /// Of a hull without points under it: more is refused, and less is worth a warning.
 constexpr double kWidestGap = 0.25;
 constexpr double kNotableGap = 0.1;
-/// A hull this much shorter than one round the neighbourhood goes round a crowd in it.
+/// A hull this much shorter than a tape round all that lies about the plane, up to this part of the
+/// cloud's size from it, goes round a crowd in it.
 constexpr double kCrowd = 0.5;
+constexpr double kAbout = 0.01;
+/// Part of the cloud's size at which the neighbourhood begins to be widened.
+constexpr double kThinnest = 1e-4;
 /// How much longer the hull of twice the band may be, if its width does not matter.
 constexpr double kSteadyGrowth = 0.01;
 /// Points so deep inside, against the width of the hull, are in a hollow or of another body; and
@@ -39,6 +43,7 @@ constexpr double kManyDeep = 0.02;
 struct Neighbourhood {
   PlaneSlab slab;
   double spacing = 0.0;
+  double tape_about_mm = 0.0;  ///< round all that is near the plane for the size of the cloud
 };
 
 /// Widens the slab until it is wider than any band.
@@ -46,12 +51,12 @@ Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane&
   Eigen::AlignedBox3d box;
   for (const auto& position : cloud.positions) box.extend(position);
   const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
-  for (double half_width = 0.01 * size; half_width < size; half_width *= 1.4) {
+  for (double half_width = kThinnest * size; half_width < size; half_width *= 1.4) {
     PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestBandPoints) continue;
     const double spacing = median_spacing(slab.places, PointIndex(slab.places));
     if (half_width >= kWidestBandInSpacings * spacing) {
-      return Neighbourhood{std::move(slab), spacing};
+      return Neighbourhood{std::move(slab), spacing, tape_round(cloud, plane, kAbout * size)};
     }
   }
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
@@ -131,7 +136,7 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
   Girth girth;
   girth.contour = hull_of(band);
   const double length = perimeter(girth.contour);
-  if (!is_ring(girth.contour) || length < kCrowd * perimeter(hull_of(about->slab))) {
+  if (!is_ring(girth.contour) || length < kCrowd * about->tape_about_mm) {
     return fail(ErrorCode::kInsufficientData, "the points at the tape plane form no ring",
                 "give control points on the body, or leave out points that repeat each other");
   }

@@ -32,8 +32,13 @@ constexpr double kOffLine = 0.1;
 constexpr double kCircleGrowth = 1.25;
 
 constexpr std::size_t kFewestPoints = 10;
-/// Neighbours from which the spacing is told.
+/// Neighbours from which the spacing is told, and about how many points are asked.
 constexpr std::size_t kSpacingNeighbours = 8;
+constexpr std::size_t kSpacingPlaces = 4000;
+/// Part of the cloud's size at which the band begins to be widened, and how far from the plane lies
+/// what is about it.
+constexpr double kThinnest = 1e-4;
+constexpr double kAbout = 0.01;
 /// The ring is lost where less than this part of the initial points leads to an intersection, or
 /// where a longer part of it has none.
 constexpr double kFewestMet = 0.5;
@@ -57,12 +62,14 @@ struct PartialCloud {
   double tape_about_mm = 0.0;
 };
 
-/// Side of the square that a point has for itself; the middle one over all points.
+/// Side of the square that a point has for itself; the middle one over points spread evenly over
+/// the list.
 double spacing_of(const std::vector<Eigen::Vector3d>& places) {
   const PointIndex index(places);
   std::vector<double> sides;
-  for (const auto& place : places) {
-    const auto nearest = index.nearest(place, kSpacingNeighbours + 1);
+  const std::size_t stride = std::max<std::size_t>(1, places.size() / kSpacingPlaces);
+  for (std::size_t i = 0; i < places.size(); i += stride) {
+    const auto nearest = index.nearest(places[i], kSpacingNeighbours + 1);
     sides.push_back(std::sqrt(std::numbers::pi * nearest.back().squared_distance /
                               static_cast<double>(nearest.size() - 1)));
   }
@@ -78,7 +85,7 @@ double extent(const PointCloud& cloud) {
 /// Widens the band until it is as many spacings wide as it has to be.
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud);
-  for (double half_width = 0.005 * size; half_width < 0.5 * size; half_width *= 1.4) {
+  for (double half_width = kThinnest * size; half_width < 0.5 * size; half_width *= 1.4) {
     const PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestPoints) continue;
     const double wanted = kBandInSpacings * spacing_of(slab.places);
@@ -87,8 +94,8 @@ Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& pla
       return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                   "give control points that cut the body");
     }
-    const double about = perimeter(hull_of(slab_of(cloud, plane, 0.01 * size)));
-    return PartialCloud{slab_of(cloud, plane, wanted), wanted, about};
+    return PartialCloud{slab_of(cloud, plane, wanted), wanted,
+                        tape_round(cloud, plane, kAbout * size)};
   }
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");

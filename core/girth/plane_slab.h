@@ -23,6 +23,10 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
 /// or beyond it.
 bool is_cut(const PlaneSlab& slab);
 
+/// Length of the shortest tape round all points at most `half_width` from the plane, by the mean of
+/// its widths (Cauchy), to a hundredth. O(n), no memory.
+double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_width);
+
 /// The shortest tape round all points of the slab, laid on the plane.
 std::vector<Eigen::Vector2d> hull_of(const PlaneSlab& slab);
 
