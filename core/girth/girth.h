@@ -20,6 +20,10 @@ struct GirthOptions {
   std::optional<double> sigma_mm;
 };
 
+/// The gate through which the options of every girth pass: a noise above 0 and at most
+/// kLargestSigmaMm, or kInvalidInput.
+Result<void> check_options(const GirthOptions& options);
+
 /// The length of a tape laid round a body in one plane, and how it came about.
 struct Girth {
   /// Tape that bridges hollows: the perimeter of the section's convex hull.

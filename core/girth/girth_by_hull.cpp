@@ -125,6 +125,7 @@ void warn(const PlaneSlab& band, double length_of_twice, double gap, Girth& girt
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto about = neighbourhood_of(cloud, plane);
   if (!about) return tl::make_unexpected(about.error());
   if (!is_cut(about->slab)) {

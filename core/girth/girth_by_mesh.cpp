@@ -102,6 +102,7 @@ double gap_under(const std::vector<Eigen::Vector2d>& contour, const PlaneBand& b
 Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto band = band_at(cloud, plane, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
   const MeshedBand meshed = mesh_of(*band);

@@ -261,6 +261,7 @@ void warn(const Ring& ring, std::size_t initial, std::size_t met, Girth& girth) 
 Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
                              const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto part = partial_cloud(cloud, plane);
   if (!part) return tl::make_unexpected(part.error());
   const RigidTransform principal = principal_from_input(part->slab.places);

@@ -53,6 +53,13 @@ HostileCloud with_normal(const Vector3d& normal) {
   return {std::move(cloud), level_plane(), std::nullopt};
 }
 
+HostileCloud with_view(const Vector3d& view) {
+  PointCloud cloud = cylinder(3000);
+  for (const auto& position : cloud.positions) cloud.view_directions.push_back(outward(position));
+  cloud.view_directions[1234] = view;
+  return {std::move(cloud), level_plane(), std::nullopt};
+}
+
 HostileCloud with_sigma(double sigma) {
   PointCloud cloud = cylinder(3000);
   cloud.sigma_mm.assign(cloud.size(), 0.1);
@@ -240,6 +247,10 @@ std::vector<HostileCase> unmeasurable_clouds() {
       {"ZeroNormal",
        [] {
          return with_normal({0, 0, 0});
+       }},
+      {"NaNView",
+       [] {
+         return with_view({0.0, kNan, 1.0});
        }},
       {"NaNSigma", [] { return with_sigma(kNan); }},
       {"ZeroSigma", [] { return with_sigma(0.0); }},
