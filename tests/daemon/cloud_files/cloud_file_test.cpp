@@ -1,6 +1,7 @@
 #include "daemon/cloud_files/cloud_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -167,6 +168,18 @@ TEST_F(CloudFiles, ReadsMeshesAndJoinsTheirCorners) {
   EXPECT_EQ(mesh->mesh.positions.size(), 4U);
   expect_fault("cut.stl", stl.substr(0, 150), ErrorCode::kCorruptData, "too short");
   expect_fault("none.obj", "hello\n", ErrorCode::kInsufficientData, "no points");
+}
+
+TEST_F(CloudFiles, OpensNoFileThatAMeshNames) {
+  const auto pipe = folder_.path() / "pipe.mtl";  // to open it is to wait for ever
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& name :
+       {std::string("pipe.mtl"), pipe.string(), std::string("none.mtl")}) {
+    const auto file =
+        read("m.obj", "mtllib " + name + "\nv 0 0 0\nv 10 0 0\nv 10 10 0\nusemtl skin\nf 1 2 3\n");
+    ASSERT_TRUE(file) << file.error().line();
+    EXPECT_EQ(file->mesh.triangles.size(), 1U);
+  }
 }
 
 TEST_F(CloudFiles, CoversLargeFacesWithPointsAndNormals) {
