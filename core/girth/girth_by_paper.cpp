@@ -35,9 +35,12 @@ constexpr std::size_t kFewestPoints = 10;
 /// Neighbours from which the spacing is told, and about how many points are asked.
 constexpr std::size_t kSpacingNeighbours = 8;
 constexpr std::size_t kSpacingPlaces = 4000;
-/// Part of the cloud's size at which the band begins to be widened, and how far from the plane lies
-/// what is about it.
-constexpr double kThinnest = 1e-4;
+/// The band is looked for in slabs of this part of the cloud's size, and so many times this much
+/// thinner or thicker ones.
+constexpr double kUsualSlab = 0.005;
+constexpr double kSlabGrowth = 1.4;
+constexpr int kThinnerSlabs = 12;
+/// How far from the plane lies what is about it, against the cloud's size.
 constexpr double kAbout = 0.01;
 /// The ring is lost where less than this part of the initial points leads to an intersection, or
 /// where a longer part of it has none.
@@ -85,7 +88,8 @@ double extent(const PointCloud& cloud) {
 /// Widens the band until it is as many spacings wide as it has to be.
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud);
-  for (double half_width = kThinnest * size; half_width < 0.5 * size; half_width *= 1.4) {
+  const double thinnest = kUsualSlab * std::pow(kSlabGrowth, -kThinnerSlabs);
+  for (double half_width = thinnest * size; half_width < 0.5 * size; half_width *= kSlabGrowth) {
     const PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestPoints) continue;
     const double wanted = kBandInSpacings * spacing_of(slab.places);
