@@ -30,6 +30,7 @@ constexpr std::size_t kLineNeighbours = 10;
 constexpr double kOffLine = 0.1;
 /// How much the circle of step 4 grows each time.
 constexpr double kCircleGrowth = 1.25;
+constexpr std::size_t kMostInCircle = 60;
 
 constexpr std::size_t kFewestPoints = 10;
 /// Neighbours from which the spacing is told, and about how many points are asked.
@@ -152,17 +153,18 @@ class SectionOfSurface {
   }
 
  private:
-  /// Step 4: the points in a circle that grows until it holds K of them and the point itself.
+  /// Step 4: the points in a circle that grows until it holds K of them and the point itself; the
+  /// nearest ones of a crowd that is in it from the beginning.
   std::vector<Eigen::Vector2d> circle(const PointIndex& index, const Eigen::Vector3d& centre,
                                       double radius) const {
-    const std::size_t wanted = std::min(kLineNeighbours + 1, flat_.size());
-    auto inside = index.within(centre, radius);
-    while (inside.size() < wanted) {
-      radius *= kCircleGrowth;
-      inside = index.within(centre, radius);
-    }
+    const auto nearest = index.nearest(centre, kMostInCircle);
+    const auto& last = nearest[std::min(kLineNeighbours + 1, nearest.size()) - 1];
+    while (radius * radius < last.squared_distance) radius *= kCircleGrowth;
     std::vector<Eigen::Vector2d> points;
-    for (const auto& neighbour : inside) points.emplace_back(flat_[neighbour.index].head<2>());
+    for (const auto& neighbour : nearest) {
+      if (neighbour.squared_distance > radius * radius) break;
+      points.emplace_back(flat_[neighbour.index].head<2>());
+    }
     return points;
   }
 
