@@ -22,6 +22,9 @@ constexpr double kMeshedInSpacings = 4.0;
 constexpr double kWidestBridge = 0.25;
 /// A stretch without a seen point that is worth a warning, in spacings.
 constexpr double kNotableGapInSpacings = 6.0;
+/// A hole in the mesh, in spacings, that is worth one too if it is this part of a small tape.
+constexpr double kHoleInSpacings = 4.0;
+constexpr double kNotableHole = 0.05;
 /// Noise up to this part of the spacing hardly roughens a mesh.
 constexpr double kHarmlessNoise = 0.05;
 /// A surface is cut into few pieces; what falls into more is a crowd of points without one.
@@ -101,6 +104,7 @@ double gap_under(const std::vector<Eigen::Vector2d>& contour, const PlaneBand& b
 Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto band = band_at(cloud, plane, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
   const MeshedBand meshed = mesh_of(*band);
@@ -108,9 +112,14 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   if (!lines) return tl::make_unexpected(lines.error());
 
   Girth girth;
+  double seam = 0.0;  // of the loop that will be chosen
+  double largest_area = 0.0;
   std::vector<std::vector<Eigen::Vector2d>> loops;
   for (auto& line : *lines) {
     if (!line.closed) continue;
+    const double area = std::abs(signed_area(line.points));
+    if (area > largest_area) seam = line.widest_seam;
+    largest_area = std::max(largest_area, area);
     for (auto& point : line.points) point = band->to_plane(point);
     loops.push_back(std::move(line.points));
   }
@@ -120,8 +129,11 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   girth.points = cloud.size();
   girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
-  girth.largest_gap_mm = gap_under(girth.contour, *band, meshed);
-  if (girth.largest_gap_mm > kNotableGapInSpacings * band->unit_mm * band->grain) {
+  girth.largest_gap_mm = std::max(gap_under(girth.contour, *band, meshed), band->unit_mm * seam);
+  const double spacing = band->unit_mm * band->grain;
+  if (girth.largest_gap_mm > kNotableGapInSpacings * spacing ||
+      band->unit_mm * seam >
+          std::max(kHoleInSpacings * spacing, kNotableHole * girth.stretched_mm)) {
     girth.warnings.push_back("a part of the section that no camera saw was bridged");
   }
   if (band->sigma > kHarmlessNoise * band->grain) {
