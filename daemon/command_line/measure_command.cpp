@@ -8,6 +8,7 @@
 #include "core/foot/measures.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/station_settings.h"
 #include "daemon/report/csv_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/text_report.h"
@@ -37,10 +38,12 @@ Result<void> run(const MeasureCommand& command) {
   const auto measures = measure_foot(*foot);
   if (!measures) return tl::make_unexpected(measures.error());
 
+  const auto sizes = shoe_sizes(sized_foot(*measures), station_settings().sizes);
+
   if (command.format == "csv") return print_text(foot_csv(*foot, *measures));
   const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
-  return as_text ? print_text(foot_text(*foot, *measures))
-                 : print_json(foot_json(*foot, *measures));
+  return as_text ? print_text(foot_text(*foot, *measures, sizes))
+                 : print_json(foot_json(*foot, *measures, sizes));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/station_settings.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/store/posix_storage.h"
 #include "daemon/store/result_content.h"
@@ -66,6 +67,7 @@ Result<void> run(const ReplayCommand& command) {
 
   PipelineSettings settings;
   settings.station = "replay";
+  settings.sizes = station_settings().sizes;
   settings.side = side_from_string(command.side);
   settings.refine_views = command.poses == "auto" ? !capture->simulated : command.poses == "refine";
   ProgressLine line;

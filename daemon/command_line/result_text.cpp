@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "daemon/report/sizes_report.h"
+
 namespace instep {
 namespace {
 
@@ -64,7 +66,7 @@ std::string result_text(const json& result) {
     report += measure_line(measure, truth);
     notes += warning_lines(measure, text(measure, "id") + ": ");
   }
-  return report + notes;
+  return report + sizes_text(result.value("sizes", json::object())) + notes;
 }
 
 }  // namespace instep

@@ -7,6 +7,7 @@
 
 #include "core/foot/foot_scan.h"
 #include "core/foot/measure_set.h"
+#include "core/foot/shoe_sizes.h"
 #include "drivers/depth_camera.h"
 
 namespace instep {
@@ -26,6 +27,7 @@ struct ScanRecord {
 
   FootScan foot;
   MeasureSet measures;
+  ShoeSizes sizes;
 };
 
 /// A new id: UTC time to the millisecond and some random letters, such as

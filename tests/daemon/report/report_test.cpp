@@ -8,6 +8,7 @@
 #include "daemon/report/csv_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/sections_svg.h"
+#include "daemon/report/sizes_report.h"
 #include "daemon/report/svg_text.h"
 #include "daemon/report/text_report.h"
 
@@ -54,6 +55,12 @@ MeasureSet small_set() {
   girth.warnings = girth.girth->warnings;
   set.withheld = {{"waist_girth", "the section is open"}};
   return set;
+}
+
+ShoeSizes small_sizes() {
+  SizeRules rules;
+  rules.shop_tables = {{"Walker", {{"40", 255.0, 250.0}}}, {"Pump", {{"38", 240.0, {}}}}};
+  return shoe_sizes(sized_foot(small_set()), rules);
 }
 
 ScanRecord small_record() {
@@ -106,7 +113,7 @@ TEST(ResultJson, HoldsWhatAGirthIs) {
 }
 
 TEST(ResultJson, HoldsWhatAFootIs) {
-  const Json json = foot_json(small_foot(), small_set());
+  const Json json = foot_json(small_foot(), small_set(), small_sizes());
   EXPECT_EQ(json["side"], "left");
   ASSERT_EQ(json["frame"].size(), 16U);
   EXPECT_EQ(json["frame"][0], 1.0);
@@ -118,7 +125,19 @@ TEST(ResultJson, HoldsWhatAFootIs) {
   EXPECT_EQ(json["measures"][1]["plane"].size(), 3U);
   EXPECT_EQ(json["measures"][1]["contact_mm"], 241.0);
   EXPECT_EQ(json["withheld"][0]["id"], "waist_girth");
-  EXPECT_EQ(json["sizes"]["mondopoint_mm"], 250.0);
+}
+
+TEST(ResultJson, HoldsTheSizes) {
+  const Json sizes = foot_json(small_foot(), small_set(), small_sizes())["sizes"];
+  EXPECT_EQ(sizes["mondopoint_mm"], 250.0);
+  EXPECT_EQ(sizes["eu"], 40.0);
+  EXPECT_EQ(sizes["exact"]["eu"], 39.94);
+  EXPECT_EQ(sizes["us_women"], 8.5);
+  EXPECT_EQ(sizes["jis_women"], "25.0 E");
+  EXPECT_FALSE(sizes.contains("mondopoint_width_mm"));
+  EXPECT_EQ(sizes["shop"][0], Json({{"table", "Walker"}, {"size", "40"}, {"note", ""}}));
+  EXPECT_TRUE(sizes["shop"][1]["size"].is_null());
+  EXPECT_NE(sizes["guide"].get<std::string>().find("guidance"), std::string::npos);
 }
 
 TEST(ResultJson, SaysWhenAndWhere) {
@@ -137,19 +156,36 @@ TEST(ResultJson, NeverHoldsWhatIsNoNumber) {
   auto set = small_set();
   set.measures[0].value_mm = kNan;
   set.measures[1].u95_mm = std::numeric_limits<double>::infinity();
-  const Json json = foot_json(small_foot(), set);
+  const Json json = foot_json(small_foot(), set, shoe_sizes(sized_foot(set)));
   EXPECT_TRUE(json["measures"][0]["value_mm"].is_null());
   EXPECT_TRUE(json["measures"][1]["u95_mm"].is_null());
-  EXPECT_TRUE(json["sizes"].empty());
+  EXPECT_FALSE(json["sizes"].contains("mondopoint_mm"));
+  EXPECT_EQ(json["sizes"]["notes"].size(), 1U);
 }
 
 TEST(TextReport, AlignsMeasuresAndTellsIntervals) {
-  const std::string text = foot_text(small_foot(), small_set());
+  const std::string text = foot_text(small_foot(), small_set(), small_sizes());
   EXPECT_NE(text.find("Left foot"), std::string::npos);
   EXPECT_NE(text.find("ball girth     240.0 mm  ± 0.2\n"), std::string::npos) << text;
   EXPECT_NE(text.find("foot length    251.2 mm\n"), std::string::npos) << text;
   EXPECT_NE(text.find("waist girth        -     the section is open"), std::string::npos) << text;
   EXPECT_NE(text.find("! of the foot"), std::string::npos);
+}
+
+TEST(TextReport, TellsTheSizes) {
+  const std::string text = foot_text(small_foot(), small_set(), small_sizes());
+  EXPECT_NE(text.find("size guide: Mondopoint 250, EU 40, UK 6.5, US men 7.5, US women 8.5, "
+                      "JIS men 25.0 E, JIS women 25.0 E\n"
+                      "  Walker: 40\n"
+                      "  Pump: none (no size of the table is long and wide enough)\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(SizesText, LeavesOutWhatIsOfTheWrongShape) {
+  for (const char* odd : {"3", "[]", "{}", R"({"eu": "x", "shop": [1, {}], "notes": [{}]})"}) {
+    EXPECT_NO_THROW(static_cast<void>(sizes_text(nlohmann::json::parse(odd)))) << odd;
+  }
 }
 
 TEST(TextReport, TellsAGirth) {
