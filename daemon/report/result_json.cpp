@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "daemon/build_facts.h"
+#include "daemon/report/pair_report.h"
 #include "daemon/report/sizes_report.h"
 
 namespace instep {
@@ -130,6 +131,7 @@ Json result_json(const ScanRecord& record) {
   warnings.insert(warnings.end(), record.foot.warnings.begin(), record.foot.warnings.end());
   foot["warnings"] = warnings;
   json.update(foot);
+  if (record.pair) json["pair"] = pair_json(*record.pair);
   if (!record.truth.empty()) json["truth"] = numbers(record.truth);
   return json;
 }

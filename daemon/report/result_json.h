@@ -28,7 +28,8 @@ Json girth_json(const std::string& method, const Girth& girth, const GirthTimes&
 Json foot_json(const FootScan& foot, const MeasureSet& measures, const ShoeSizes& sizes);
 
 /// A whole result, as result.json holds it: what came how and when, then the object of foot_json(),
-/// then `truth` (measure id -> value) if the scan was simulated.
+/// then `pair` (pair_json()) if both feet were scanned together, and `truth` (measure id -> value)
+/// if the scan was simulated.
 Json result_json(const ScanRecord& record);
 
 }  // namespace instep

@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "daemon/report/json_fields.h"
+
 namespace instep {
 namespace {
 
@@ -26,17 +28,6 @@ void add_scales(Json& out, const ShoeSizes& sizes) {
   add("us_men", sizes.us_men);
   add("us_women", sizes.us_women);
   out["exact"] = std::move(exact);
-}
-
-std::string string_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-std::optional<double> number_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number()) return {};
-  return found->get<double>();
 }
 
 std::string mondopoint_text(const json& sizes) {
@@ -68,11 +59,6 @@ std::string shop_line(const json& choice) {
   const auto note = string_at(choice, "note");
   return fmt::format("  {}: {}{}\n", string_at(choice, "table"), size.empty() ? "none" : size,
                      note.empty() ? "" : " (" + note + ")");
-}
-
-json list_at(const json& object, const char* key) {
-  const auto found = object.find(key);
-  return found != object.end() && found->is_array() ? *found : json::array();
 }
 
 }  // namespace

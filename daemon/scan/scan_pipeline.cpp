@@ -117,6 +117,17 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   return record;
 }
 
+void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
+  const bool are_pair = records.size() == 2 && records[0].foot.side == Side::kLeft &&
+                        records[1].foot.side == Side::kRight;
+  if (!are_pair) return;
+  const auto& left = records[0].measures;
+  const auto& right = records[1].measures;
+  const ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
+                         shoe_sizes(larger_of(sized_foot(left), sized_foot(right)), rules)};
+  for (auto& record : records) record.pair = pair;
+}
+
 void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& quality) {
   const auto& figures = scene.diagnostics;
   quality["views_used"] = static_cast<double>(figures.views_used);
@@ -168,6 +179,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   }
   clock.end();
 
+  pair_up(records, settings.sizes);
   for (auto& record : records) {
     record.quality = quality;
     record.warnings = warnings;

@@ -44,7 +44,7 @@ struct PipelineSettings {
 /// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Pure
 /// computation; takes no file and no device. What concerns one camera alone runs on a thread of its
 /// own. Gives one record for each foot on the platform, the left one first, and fails if there is
-/// none.
+/// none. A left and a right foot are put side by side, in the records of both.
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
                                                 const PipelineSettings& settings,
                                                 const ScanProgress& progress);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/report/csv_report.h"
+#include "daemon/report/pair_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/sections_svg.h"
 #include "daemon/report/sizes_report.h"
@@ -161,6 +162,55 @@ TEST(ResultJson, NeverHoldsWhatIsNoNumber) {
   EXPECT_TRUE(json["measures"][1]["u95_mm"].is_null());
   EXPECT_FALSE(json["sizes"].contains("mondopoint_mm"));
   EXPECT_EQ(json["sizes"]["notes"].size(), 1U);
+}
+
+ScannedPair small_pair() {
+  auto right = small_set();
+  right.measures[0].value_mm += 1.5;
+  right.measures[1].value_mm += 0.2;
+  right.withheld.clear();
+  right.measures.push_back(right.measures[0]);
+  right.measures.back().id = "foot_breadth";
+  const auto sizes = shoe_sizes(larger_of(sized_foot(small_set()), sized_foot(right)));
+  return {"left id", "right id", pair_feet(small_set(), right), sizes};
+}
+
+TEST(PairReport, HoldsBothFeetSideBySide) {
+  auto record = small_record();
+  EXPECT_FALSE(result_json(record).contains("pair"));
+  record.pair = small_pair();
+  const Json json = result_json(record)["pair"];
+  EXPECT_EQ(json["left"], "left id");
+  EXPECT_EQ(json["right"], "right id");
+  EXPECT_EQ(json["leads"], "right");
+  EXPECT_EQ(json["measures"][0], Json({{"id", "foot_length"},
+                                       {"left_mm", 251.25},
+                                       {"right_mm", 252.75},
+                                       {"difference_mm", 1.5},
+                                       {"u95_mm", nullptr},
+                                       {"larger", "right"}}));
+  EXPECT_EQ(json["measures"][1]["difference_mm"], 0.2);
+  EXPECT_TRUE(json["measures"][1]["larger"].is_null());
+  EXPECT_EQ(json["of_one_foot"], Json({"foot_breadth"}));
+  EXPECT_EQ(json["sizes"]["mondopoint_mm"], 255.0);
+}
+
+TEST(PairReport, IsReadAsATable) {
+  const std::string text = pair_text(nlohmann::json(pair_json(small_pair())));
+  for (const char* line :
+       {"  foot_length                  251.2   252.8    +1.5        right\n",
+        "  ball_girth                   240.0   240.2    +0.2 +-0.3\n",
+        "  foot_breadth              of one foot only\n", "  the right foot is longer and leads\n",
+        "size guide: Mondopoint 255"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  }
+}
+
+TEST(PairReport, LeavesOutWhatIsOfTheWrongShape) {
+  for (const char* odd : {"3", "[]", "{}", R"({"measures": [1, {"id": 2}], "sizes": 3})"}) {
+    EXPECT_NO_THROW(static_cast<void>(pair_text(nlohmann::json::parse(odd)))) << odd;
+  }
+  EXPECT_EQ(pair_text(nlohmann::json()), "");
 }
 
 TEST(TextReport, AlignsMeasuresAndTellsIntervals) {
