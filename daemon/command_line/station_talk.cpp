@@ -12,6 +12,7 @@
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
+#include "daemon/report/csv_report.h"
 #include "daemon/report/pair_report.h"
 #include "drivers/files/file_bytes.h"
 
@@ -214,12 +215,13 @@ Result<void> list_scans(bool as_json) {
   return print_text(ids);
 }
 
-Result<void> show_scan(const std::string& id, bool as_json) {
+Result<void> show_scan(const std::string& id, const std::string& format) {
   auto client = reach_daemon();
   if (!client) return tl::make_unexpected(client.error());
   const auto result = stored_result(*client, id);
   if (!result) return tl::make_unexpected(result.error());
-  if (as_json) return print_json(*result);
+  if (format == "json") return print_json(*result);
+  if (format == "csv") return print_text(result_csv(*result));
   return print_text(result_text(*result) + pair_text(result->value("pair", json())));
 }
 

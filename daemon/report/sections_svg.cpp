@@ -25,6 +25,7 @@ constexpr double kPlanWidthPx = 560.0;
 constexpr double kPlanHeightPx = 230.0;
 constexpr double kSectionsTopPx = kPlanTopPx + 322.0;
 constexpr double kBelowSectionsPx = 150.0;
+constexpr double kOutlineStepPx = 1.5;
 constexpr double kRulerMm = 50.0;
 
 constexpr const char* kStyle = R"(<style>
@@ -85,8 +86,8 @@ std::string panel_svg(const Panel& panel, double left, double base_line) {
   const Girth& girth = *panel.measure->girth;
   std::string text = svg::line({left - 14.0, base_line + 3.0},
                                {left + panel.width_px() + 14.0, base_line + 3.0}, "floor");
-  text += svg::polygon(placed(drawing.tape, origin), "tape");
-  text += svg::polygon(placed(drawing.contour, origin), "skin");
+  text += svg::polygon(svg::thinned(placed(drawing.tape, origin), kOutlineStepPx), "tape");
+  text += svg::polygon(svg::thinned(placed(drawing.contour, origin), kOutlineStepPx), "skin");
   text += svg::dots(placed(drawing.platform_points, origin), 1.3, "platform");
   text += svg::dots(placed(drawing.seen_points, origin), 1.3, "seen");
   text += svg::label({middle, top - 12.0}, "side", "dorsal");

@@ -30,6 +30,14 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
+std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& line, double least) {
+  std::vector<Eigen::Vector2d> kept;
+  for (const auto& point : line) {
+    if (kept.empty() || (point - kept.back()).norm() >= least) kept.push_back(point);
+  }
+  return kept;
+}
+
 std::string point_list(const std::vector<Eigen::Vector2d>& points) {
   std::string list;
   for (const auto& point : points) {
@@ -40,6 +48,10 @@ std::string point_list(const std::vector<Eigen::Vector2d>& points) {
 
 std::string polygon(const std::vector<Eigen::Vector2d>& points, std::string_view style) {
   return fmt::format("<polygon class=\"{}\" points=\"{}\"/>\n", style, point_list(points));
+}
+
+std::string polyline(const std::vector<Eigen::Vector2d>& points, std::string_view style) {
+  return fmt::format("<polyline class=\"{}\" points=\"{}\"/>\n", style, point_list(points));
 }
 
 std::string dots(const std::vector<Eigen::Vector2d>& points, double radius,

@@ -10,12 +10,18 @@ namespace instep::svg {
 /// The text with the five characters of XML escaped and control characters left out.
 std::string escaped(std::string_view text);
 
+/// The points of a line without those nearer than `least` to the one kept before.
+std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& line, double least);
+
 /// Points as an attribute value, "x,y x,y ...", to a tenth of a pixel.
 std::string point_list(const std::vector<Eigen::Vector2d>& points);
 
 /// A closed shape, and small round dots, of a class of the page's style sheet.
 std::string polygon(const std::vector<Eigen::Vector2d>& points, std::string_view style);
 std::string dots(const std::vector<Eigen::Vector2d>& points, double radius, std::string_view style);
+
+/// An open line through points.
+std::string polyline(const std::vector<Eigen::Vector2d>& points, std::string_view style);
 
 /// A line of text; `style` names its class.
 std::string label(const Eigen::Vector2d& place, std::string_view style, std::string_view text);

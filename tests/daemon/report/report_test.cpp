@@ -12,6 +12,7 @@
 #include "daemon/report/sizes_report.h"
 #include "daemon/report/svg_text.h"
 #include "daemon/report/text_report.h"
+#include "tests/support/xml_check.h"
 
 namespace instep {
 namespace {
@@ -77,29 +78,6 @@ ScanRecord small_record() {
   record.foot = small_foot();
   record.measures = small_set();
   return record;
-}
-
-/// Every opened tag is closed in order, attributes are quoted, and nothing is no number.
-void expect_sound_xml(const std::string& xml) {
-  std::vector<std::string> open;
-  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
-    const std::size_t end = xml.find('>', at);
-    ASSERT_NE(end, std::string::npos);
-    const std::string tag = xml.substr(at + 1, end - at - 1);
-    EXPECT_EQ(tag.find('<'), std::string::npos) << tag;
-    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
-    if (tag.front() == '/') {
-      ASSERT_FALSE(open.empty());
-      EXPECT_EQ("/" + open.back(), tag);
-      open.pop_back();
-    } else if (tag.back() != '/') {
-      open.push_back(name);
-    }
-  }
-  EXPECT_TRUE(open.empty());
-  for (const char* word : {"nan", "inf,", "inf\"", "infM"}) {
-    EXPECT_EQ(xml.find(word), std::string::npos) << word;
-  }
 }
 
 TEST(ResultJson, HoldsWhatAGirthIs) {
@@ -245,16 +223,25 @@ TEST(TextReport, TellsAGirth) {
 }
 
 TEST(CsvReport, HasALineForEachMeasure) {
-  EXPECT_EQ(foot_csv(small_foot(), small_set()),
-            "side,id,value_mm,u95_mm,contact_mm,warnings\n"
-            "left,foot_length,251.250,,,\"\"\n"
-            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\"\n"
-            "left,waist_girth,,,,\"the section is open\"\n");
+  EXPECT_EQ(result_csv(foot_json(small_foot(), small_set(), small_sizes())),
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n"
+            "left,foot_length,251.250,,,\"\",\n"
+            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",\n"
+            "left,waist_girth,,,,\"the section is open\",\n");
+}
+
+TEST(CsvReport, HasTheAnglesInAColumnOfTheirOwn) {
+  const auto result = nlohmann::json::parse(
+      R"({"side": "right", "measures": [{"id": "toe1_angle", "value_deg": 9.5}, 3, {"id": 4}],
+          "withheld": "none"})");
+  EXPECT_EQ(result_csv(result),
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n"
+            "right,toe1_angle,,,,\"\",9.500\n");
 }
 
 TEST(SectionsSvg, IsSoundAndShowsTheNumbers) {
   const std::string svg = sections_svg(small_foot(), small_set());
-  expect_sound_xml(svg);
+  EXPECT_EQ(test::fault_in_xml(svg), "");
   EXPECT_NE(svg.find("240.0 ± 0.2 mm"), std::string::npos);
   EXPECT_NE(svg.find("251.2 mm"), std::string::npos);
   for (const char* word : {"Left foot", "medial", "lateral", "dorsal", "plantar"}) {
@@ -275,16 +262,16 @@ TEST(SectionsSvg, DrawsTheTapeOverTheHollow) {
 }
 
 TEST(SectionsSvg, StandsWhateverItIsGiven) {
-  expect_sound_xml(sections_svg(FootScan{}, MeasureSet{}));
+  EXPECT_EQ(test::fault_in_xml(sections_svg(FootScan{}, MeasureSet{})), "");
   auto foot = small_foot();
   foot.cloud.positions.emplace_back(kNan, 1.0, 2.0);
   foot.landmarks["pternion"].position_mm.y() = kNan;
   auto set = small_set();
   set.measures[1].girth->contour[0].x() = kNan;
   set.withheld[0].id = "<script>";
-  expect_sound_xml(sections_svg(foot, set));
+  EXPECT_EQ(test::fault_in_xml(sections_svg(foot, set)), "");
   set.measures[1].girth->contour.clear();
-  expect_sound_xml(sections_svg(foot, set));
+  EXPECT_EQ(test::fault_in_xml(sections_svg(foot, set)), "");
 }
 
 TEST(SvgText, EscapesWhatXmlDoesNotTake) {
