@@ -16,6 +16,8 @@ using nlohmann::json;
 
 /// Below this the standard deviation is itself known to no better than a third.
 constexpr std::size_t kFewScans = 6;
+/// No measure of a foot is beyond this, in millimetres or degrees.
+constexpr double kLargestValue = 10000.0;
 
 struct Value {
   double value = 0.0;
@@ -30,7 +32,7 @@ std::optional<Value> value_of(const json& result, const std::string& id) {
     const auto millimetres = number_at(measure, "value_mm");
     const auto degrees = number_at(measure, "value_deg");
     const auto number = millimetres ? millimetres : degrees;
-    if (!number || !std::isfinite(*number)) return {};
+    if (!number || !(std::abs(*number) <= kLargestValue)) return {};
     const bool is_angle = !millimetres;
     return Value{*number, is_angle, number_at(measure, is_angle ? "u95_deg" : "u95_mm"),
                  string_at(measure, "definition")};

@@ -86,13 +86,14 @@ TEST(RepeatStudy, SaysWhichMeasuresAreMissing) {
   scans[2].result["measures"].erase(1);
   scans[2].result["withheld"] = {{{"id", "ball_girth"}, {"reason", "open"}}};
   scans[4].result["measures"][1]["value_mm"] = nullptr;
+  scans[5].result["measures"][1]["value_mm"] = 1e308;
   scans[0].result["withheld"] = {{{"id", "waist_girth"}, {"reason", "open"}}};
   const auto study = study_repeats(scans);
   ASSERT_TRUE(study);
   EXPECT_EQ(study->feet[0].measures.size(), 2U);
-  EXPECT_EQ(study->feet[0].measures[1].figures.values.size(), 5U);
+  EXPECT_EQ(study->feet[0].measures[1].figures.values.size(), 4U);
   EXPECT_THAT(study->warnings,
-              ElementsAre(HasSubstr("ball_girth of the right side is missing in 2"),
+              ElementsAre(HasSubstr("ball_girth of the right side is missing in 3"),
                           HasSubstr("waist_girth of the right side is missing in 7")));
 }
 
