@@ -94,9 +94,7 @@ std::string header(const ScanRecord& record, const std::string& origin) {
 std::string footer() {
   const Vector2d from(paper::kMargin, kFooter);
   const Vector2d to(paper::kMargin + paper::kPerMm * kRulerMm, kFooter);
-  const Vector2d tick(0.0, 12.0);
-  std::string text = svg::line(from, to, "rule") + svg::line(from - tick, from + tick, "rule") +
-                     svg::line(to - tick, to + tick, "rule");
+  std::string text = svg::measuring_line(from, to, 12.0, "rule");
   text += svg::label(to + Vector2d(24.0, 9.0), "footer",
                      fmt::format("{:.0f} mm on paper if printed at 100 %. Lengths in mm; ± is half "
                                  "of the 95 % interval. Sizes are guidance.",

@@ -24,35 +24,20 @@ constexpr double kLeastWidth = 275.0;
 constexpr double kPointRadius = 1.6;
 constexpr double kOutlineStep = 4.0;
 
-struct Panel {
-  const Measure* measure = nullptr;
-  SectionDrawing drawing;
-
-  double width(double per_mm) const {
-    return std::max(kLeastWidth, per_mm * (drawing.right - drawing.left));
-  }
-};
-
-std::vector<Panel> panels_of(const FootScan& foot, const MeasureSet& measures) {
-  std::vector<Panel> panels;
-  for (const auto& measure : measures.measures) {
-    if (!measure.girth || !measure.plane) continue;
-    Panel panel{&measure, draw_section(foot, measure)};
-    if (panel.drawing.contour.size() >= 3) panels.push_back(std::move(panel));
-  }
-  return panels;
+double width_of(const DrawnSection& panel, double per_mm) {
+  return std::max(kLeastWidth, per_mm * (panel.drawing.right - panel.drawing.left));
 }
 
 struct Row {
-  std::vector<const Panel*> panels;
+  std::vector<const DrawnSection*> panels;
   double width = 0.0;
   double height = 0.0;  ///< of the tallest section
 };
 
-std::vector<Row> rows_of(const std::vector<Panel>& panels, double per_mm, double width) {
+std::vector<Row> rows_of(const std::vector<DrawnSection>& panels, double per_mm, double width) {
   std::vector<Row> rows;
   for (const auto& panel : panels) {
-    const double wanted = panel.width(per_mm) + kBetween;
+    const double wanted = width_of(panel, per_mm) + kBetween;
     if (rows.empty() || rows.back().width + wanted - kBetween > width) rows.emplace_back();
     Row& row = rows.back();
     row.panels.push_back(&panel);
@@ -68,21 +53,13 @@ double height_of(const std::vector<Row>& rows) {
   return height;
 }
 
-std::vector<Vector2d> placed(const std::vector<Vector2d>& points, const Vector2d& origin,
-                             double per_mm) {
-  std::vector<Vector2d> on_page;
-  on_page.reserve(points.size());
-  for (const auto& point : points) on_page.push_back(origin + per_mm * point);
-  return on_page;
-}
-
 std::vector<Vector2d> outline(const std::vector<Vector2d>& points, const Vector2d& origin,
                               double per_mm) {
-  return svg::thinned(placed(points, origin, per_mm), kOutlineStep);
+  return svg::thinned(svg::placed(points, origin, per_mm), kOutlineStep);
 }
 
 /// `middle` is that of the section on its base line.
-std::string panel_svg(const Panel& panel, const Vector2d& middle, double per_mm) {
+std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double per_mm) {
   const SectionDrawing& drawing = panel.drawing;
   const Vector2d origin(middle.x() - per_mm * (drawing.left + drawing.right) / 2.0, middle.y());
   const double half = per_mm * (drawing.right - drawing.left) / 2.0 + 20.0;
@@ -91,8 +68,8 @@ std::string panel_svg(const Panel& panel, const Vector2d& middle, double per_mm)
       svg::line(middle + Vector2d(-half, 6.0), middle + Vector2d(half, 6.0), "floor");
   text += svg::polygon(outline(drawing.tape, origin, per_mm), "section-tape");
   text += svg::polygon(outline(drawing.contour, origin, per_mm), "skin");
-  text += svg::dots(placed(drawing.platform_points, origin, per_mm), kPointRadius, "platform");
-  text += svg::dots(placed(drawing.seen_points, origin, per_mm), kPointRadius, "seen");
+  text += svg::dots(svg::placed(drawing.platform_points, origin, per_mm), kPointRadius, "platform");
+  text += svg::dots(svg::placed(drawing.seen_points, origin, per_mm), kPointRadius, "seen");
   text += svg::label(middle + Vector2d(0.0, 44.0), "section-name", as_words(panel.measure->id));
   text += svg::label(middle + Vector2d(0.0, 80.0), "section-number",
                      interval_text(girth.stretched_mm, girth.stretched_u95_mm));
@@ -105,7 +82,7 @@ std::string panel_svg(const Panel& panel, const Vector2d& middle, double per_mm)
 
 paper::Block sections_block(const FootScan& foot, const MeasureSet& measures,
                             const Vector2d& corner, double width, double lowest) {
-  const auto panels = panels_of(foot, measures);
+  const auto panels = draw_sections(foot, measures);
   if (panels.empty()) return {{}, corner.y()};
   double scale = paper::kScales.back();
   std::vector<Row> rows;
@@ -125,8 +102,8 @@ paper::Block sections_block(const FootScan& foot, const MeasureSet& measures,
     y += kAboveRow + row.height;
     const double apart = (width - row.width + kBetween) / static_cast<double>(row.panels.size());
     double left = corner.x() + apart / 2.0;
-    for (const Panel* panel : row.panels) {
-      const double panel_width = panel->width(per_mm);
+    for (const DrawnSection* panel : row.panels) {
+      const double panel_width = width_of(*panel, per_mm);
       text += panel_svg(*panel, {left + panel_width / 2.0, y}, per_mm);
       left += panel_width + kBetween + apart;
     }

@@ -111,9 +111,7 @@ std::string length_line(const FootScan& foot, const MeasureSet& measures, const 
   if (!is_known) return {};
   const Vector2d from(view(rear->second.position_mm).x(), y);
   const Vector2d to(view(front->second.position_mm).x(), y);
-  const Vector2d tick(0.0, 12.0);
-  return svg::line(from, to, "rule") + svg::line(from - tick, from + tick, "rule") +
-         svg::line(to - tick, to + tick, "rule") +
+  return svg::measuring_line(from, to, 12.0, "rule") +
          svg::label((from + to) / 2.0 + Vector2d(0.0, 40.0), "length",
                     "foot length " + interval_text(length->value_mm, length->u95_mm));
 }

@@ -75,4 +75,19 @@ std::string line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::st
       from.x(), from.y(), to.x(), to.y());
 }
 
+std::vector<Eigen::Vector2d> placed(const std::vector<Eigen::Vector2d>& points,
+                                    const Eigen::Vector2d& origin, double per_mm) {
+  std::vector<Eigen::Vector2d> on_page;
+  on_page.reserve(points.size());
+  for (const auto& point : points) on_page.push_back(origin + per_mm * point);
+  return on_page;
+}
+
+std::string measuring_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double half_end,
+                           std::string_view style) {
+  const Eigen::Vector2d end(0.0, half_end);
+  return line(from, to, style) + line(from - end, from + end, style) +
+         line(to - end, to + end, style);
+}
+
 }  // namespace instep::svg

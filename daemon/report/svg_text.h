@@ -26,6 +26,14 @@ std::string polyline(const std::vector<Eigen::Vector2d>& points, std::string_vie
 /// A line of text; `style` names its class.
 std::string label(const Eigen::Vector2d& place, std::string_view style, std::string_view text);
 
+/// Points in millimetres (or whatever) on the page, from `origin` on.
+std::vector<Eigen::Vector2d> placed(const std::vector<Eigen::Vector2d>& points,
+                                    const Eigen::Vector2d& origin, double per_mm);
+
+/// A level line with ends that show how far it goes.
+std::string measuring_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double half_end,
+                           std::string_view style);
+
 /// A straight line.
 std::string line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::string_view style);
 
