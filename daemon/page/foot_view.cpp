@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/geometry/polygon.h"
@@ -22,6 +23,7 @@ constexpr double kCutMm = 6.0;
 /// Of the cell's edge.
 constexpr std::array kReliefRadius = {0.0, 0.14, 0.21, 0.28, 0.35, 0.42};
 constexpr double kContrast = 1.2;
+constexpr double kNowhere = -std::numeric_limits<double>::infinity();
 constexpr double kHiddenBehindMm = 12.0;
 /// Coordinates beyond this are no foot's.
 constexpr double kFarthestMm = 1000.0;
@@ -85,10 +87,39 @@ void FootView::keep_nearest(const std::vector<Vector3d>& points) {
       std::sqrt(extent.prod() * kPointsPerCell / static_cast<double>(points.size()));
   cell_mm_ = std::max(
       {kLeastCellMm, std::min(apart, extent.maxCoeff() / 20.0), extent.maxCoeff() / kMostCells});
+  const GridCell last = {static_cast<int>(extent.y() / cell_mm_),
+                         static_cast<int>(extent.x() / cell_mm_)};
+  rows_ = last.first + 1;
+  columns_ = last.second + 1;
+  nearest_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_), kNowhere);
   for (const auto& point : points) {
-    const auto [cell, is_new] = nearest_.try_emplace(cell_of(point), towards_.dot(point));
-    if (!is_new) cell->second = std::max(cell->second, towards_.dot(point));
+    double& nearest = nearness(cell_of(point));
+    nearest = std::max(nearest, towards_.dot(point));
   }
+}
+
+double& FootView::nearness(const GridCell& cell) {
+  // A point on the far edge may be rounded over it.
+  const auto row = static_cast<std::size_t>(std::clamp(cell.first, 0, rows_ - 1));
+  const auto column = static_cast<std::size_t>(std::clamp(cell.second, 0, columns_ - 1));
+  return nearest_[row * static_cast<std::size_t>(columns_) + column];
+}
+
+double FootView::nearness(const GridCell& cell) const {
+  const auto [row, column] = cell;
+  if (row < 0 || row >= rows_ || column < 0 || column >= columns_) return kNowhere;
+  return nearest_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(column)];
+}
+
+std::vector<GridCell> FootView::body() const {
+  std::vector<GridCell> cells;
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      if (nearness({row, column}) > kNowhere) cells.emplace_back(row, column);
+    }
+  }
+  return cells;
 }
 
 void FootView::cap_the_cut(const FootScan& foot, double highest_mm) {
@@ -108,14 +139,14 @@ void FootView::cap_the_cut(const FootScan& foot, double highest_mm) {
     for (int column = static_cast<int>(box.min().x()); column <= static_cast<int>(box.max().x());
          ++column) {
       const Vector2d middle = bounds_.min() + cell_mm_ * Vector2d(column + 0.5, row + 0.5);
-      if (holds(cut, middle)) nearest_[{row, column}] = highest_mm;
+      if (holds(cut, middle)) nearness({row, column}) = highest_mm;
     }
   }
 }
 
 bool FootView::hides(const Vector3d& point) const {
-  const auto cell = nearest_.find(cell_of(point));
-  return cell != nearest_.end() && cell->second > towards_.dot(point) + kHiddenBehindMm;
+  if (is_empty() || !bounds_.contains(seen(point))) return false;
+  return nearness(cell_of(point)) > towards_.dot(point) + kHiddenBehindMm;
 }
 
 Vector2d FootView::centre(const GridCell& cell) const {
@@ -126,10 +157,10 @@ Vector2d FootView::centre(const GridCell& cell) const {
 double FootView::darkness(const GridCell& cell) const {
   const Vector3d light = Vector3d(-0.5, -0.6, 0.75).normalized();  // right, down, towards
   const auto slope = [&](int rows, int columns) -> std::optional<double> {
-    const auto ahead = nearest_.find({cell.first + rows, cell.second + columns});
-    const auto behind = nearest_.find({cell.first - rows, cell.second - columns});
-    if (ahead == nearest_.end() || behind == nearest_.end()) return {};
-    return (ahead->second - behind->second) / (2.0 * cell_mm_);
+    const double ahead = nearness({cell.first + rows, cell.second + columns});
+    const double behind = nearness({cell.first - rows, cell.second - columns});
+    if (ahead == kNowhere || behind == kNowhere) return {};
+    return (ahead - behind) / (2.0 * cell_mm_);
   };
   const auto across = slope(0, 1);
   const auto down = slope(1, 0);
@@ -139,10 +170,8 @@ double FootView::darkness(const GridCell& cell) const {
 }
 
 std::string FootView::outline() const {
-  std::vector<GridCell> cells;
-  for (const auto& [cell, nearness] : nearest_) cells.push_back(cell);
   std::string path;
-  for (const auto& line : silhouette(cells)) {
+  for (const auto& line : silhouette(body())) {
     for (const auto& corner : line) {
       const Vector2d at = corner_ + units_per_mm_ * cell_mm_ * (corner + Vector2d(0.5, 0.5));
       path += fmt::format("{}{:.1f} {:.1f}", &corner == &line.front() ? "M" : "L", at.x(), at.y());
@@ -158,7 +187,7 @@ std::string FootView::shading() const {
   constexpr auto kDarkest = static_cast<double>(kReliefRadius.size() - 1);
   std::array<std::string, kReliefRadius.size()> paths;
   std::array<std::pair<long, long>, kReliefRadius.size()> last = {};
-  for (const auto& [cell, nearness] : nearest_) {
+  for (const auto& cell : body()) {
     const double chosen =
         std::clamp(std::round(kContrast * darkness(cell) * kDarkest), 0.0, kDarkest);
     const auto level = static_cast<std::size_t>(chosen);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,9 +45,10 @@ class FootView {
   std::string relief() const { return outline() + shading(); }
 
  private:
-  /// Row and column -> how near to who looks.
-  using Cells = std::map<GridCell, double>;
-
+  /// How near the body is in a cell to who looks; minus infinity where it is not, or off the grid.
+  double nearness(const GridCell& cell) const;
+  double& nearness(const GridCell& cell);
+  std::vector<GridCell> body() const;  ///< the cells in which it is, row by row
   GridCell cell_of(const Eigen::Vector3d& point) const;
   Eigen::Vector2d seen(const Eigen::Vector3d& point) const;
   void keep_nearest(const std::vector<Eigen::Vector3d>& points);
@@ -63,7 +63,9 @@ class FootView {
   Eigen::Vector3d towards_;
   Eigen::AlignedBox2d bounds_;
   double cell_mm_ = 0.0;
-  Cells nearest_;
+  int rows_ = 0;
+  int columns_ = 0;
+  std::vector<double> nearest_;  ///< row by row
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
   double units_per_mm_ = 1.0;
 };

@@ -62,6 +62,7 @@ TEST(FootView, HidesWhatIsBehindTheBody) {
   const FootView above(scan, From::kAbove, 200.0);
   EXPECT_TRUE(above.hides({130.0, 0.0, 0.0}));
   EXPECT_FALSE(above.hides({130.0, 0.0, body.height(130.0)}));
+  EXPECT_FALSE(above.hides({1e300, 0.0, -1e300}));
   const FootView medial(scan, From::kMedial, 200.0);
   EXPECT_FALSE(medial.hides({180.0, body.medial_border(180.0), 15.0}));
   EXPECT_TRUE(medial.hides({180.0, -body.lateral_border(180.0), 15.0}));
