@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
-#include <regex>
 
 #include "daemon/page/paper.h"
 #include "tests/support/foot_body.h"
@@ -61,15 +60,27 @@ ScanRecord made_up_scan(Side side = Side::kLeft) {
   return record;
 }
 
-/// The attribute values of the elements that match, as numbers.
-std::vector<double> numbers(const std::string& svg, const std::string& pattern) {
+/// The numbers that stand in the places of "#" wherever the text has the pattern, one after
+/// another.
+std::vector<double> numbers(const std::string& text, const std::string& pattern) {
+  constexpr const char* kNumber = "0123456789.-";
   std::vector<double> found;
-  const std::regex expression(pattern);
-  for (auto it = std::sregex_iterator(svg.begin(), svg.end(), expression);
-       it != std::sregex_iterator(); ++it) {
-    for (std::size_t group = 1; group < it->size(); ++group) {
-      found.push_back(std::stod((*it)[group].str()));
+  const std::string head = pattern.substr(0, pattern.find('#'));
+  for (auto at = text.find(head); at != std::string::npos; at = text.find(head, at + 1)) {
+    std::vector<double> here;
+    std::size_t place = at;
+    bool fits = true;
+    for (std::size_t i = 0; i < pattern.size() && fits; ++i) {
+      if (pattern[i] != '#') {
+        fits = place < text.size() && text[place++] == pattern[i];
+        continue;
+      }
+      const auto end = std::min(text.find_first_not_of(kNumber, place), text.size());
+      fits = end > place;
+      if (fits) here.push_back(std::stod(text.substr(place, end - place)));
+      place = end;
     }
+    if (fits) found.insert(found.end(), here.begin(), here.end());
   }
   return found;
 }
@@ -79,7 +90,7 @@ TEST(ReportPage, IsA4WithARulerOfFiftyMillimetres) {
   EXPECT_EQ(test::fault_in_xml(page), "");
   EXPECT_THAT(page, HasSubstr("width=\"210mm\" height=\"297mm\" viewBox=\"0 0 2100 2970\""));
   // The last long rule is that of the footer or of the length: both are looked at.
-  const auto ends = numbers(page, "class=\"rule\" x1=\"([0-9.]+)\" y1=\"2860.0\" x2=\"([0-9.]+)\"");
+  const auto ends = numbers(page, "class=\"rule\" x1=\"#\" y1=\"2860.0\" x2=\"#\"");
   ASSERT_GE(ends.size(), 2U);
   EXPECT_DOUBLE_EQ(ends[1] - ends[0], 500.0);
 }
@@ -104,13 +115,12 @@ TEST(ReportPage, DrawsTheFootToTheScaleItSays) {
     record.foot.cloud = test::mirrored(test::FootBody{length}.points());
     record.foot.landmarks["acropodion"].position_mm.x() = length;
     const std::string page = report_page(record);
-    const auto scales = numbers(page, "from above, 1 : ([0-9.]+)<");
+    const auto scales = numbers(page, "from above, 1 : #<");
     ASSERT_EQ(scales.size(), 1U);
-    const auto lines =
-        numbers(page, "class=\"rule\" x1=\"([0-9.]+)\" y1=\"[0-9.]+\" x2=\"([0-9.]+)\"");
+    const auto lines = numbers(page, "class=\"rule\" x1=\"#\" y1=\"#\" x2=\"#\"");
     const bool drawn = [&] {
-      for (std::size_t i = 0; i + 1 < lines.size(); i += 2) {
-        if (std::abs(lines[i + 1] - lines[i] - 10.0 * length / scales[0]) < 0.2) return true;
+      for (std::size_t i = 0; i + 2 < lines.size(); i += 3) {
+        if (std::abs(lines[i + 2] - lines[i] - 10.0 * length / scales[0]) < 0.2) return true;
       }
       return false;
     }();
@@ -125,7 +135,7 @@ TEST(ReportPage, KeepsAllOnThePageAndTheNamesOfTapesApart) {
     record.measures.measures.push_back(girth_at("long_heel_girth", 101, 36, 55));
     record.measures.measures.push_back(girth_at("ankle_girth", 60, 30, 45));
     const std::string page = report_page(record);
-    const auto places = numbers(page, " x=\"([0-9.-]+)\" y=\"([0-9.-]+)\"");
+    const auto places = numbers(page, " x=\"#\" y=\"#\"");
     ASSERT_GT(places.size(), 60U);
     for (std::size_t i = 0; i + 1 < places.size(); i += 2) {
       EXPECT_GE(places[i], 0.0);
@@ -133,7 +143,7 @@ TEST(ReportPage, KeepsAllOnThePageAndTheNamesOfTapesApart) {
       EXPECT_GE(places[i + 1], 0.0);
       EXPECT_LE(places[i + 1], paper::kHeight);
     }
-    const auto names = numbers(page, "class=\"tape-name\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"");
+    const auto names = numbers(page, "class=\"tape-name\" x=\"#\" y=\"#\"");
     ASSERT_EQ(names.size(), 2U * 2U * 6U);
     for (std::size_t i = 0; i < names.size(); i += 2) {
       for (std::size_t j = i + 2; j < names.size(); j += 2) {
@@ -150,12 +160,13 @@ TEST(ReportPage, SaysHowMuchItLeftOut) {
   const std::string page = report_page(record);
   EXPECT_THAT(page, HasSubstr("doubt number 0<"));
   EXPECT_THAT(page, Not(HasSubstr("doubt number 59<")));
-  const auto left_out = numbers(page, "and ([0-9]+) more: see result.json");
-  const auto said = numbers(page, "doubt number ([0-9]+)<");
+  const auto left_out = numbers(page, "and # more: see result.json");
+  const auto said = numbers(page, "doubt number #<");
   ASSERT_EQ(left_out.size(), 1U);
   EXPECT_EQ(said.size() + static_cast<std::size_t>(left_out[0]), 60U);
-  const auto heights = numbers(page, "class=\"note\" x=\"[0-9.]+\" y=\"([0-9.]+)\"");
-  EXPECT_LT(*std::max_element(heights.begin(), heights.end()), 2860.0);
+  const auto heights = numbers(page, "class=\"note\" x=\"#\" y=\"#\"");
+  ASSERT_GE(heights.size(), 10U);
+  for (std::size_t i = 1; i < heights.size(); i += 2) EXPECT_LT(heights[i], 2860.0);
 }
 
 TEST(ReportPage, SaysADoubtOfSeveralMeasuresOnce) {
