@@ -34,6 +34,10 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
+/// A share of the points near the plane, off all loops, that is worth a warning.
+constexpr double kNotableUnexplained = 0.02;
+/// Noise beyond what depth cameras have, against the section.
+constexpr double kNotableNoise = 0.012;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 
@@ -85,11 +89,45 @@ void drop_unfounded(const PlaneBand& band, std::vector<Loop>& loops) {
   loops = std::move(founded);
 }
 
+/// The share of the points near the plane that lie on no loop.
+double unexplained_share(const PlaneBand& band, const std::vector<Loop>& loops,
+                         const SectionEvidence& of_first) {
+  auto beside = static_cast<double>(of_first.beside);
+  const double all = beside + static_cast<double>(of_first.points);
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    const auto evidence = evidence_for(band, loops[i].index, kEvidenceInGrains * band.grain);
+    beside -= static_cast<double>(evidence.points);
+  }
+  return std::max(beside, 0.0) / std::max(all, 1.0);
+}
+
 /// The loop round the largest area first.
 void largest_first(std::vector<Loop>& loops) {
   std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
     return signed_area(a.contour.points) > signed_area(b.contour.points);
   });
+}
+
+/// What whoever reads the girth should know. `doubt`: half of the interval, against the length.
+void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
+                  const SectionEvidence& evidence, double doubt, Girth& girth) {
+  const auto warn_if = [&](bool so, const char* warning) {
+    if (so) girth.warnings.emplace_back(warning);
+  };
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    girth.warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
+  }
+  warn_if(evidence.seen_gap > kNotableGapInGrains * band.grain,
+          "a part of the section that no camera saw was bridged");
+  warn_if(unexplained_share(band, loops, evidence) > kNotableUnexplained,
+          "points beside the section lie on no skin that closes: strays, a second layer or another "
+          "body");
+  const auto points = static_cast<double>(band.points.size() + band.strays);
+  warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
+          "many points near the plane stand alone and were left out");
+  warn_if(band.sigma > kNotableNoise,
+          "the points scatter so much that they may be two layers of skin; the middle was taken");
+  warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
 }
 
 }  // namespace
@@ -136,15 +174,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
   girth.largest_gap_mm = band->unit_mm * evidence.seen_gap;
-  for (std::size_t i = 1; i < loops.size(); ++i) {
-    girth.warnings.push_back(other_loop_warning(band->unit_mm * loops[i].contour.length()));
-  }
-  if (evidence.seen_gap > kNotableGapInGrains * band->grain) {
-    girth.warnings.push_back("a part of the section that no camera saw was bridged");
-  }
-  if (doubt.stretched_u95 > kNotableDoubt * length) {
-    girth.warnings.push_back("the points are so few or noisy that the girth is uncertain");
-  }
+  add_warnings(*band, loops, evidence, doubt.stretched_u95 / length, girth);
   return girth;
 }
 

@@ -57,7 +57,7 @@ double grain_of(double spacing, double sigma) {
 
 tl::unexpected<Error> no_surface() {
   return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
-              "scan again");
+              "give control points that cut the body, or scan again");
 }
 
 /// Where the section lies and how fine it is.
@@ -71,8 +71,7 @@ struct Probe {
 Result<Probe> probe(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud, plane);
   bool found_some = false;
-  for (double half_width = kFirstHalfWidth * size; half_width < size;
-       half_width *= kWidening) {
+  for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
     PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestPoints) continue;
     found_some = true;
@@ -101,6 +100,7 @@ PlaneBand gather(const PointCloud& cloud, const TapePlane& plane, const Probe& f
                  0.0,
                  0.0,
                  0.0,
+                 0,
                  {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
   return band;
@@ -129,6 +129,7 @@ void drop_strays(PlaneBand& band) {
     sources.push_back(band.sources[i]);
     places.push_back(band.index.points()[i]);
   }
+  band.strays = strays.size() - sources.size();
   band.sources = std::move(sources);
   band.index = PointIndex(std::move(places));
 }

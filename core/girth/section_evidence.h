@@ -10,6 +10,7 @@ namespace instep {
 /// What the points near the tape plane say of a contour on it. Lengths in the band's unit.
 struct SectionEvidence {
   std::size_t points = 0;  ///< near the contour
+  std::size_t beside = 0;  ///< as near to the plane, but not to the contour
   double gap = 0.0;        ///< longest stretch of the contour without one
   double seen_gap = 0.0;   ///< longest stretch without one that a camera saw
 };

@@ -14,7 +14,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 TEST(GirthOptions, RefuseANoiseThatIsNone) {
   const PointCloud cloud = test::cylinder(3000);
   for (const double sigma : {std::nan(""), -1.0, 0.0, 1e9, kInfinity, -kInfinity}) {
-    for (const auto measure : {girth_by_hull, girth_by_mesh, girth_by_paper}) {
+    for (const auto measure : {girth_by_rbf, girth_by_hull, girth_by_mesh, girth_by_paper}) {
       const auto girth = measure(cloud, test::level_plane(), {sigma});
       ASSERT_FALSE(girth) << sigma;
       EXPECT_EQ(girth.error().code, ErrorCode::kInvalidInput) << girth.error().line();
