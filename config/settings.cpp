@@ -18,10 +18,18 @@ std::string describe_keeping(const StoreSettings& store) {
   return text.empty() ? ", kept for ever" : text;
 }
 
+std::string describe_sizes(const SizeRules& sizes) {
+  std::string text = fmt::format("lasts {} mm longer than the foot", sizes.allowance_mm);
+  for (const auto& table : sizes.shop_tables) {
+    text += fmt::format(", {} with {} sizes", table.name, table.sizes.size());
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe(const Settings& settings) {
-  const auto& [station, capture, pedal, cameras, simulation, store, control, log] = settings;
+  const auto& [station, capture, pedal, cameras, simulation, store, sizes, control, log] = settings;
   std::string text = fmt::format("station  {}, points every {} mm, side {}\n", station.name,
                                  station.point_spacing_mm,
                                  station.side ? to_string(*station.side) : "told from the shape");
@@ -34,6 +42,7 @@ std::string describe(const Settings& settings) {
               ? "pedal    none\n"
               : fmt::format("pedal    simulated, taps are written to {}\n", pedal.fifo.string());
   text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
+  text += fmt::format("sizes    {}\n", describe_sizes(sizes));
   text += fmt::format("control  {}\n", control.socket.string());
   return text;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
 namespace instep {
@@ -71,6 +73,10 @@ struct StoreSettings {
   int keep_count = 0;  ///< beyond this many the oldest are deleted, 0 (no limit) to 1000000
 };
 
+/// Most tables of a shop, and most rows of one.
+inline constexpr std::size_t kMostShopTables = 32;
+inline constexpr std::size_t kMostShopSizes = 64;
+
 struct ControlSettings {
   std::filesystem::path socket = "/run/instep/control.sock";  ///< at most 100 characters
 };
@@ -88,6 +94,7 @@ struct Settings {
   std::vector<CameraSettings> cameras;  ///< 1 to 8
   SimulatedStationSettings simulation;
   StoreSettings store;
+  SizeRules sizes;
   ControlSettings control;
   LogSettings log;
 };

@@ -95,6 +95,57 @@ void read_store(SettingsTable& table, StoreSettings& store, const std::filesyste
   table.read("keep_count", store.keep_count, 0, 1000000);
 }
 
+ShopSize read_shop_size(SettingsTable& table) {
+  ShopSize row;
+  table.read("size", row.size, 32);
+  table.read("longest_foot_mm", row.longest_foot_mm, 80, 400);
+  table.read("largest_ball_girth_mm", row.largest_ball_girth_mm, 80, 500);
+  table.finish();
+  return row;
+}
+
+/// A row that names no size or no length is a fault, and so is one shorter than the row before.
+void check_shop_size(const ShopSize& row, const std::vector<ShopSize>& before, unsigned line,
+                     SettingsFaults& faults) {
+  if (row.size.empty()) faults.add(line, "sizes.shop.sizes.size is missing: what is on the box?");
+  if (row.longest_foot_mm == 0.0) {
+    faults.add(line, "sizes.shop.sizes.longest_foot_mm is missing: how long a foot goes in?");
+  } else if (!before.empty() && row.longest_foot_mm < before.back().longest_foot_mm) {
+    faults.add(line, "sizes.shop.sizes must stand in the order of longest_foot_mm");
+  }
+}
+
+ShopTable read_shop_table(SettingsTable& table, SettingsFaults& faults) {
+  ShopTable shop;
+  table.read("name", shop.name, 64);
+  if (shop.name.empty()) faults.add(table.line(), "sizes.shop.name is missing");
+  for (const toml::table* size : table.tables("sizes")) {
+    SettingsTable row(*size, "sizes.shop.sizes", faults);
+    const ShopSize found = read_shop_size(row);
+    check_shop_size(found, shop.sizes, row.line(), faults);
+    shop.sizes.push_back(found);
+  }
+  if (shop.sizes.empty() || shop.sizes.size() > kMostShopSizes) {
+    faults.add(table.line(), fmt::format("sizes.shop.sizes must have 1 to {} rows, such as {{ size "
+                                         "= \"42\", longest_foot_mm = 268 }}",
+                                         kMostShopSizes));
+  }
+  table.finish();
+  return shop;
+}
+
+void read_sizes(SettingsTable& table, SizeRules& sizes, SettingsFaults& faults) {
+  table.read("allowance_mm", sizes.allowance_mm, 0, 40);
+  for (const toml::table* shop : table.tables("shop")) {
+    SettingsTable one(*shop, "sizes.shop", faults);
+    sizes.shop_tables.push_back(read_shop_table(one, faults));
+  }
+  if (sizes.shop_tables.size() > kMostShopTables) {
+    faults.add(table.line(), fmt::format("there are {} [[sizes.shop]] tables, more than {}",
+                                         sizes.shop_tables.size(), kMostShopTables));
+  }
+}
+
 void read_log(SettingsTable& table, LogSettings& log) {
   table.choose("level", log.level,
                {{"debug", LogLevel::kDebug},
@@ -137,6 +188,7 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });
   section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });
+  section(root, "sizes", faults, [&](Table& table) { read_sizes(table, settings.sizes, faults); });
   section(root, "control", faults,
           [&](Table& table) { table.read("socket", settings.control.socket, base); });
   section(root, "log", faults, [&](Table& table) { read_log(table, settings.log); });

@@ -19,6 +19,7 @@ constexpr const char* kExamples = R"(Examples:
   instep measure foot.ply                                       all measures of a foot
   instep simulate --out visit && instep replay visit            the whole chain, no hardware
   instep scan                                                   measure who stands on the station
+  instep repeat scans/*                                         how well repeated scans agree
   instep doctor                                                 what is wrong with this machine
   instep girth --help                                           all about one command
 
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
     instep::add_cloud_commands(app, exit_code);
     instep::add_recording_commands(app, exit_code);
     instep::add_station_commands(app, exit_code);
+    instep::add_repeat_command(app, exit_code);
     instep::add_doctor_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

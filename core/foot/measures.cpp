@@ -120,7 +120,8 @@ Result<Measure> take(const GirthRule& rule, const FootScan& foot, const MeasureO
   Measure measure;
   measure.id = rule.id;
   measure.value_mm = girth->stretched_mm;
-  measure.u95_mm = girth->stretched_u95_mm;
+  // The tape's own interval is left out: alone, without that of the landmarks that place the tape,
+  // it would promise too much.
   measure.plane = *plane;
   measure.definition = rule.definition;
   measure.warnings = doubts(foot, rule.landmarks);

@@ -89,6 +89,9 @@ Result<void> check_cloud(const PointCloud& cloud) {
     if (cloud.has_normals() && !(std::abs(cloud.normals[i].norm() - 1.0) < 1e-3)) {
       return bad_point(i, "has a normal that is not of unit length");
     }
+    if (!cloud.view_directions.empty() && !cloud.view_directions[i].allFinite()) {
+      return bad_point(i, "has a view direction that is no number");
+    }
     if (cloud.has_sigma() && !(cloud.sigma_mm[i] > 0.0 && cloud.sigma_mm[i] <= kLargestSigmaMm)) {
       return bad_point(i, "has a sigma that is not above 0, or above 100 mm");
     }

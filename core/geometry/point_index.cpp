@@ -13,11 +13,11 @@ namespace {
 constexpr std::size_t kPointsPerLeaf = 16;
 
 struct PointsAdaptor {
-  const std::vector<Eigen::Vector3d>* points;
+  std::vector<Eigen::Vector3d> points;
 
-  std::size_t kdtree_get_point_count() const { return points->size(); }
+  std::size_t kdtree_get_point_count() const { return points.size(); }
   double kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return (*points)[index][static_cast<Eigen::Index>(axis)];
+    return points[index][static_cast<Eigen::Index>(axis)];
   }
   template <class Box>
   bool kdtree_get_bbox(Box&) const {
@@ -50,23 +50,23 @@ void order(std::vector<PointIndex::Neighbour>& found) {
 }  // namespace
 
 struct PointIndex::Tree {
-  explicit Tree(const std::vector<Eigen::Vector3d>& points)
-      : adaptor{&points},
+  explicit Tree(std::vector<Eigen::Vector3d> points)
+      : adaptor{std::move(points)},
         tree(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(kPointsPerLeaf)) {}
 
   PointsAdaptor adaptor;
   KdTree tree;
 };
 
-PointIndex::PointIndex(const std::vector<Eigen::Vector3d>& points)
-    : tree_(std::make_unique<Tree>(points)) {}
+PointIndex::PointIndex(std::vector<Eigen::Vector3d> points)
+    : tree_(std::make_unique<Tree>(std::move(points))) {}
 PointIndex::~PointIndex() = default;
 PointIndex::PointIndex(PointIndex&&) noexcept = default;
 PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
 
 std::vector<PointIndex::Neighbour> PointIndex::nearest(const Eigen::Vector3d& query,
                                                        std::size_t count) const {
-  count = std::min(count, tree_->adaptor.points->size());
+  count = std::min(count, tree_->adaptor.points.size());
   std::vector<Neighbour> found;
   if (count == 0) return found;
   std::vector<std::size_t> indices(count);
@@ -82,8 +82,19 @@ std::vector<PointIndex::Neighbour> PointIndex::nearest(const Eigen::Vector3d& qu
 
 std::vector<PointIndex::Neighbour> PointIndex::within(const Eigen::Vector3d& query,
                                                       double radius) const {
+  auto found = around(query, radius);
+  order(found);
+  return found;
+}
+
+const std::vector<Eigen::Vector3d>& PointIndex::points() const {
+  return tree_->adaptor.points;
+}
+
+std::vector<PointIndex::Neighbour> PointIndex::around(const Eigen::Vector3d& query,
+                                                      double radius) const {
   std::vector<Neighbour> found;
-  if (tree_->adaptor.points->empty()) return found;
+  if (tree_->adaptor.points.empty()) return found;
   // nanoflann leaves out points at exactly the squared radius.
   const double squared_radius = std::nextafter(radius * radius, radius * radius + 1.0);
   std::vector<std::pair<std::size_t, double>> raw;
@@ -91,7 +102,6 @@ std::vector<PointIndex::Neighbour> PointIndex::within(const Eigen::Vector3d& que
                            nanoflann::SearchParams(32, 0.0F, false));
   found.reserve(raw.size());
   for (const auto& [index, squared] : raw) found.push_back({index, squared});
-  order(found);
   return found;
 }
 

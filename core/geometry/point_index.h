@@ -9,9 +9,9 @@ namespace instep {
 
 /// Finds neighbours among points in space (a k-d tree).
 ///
-/// Borrows the points: they must outlive the index and stay where they are. All coordinates must be
-/// finite. Building costs O(n log n); queries O(log n + found) on typical data, and may be made
-/// from many threads at once. Duplicates are allowed.
+/// Keeps the points itself. All coordinates must be finite. Building costs O(n log n); queries
+/// O(log n + found) on typical data, and may be made from many threads at once. Duplicates are
+/// allowed.
 class PointIndex {
  public:
   struct Neighbour {
@@ -19,7 +19,7 @@ class PointIndex {
     double squared_distance = 0.0;
   };
 
-  explicit PointIndex(const std::vector<Eigen::Vector3d>& points);
+  explicit PointIndex(std::vector<Eigen::Vector3d> points);
   ~PointIndex();
   PointIndex(PointIndex&&) noexcept;
   PointIndex& operator=(PointIndex&&) noexcept;
@@ -30,6 +30,12 @@ class PointIndex {
 
   /// All points within `radius` (inclusive), nearest first, ordered as above.
   std::vector<Neighbour> within(const Eigen::Vector3d& query, double radius) const;
+
+  /// The same in no order but always the same one for the same list of points: quicker where many
+  /// are found.
+  std::vector<Neighbour> around(const Eigen::Vector3d& query, double radius) const;
+
+  const std::vector<Eigen::Vector3d>& points() const;
 
  private:
   struct Tree;

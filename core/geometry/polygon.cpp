@@ -1,6 +1,7 @@
 #include "core/geometry/polygon.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace instep {
@@ -54,6 +55,12 @@ double signed_area(const std::vector<Eigen::Vector2d>& polygon) {
     twice += cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   }
   return 0.5 * twice;
+}
+
+bool is_ring(const std::vector<Eigen::Vector2d>& polygon) {
+  constexpr double kFlattest = 1e-6;
+  const double length = perimeter(polygon);
+  return polygon.size() >= 3 && std::abs(signed_area(polygon)) > kFlattest * length * length;
 }
 
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,

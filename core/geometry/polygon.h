@@ -17,6 +17,10 @@ double perimeter(const std::vector<Eigen::Vector2d>& polygon);
 /// Area of a closed polygon, positive if it runs counter-clockwise.
 double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 
+/// True if a polygon is more than a line or a point: it encloses more than a millionth of the
+/// square of its length. Of many points give the hull.
+bool is_ring(const std::vector<Eigen::Vector2d>& polygon);
+
 /// The part of a closed polygon where `inward` . p >= `level`, the cut edges joined by straight
 /// lines (Sutherland and Hodgman). Empty if nothing is left.
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,

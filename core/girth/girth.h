@@ -20,6 +20,10 @@ struct GirthOptions {
   std::optional<double> sigma_mm;
 };
 
+/// The gate through which the options of every girth pass: a noise above 0 and at most
+/// kLargestSigmaMm, or kInvalidInput.
+Result<void> check_options(const GirthOptions& options);
+
 /// The length of a tape laid round a body in one plane, and how it came about.
 struct Girth {
   /// Tape that bridges hollows: the perimeter of the section's convex hull.
@@ -48,9 +52,10 @@ struct Girth {
 /// Refuses, with the reason, where no closed section can be told from the points: too few points
 /// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput).
 /// A section of which more than a quarter has no points is refused; a narrower hole is bridged by
-/// the surface and reported. Strays and loops that far fewer points make are left out; of several
+/// the surface and reported; so is a section whose 95 % interval is wider than a tenth of it to
+/// each side. Strays and loops that far fewer points make are left out; of several
 /// loops the one round the largest area counts, and the others are named in a warning. A crease
-/// such as a last's featherline stays sharp. It gives no interval.
+/// such as a last's featherline stays sharp. The intervals are LengthDoubt's.
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
@@ -65,12 +70,21 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
 ///
 /// What the paper leaves open is chosen in girth_by_paper.cpp. It has no interval, and a sigma that
 /// is known changes nothing. Refuses with kInsufficientData where the surface is torn so that no
-/// ring is left, with kInvalidInput where the plane misses the cloud.
+/// ring is left, or swells far beyond its points, or where the points crowd in a part of the ring,
+/// with kInvalidInput where the plane misses the cloud or only touches it. Warns where the contact
+/// length jumps to and fro between bodies, strays or noise.
 Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
                              const GirthOptions& options = {});
 
 /// The paper's Method 1 (section 2.1): the points near the plane, projected on it, and their convex
 /// hull. Knows no skin, so contact equals stretched, with a warning; has no interval.
+///
+/// Goes round whatever lies at the plane: where points lie deep inside the hull (hollows, another
+/// body, strays that stick out), where the skin leans or the points are few, so that a wider band
+/// has a longer hull, and where more than a tenth of the hull has no points, a warning says so.
+/// Refuses with kInvalidInput a plane that misses the cloud or only touches it, with
+/// kInsufficientData points that form no ring, that crowd in a part of it, or that leave more than
+/// a quarter of it open. O(n), and little memory beside the cloud.
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
@@ -90,6 +104,7 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
 /// Cuts the faces that a mesh already has; no surface is fitted. All loops are chained; of several
 /// the one round the largest area counts and the others are named in a warning. An open section is
 /// bridged for the stretched length, and the contact length is that of the pieces, with a warning.
+/// What encloses no area is refused.
 Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane);
 
 }  // namespace instep

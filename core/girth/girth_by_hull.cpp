@@ -1,34 +1,123 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
 
-#include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
+#include "core/girth/plane_slab.h"
 #include "core/girth/section_gaps.h"
 
 namespace instep {
 namespace {
 
-/// A band that holds fewer points is widened; one that is this many spacings wide and still holds
-/// fewer tells that the plane misses the cloud.
+/// Half-width of the band: half a spacing, so that about one row of points is in it. A band that
+/// holds fewer points is widened; one that is this many spacings wide and still holds fewer tells
+/// that the plane misses the cloud.
 constexpr std::size_t kFewestBandPoints = 10;
+constexpr double kNarrowestBandInSpacings = 0.5;
 constexpr double kWidestBandInSpacings = 4.0;
 
-/// Points whose distance from the plane is at most the half-width. It starts at half a spacing, so
-/// that about one row of points is in the band.
-std::vector<std::size_t> band(const PointCloud& cloud, const TapePlane& plane, double spacing) {
-  std::vector<std::size_t> indices;
-  for (double half_width = 0.5 * spacing; half_width <= kWidestBandInSpacings * spacing;
-       half_width *= 1.25) {
-    indices.clear();
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-      if (std::abs(plane.distance(cloud.positions[i])) <= half_width) indices.push_back(i);
+/// Of a hull without points under it: more is refused, and less is worth a warning.
+constexpr double kWidestGap = 0.25;
+constexpr double kNotableGap = 0.1;
+/// A hull this much shorter than a tape round all that lies about the plane, up to this part of the
+/// cloud's size from it, goes round a crowd in it.
+constexpr double kCrowd = 0.5;
+constexpr double kAbout = 0.01;
+/// Part of the cloud's size at which the neighbourhood begins to be widened.
+constexpr double kThinnest = 1e-4;
+/// How much longer the hull of twice the band may be, if its width does not matter.
+constexpr double kSteadyGrowth = 0.01;
+/// Points so deep inside, against the width of the hull, are in a hollow or of another body; and
+/// how many of them there have to be.
+constexpr double kDeep = 0.05;
+constexpr double kManyDeep = 0.02;
+
+/// What lies about the plane, and how far apart its points are.
+struct Neighbourhood {
+  PlaneSlab slab;
+  double spacing = 0.0;
+  double tape_about_mm = 0.0;  ///< round all that is near the plane for the size of the cloud
+};
+
+/// Widens the slab until it is wider than any band.
+Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane& plane) {
+  Eigen::AlignedBox3d box;
+  for (const auto& position : cloud.positions) box.extend(position);
+  const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  for (double half_width = kThinnest * size; half_width < size; half_width *= 1.4) {
+    PlaneSlab slab = slab_of(cloud, plane, half_width);
+    if (slab.places.size() < kFewestBandPoints) continue;
+    const double spacing = median_spacing(slab.places, PointIndex(slab.places));
+    if (half_width >= kWidestBandInSpacings * spacing) {
+      return Neighbourhood{std::move(slab), spacing, tape_round(cloud, plane, kAbout * size)};
     }
-    if (indices.size() >= kFewestBandPoints) return indices;
   }
-  indices.clear();
-  return indices;
+  return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
+              "give control points on the body, or a denser cloud");
+}
+
+PlaneSlab within(const PlaneSlab& slab, double half_width) {
+  PlaneSlab band;
+  for (std::size_t i = 0; i < slab.places.size(); ++i) {
+    if (std::abs(slab.places[i].z()) > half_width) continue;
+    band.indices.push_back(slab.indices[i]);
+    band.places.push_back(slab.places[i]);
+  }
+  return band;
+}
+
+/// Half-width of the band in which enough points lie.
+double half_width_of_band(const Neighbourhood& about) {
+  double half_width = kNarrowestBandInSpacings * about.spacing;
+  while (1.25 * half_width <= kWidestBandInSpacings * about.spacing &&
+         within(about.slab, half_width).places.size() < kFewestBandPoints) {
+    half_width *= 1.25;
+  }
+  return half_width;
+}
+
+/// How far inside a hull a point lies.
+double depth(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
+    const Eigen::Vector2d arm = point - hull[i];
+    least = std::min(least, along.x() * arm.y() - along.y() * arm.x());
+  }
+  return least;
+}
+
+bool has_much_inside(const std::vector<Eigen::Vector2d>& hull, const PlaneSlab& band) {
+  const double deep = kDeep * perimeter(hull) / std::numbers::pi;
+  const auto inside = std::count_if(band.places.begin(), band.places.end(), [&](const auto& place) {
+    return depth(hull, place.template head<2>()) > deep;
+  });
+  return static_cast<double>(inside) > kManyDeep * static_cast<double>(band.places.size());
+}
+
+void warn(const PlaneSlab& band, double length_of_twice, double gap, Girth& girth) {
+  girth.warnings.push_back("a hull of points knows no skin: contact is given as stretched");
+  if (gap > kNotableGap * girth.stretched_mm) {
+    girth.warnings.push_back("a part of the section without points was bridged");
+  }
+  if (length_of_twice > (1.0 + kSteadyGrowth) * girth.stretched_mm) {
+    char growth[32];
+    std::snprintf(growth, sizeof growth, "%.1f", length_of_twice - girth.stretched_mm);
+    girth.warnings.push_back("the hull of the points up to twice as far from the plane is " +
+                             std::string(growth) + " mm longer: they are few, or the skin leans");
+  }
+  if (has_much_inside(girth.contour, band)) {
+    girth.warnings.push_back(
+        "points lie deep inside their hull, which bridges hollows or goes round stray points or "
+        "more than one body");
+  }
 }
 
 }  // namespace
@@ -36,31 +125,39 @@ std::vector<std::size_t> band(const PointCloud& cloud, const TapePlane& plane, d
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
-  std::vector<Eigen::Vector3d> places;
-  for (const std::size_t i : distinct_points(cloud.positions)) places.push_back(cloud.positions[i]);
-  if (places.size() < kFewestBandPoints) {
-    return fail(ErrorCode::kInsufficientData, "the cloud has fewer than ten points", "scan again");
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
+  const auto about = neighbourhood_of(cloud, plane);
+  if (!about) return tl::make_unexpected(about.error());
+  if (!is_cut(about->slab)) {
+    return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
+                "give control points that cut the body");
   }
-  const double spacing = median_spacing(places, PointIndex(places));
-  const auto indices = band(cloud, plane, spacing);
-  std::vector<Eigen::Vector2d> points, seen;
-  for (const std::size_t index : indices) {
-    points.push_back(plane.project(cloud.positions[index]));
-    if (cloud.was_seen(index)) seen.push_back(points.back());
-  }
+  const double half_width = half_width_of_band(*about);
+  const PlaneSlab band = within(about->slab, half_width);
   Girth girth;
-  girth.contour = convex_hull(std::move(points));
+  girth.contour = hull_of(band);
   const double length = perimeter(girth.contour);
-  if (girth.contour.size() < 3 || !(signed_area(girth.contour) > 1e-6 * length * length)) {
-    return fail(ErrorCode::kInvalidInput, "no ring of points lies at the tape plane",
-                "give control points on the body");
+  if (!is_ring(girth.contour) || length < kCrowd * about->tape_about_mm) {
+    return fail(ErrorCode::kInsufficientData, "the points at the tape plane form no ring",
+                "give control points on the body, or leave out points that repeat each other");
+  }
+  std::vector<Eigen::Vector2d> points, seen;
+  for (std::size_t i = 0; i < band.places.size(); ++i) {
+    points.emplace_back(band.places[i].head<2>());
+    if (cloud.was_seen(band.indices[i])) seen.push_back(points.back());
+  }
+  const double gap = largest_gap(girth.contour, points);
+  if (gap > kWidestGap * length) {
+    return fail(ErrorCode::kInsufficientData,
+                "more than a quarter of the hull at the tape plane has no points",
+                "scan the body all round, or use --method rbf");
   }
   girth.stretched_mm = girth.contact_mm = length;
   girth.points = cloud.size();
-  girth.band_points = indices.size();
+  girth.band_points = band.places.size();
   girth.sigma_mm = options.sigma_mm.value_or(0.0);
   girth.largest_gap_mm = largest_gap(girth.contour, seen);
-  girth.warnings.push_back("a hull of points knows no skin: contact is given as stretched");
+  warn(band, perimeter(hull_of(within(about->slab, 2.0 * half_width))), gap, girth);
   return girth;
 }
 

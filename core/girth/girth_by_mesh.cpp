@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/geometry/polygon.h"
+#include "core/girth/crowd_average.h"
 #include "core/girth/girth.h"
 #include "core/girth/loop_choice.h"
 #include "core/girth/mesh_section.h"
@@ -21,6 +22,9 @@ constexpr double kMeshedInSpacings = 4.0;
 constexpr double kWidestBridge = 0.25;
 /// A stretch without a seen point that is worth a warning, in spacings.
 constexpr double kNotableGapInSpacings = 6.0;
+/// A hole in the mesh, in spacings, that is worth one too if it is this part of a small tape.
+constexpr double kHoleInSpacings = 4.0;
+constexpr double kNotableHole = 0.05;
 /// Noise up to this part of the spacing hardly roughens a mesh.
 constexpr double kHarmlessNoise = 0.05;
 /// A surface is cut into few pieces; what falls into more is a crowd of points without one.
@@ -35,11 +39,12 @@ struct MeshedBand {
 MeshedBand mesh_of(const PlaneBand& band) {
   std::vector<Eigen::Vector3d> places;
   std::vector<bool> seen;
-  for (std::size_t i = 0; i < band.points.size(); ++i) {
-    const auto& place = band.points[i].position;
-    if (std::abs(place.z()) > kMeshedInSpacings * band.spacing) continue;
+  const CrowdAverage average = average_crowds(band);
+  for (std::size_t i = 0; i < average.points.size(); ++i) {
+    const auto& place = average.points[i].position;
+    if (std::abs(place.z()) > kMeshedInSpacings * band.grain) continue;
     places.push_back(place);
-    seen.push_back(band.seen[i]);
+    seen.push_back(average.seen[i]);
   }
   return {grow_mesh(places), std::move(seen)};
 }
@@ -99,6 +104,7 @@ double gap_under(const std::vector<Eigen::Vector2d>& contour, const PlaneBand& b
 Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto band = band_at(cloud, plane, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
   const MeshedBand meshed = mesh_of(*band);
@@ -106,9 +112,14 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   if (!lines) return tl::make_unexpected(lines.error());
 
   Girth girth;
+  double seam = 0.0;  // of the loop that will be chosen
+  double largest_area = 0.0;
   std::vector<std::vector<Eigen::Vector2d>> loops;
   for (auto& line : *lines) {
     if (!line.closed) continue;
+    const double area = std::abs(signed_area(line.points));
+    if (area > largest_area) seam = line.widest_seam;
+    largest_area = std::max(largest_area, area);
     for (auto& point : line.points) point = band->to_plane(point);
     loops.push_back(std::move(line.points));
   }
@@ -116,13 +127,16 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   girth.contact_mm = perimeter(girth.contour);
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
   girth.points = cloud.size();
-  girth.band_points = band->used;
+  girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
-  girth.largest_gap_mm = gap_under(girth.contour, *band, meshed);
-  if (girth.largest_gap_mm > kNotableGapInSpacings * band->unit_mm * band->spacing) {
+  girth.largest_gap_mm = std::max(gap_under(girth.contour, *band, meshed), band->unit_mm * seam);
+  const double spacing = band->unit_mm * band->grain;
+  if (girth.largest_gap_mm > kNotableGapInSpacings * spacing ||
+      band->unit_mm * seam >
+          std::max(kHoleInSpacings * spacing, kNotableHole * girth.stretched_mm)) {
     girth.warnings.push_back("a part of the section that no camera saw was bridged");
   }
-  if (band->sigma > kHarmlessNoise * band->spacing) {
+  if (band->sigma > kHarmlessNoise * band->grain) {
     girth.warnings.push_back(
         "a mesh follows the noise of its points, so both lengths are too long");
   }

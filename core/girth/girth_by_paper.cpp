@@ -30,37 +30,50 @@ constexpr std::size_t kLineNeighbours = 10;
 constexpr double kOffLine = 0.1;
 /// How much the circle of step 4 grows each time.
 constexpr double kCircleGrowth = 1.25;
+constexpr std::size_t kMostInCircle = 60;
 
 constexpr std::size_t kFewestPoints = 10;
-/// Neighbours from which the spacing is told.
+/// Neighbours from which the spacing is told, and about how many points are asked.
 constexpr std::size_t kSpacingNeighbours = 8;
+constexpr std::size_t kSpacingPlaces = 4000;
+/// The band is looked for in slabs of this part of the cloud's size, and so many times this much
+/// thinner or thicker ones.
+constexpr double kUsualSlab = 0.005;
+constexpr double kSlabGrowth = 1.4;
+constexpr int kThinnerSlabs = 12;
+/// How far from the plane lies what is about it, against the cloud's size.
+constexpr double kAbout = 0.01;
 /// The ring is lost where less than this part of the initial points leads to an intersection, or
 /// where a longer part of it has none.
 constexpr double kFewestMet = 0.5;
 constexpr double kWidestGap = 0.25;
+/// A part without an intersection that is worth a warning.
+constexpr double kNotableGap = 0.1;
+/// A ring this much shorter than a tape round the neighbourhood goes round a crowd in it.
+constexpr double kCrowd = 0.5;
+/// A ring this much longer than a tape round all points of S swells where nothing was seen; and
+/// what of it is worth a warning.
+constexpr double kSwollen = 1.25;
+constexpr double kNotableSwelling = 1.05;
+/// Contact against stretched length; no foot's is so long.
+constexpr double kJumping = 1.2;
 
 /// The paper's point set S: the points near the tape plane, in the plane's frame.
 struct PartialCloud {
-  std::vector<Eigen::Vector3d> places;
-  std::vector<bool> seen;
+  PlaneSlab slab;
   double half_width = 0.0;
+  /// The shortest tape round the points up to a hundredth of the cloud's size from the plane.
+  double tape_about_mm = 0.0;
 };
 
-PartialCloud points_within(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  PlaneSlab slab = slab_of(cloud, plane, half_width);
-  PartialCloud part;
-  part.half_width = half_width;
-  for (const std::size_t i : slab.indices) part.seen.push_back(cloud.was_seen(i));
-  part.places = std::move(slab.places);
-  return part;
-}
-
-/// Side of the square that a point has for itself; the middle one over all points.
+/// Side of the square that a point has for itself; the middle one over points spread evenly over
+/// the list.
 double spacing_of(const std::vector<Eigen::Vector3d>& places) {
   const PointIndex index(places);
   std::vector<double> sides;
-  for (const auto& place : places) {
-    const auto nearest = index.nearest(place, kSpacingNeighbours + 1);
+  const std::size_t stride = std::max<std::size_t>(1, places.size() / kSpacingPlaces);
+  for (std::size_t i = 0; i < places.size(); i += stride) {
+    const auto nearest = index.nearest(places[i], kSpacingNeighbours + 1);
     sides.push_back(std::sqrt(std::numbers::pi * nearest.back().squared_distance /
                               static_cast<double>(nearest.size() - 1)));
   }
@@ -76,11 +89,18 @@ double extent(const PointCloud& cloud) {
 /// Widens the band until it is as many spacings wide as it has to be.
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud);
-  for (double half_width = 0.005 * size; half_width < 0.5 * size; half_width *= 1.4) {
-    PartialCloud part = points_within(cloud, plane, half_width);
-    if (part.places.size() < kFewestPoints) continue;
-    const double wanted = kBandInSpacings * spacing_of(part.places);
-    if (half_width >= wanted && wanted > 0.0) return points_within(cloud, plane, wanted);
+  const double thinnest = kUsualSlab * std::pow(kSlabGrowth, -kThinnerSlabs);
+  for (double half_width = thinnest * size; half_width < 0.5 * size; half_width *= kSlabGrowth) {
+    const PlaneSlab slab = slab_of(cloud, plane, half_width);
+    if (slab.places.size() < kFewestPoints) continue;
+    const double wanted = kBandInSpacings * spacing_of(slab.places);
+    if (!(half_width >= wanted && wanted > 0.0)) continue;
+    if (!is_cut(slab)) {
+      return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
+                  "give control points that cut the body");
+    }
+    return PartialCloud{slab_of(cloud, plane, wanted), wanted,
+                        tape_round(cloud, plane, kAbout * size)};
   }
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");
@@ -133,17 +153,18 @@ class SectionOfSurface {
   }
 
  private:
-  /// Step 4: the points in a circle that grows until it holds K of them and the point itself.
+  /// Step 4: the points in a circle that grows until it holds K of them and the point itself; the
+  /// nearest ones of a crowd that is in it from the beginning.
   std::vector<Eigen::Vector2d> circle(const PointIndex& index, const Eigen::Vector3d& centre,
                                       double radius) const {
-    const std::size_t wanted = std::min(kLineNeighbours + 1, flat_.size());
-    auto inside = index.within(centre, radius);
-    while (inside.size() < wanted) {
-      radius *= kCircleGrowth;
-      inside = index.within(centre, radius);
-    }
+    const auto nearest = index.nearest(centre, kMostInCircle);
+    const auto& last = nearest[std::min(kLineNeighbours + 1, nearest.size()) - 1];
+    while (radius * radius < last.squared_distance) radius *= kCircleGrowth;
     std::vector<Eigen::Vector2d> points;
-    for (const auto& neighbour : inside) points.emplace_back(flat_[neighbour.index].head<2>());
+    for (const auto& neighbour : nearest) {
+      if (neighbour.squared_distance > radius * radius) break;
+      points.emplace_back(flat_[neighbour.index].head<2>());
+    }
     return points;
   }
 
@@ -191,11 +212,12 @@ std::vector<Eigen::Vector2d> ordered_round(const std::vector<Eigen::Vector2d>& h
 }
 
 /// Where the seen points near the plane lie on it.
-std::vector<Eigen::Vector2d> seen_within(const PartialCloud& part, double distance) {
+std::vector<Eigen::Vector2d> seen_within(const PointCloud& cloud, const PlaneSlab& slab,
+                                         double distance) {
   std::vector<Eigen::Vector2d> places;
-  for (std::size_t i = 0; i < part.places.size(); ++i) {
-    if (part.seen[i] && std::abs(part.places[i].z()) <= distance) {
-      places.emplace_back(part.places[i].head<2>());
+  for (std::size_t i = 0; i < slab.places.size(); ++i) {
+    if (cloud.was_seen(slab.indices[i]) && std::abs(slab.places[i].z()) <= distance) {
+      places.emplace_back(slab.places[i].head<2>());
     }
   }
   return places;
@@ -207,43 +229,71 @@ tl::unexpected<Error> ring_lost() {
               "use --method rbf, or give a denser or more even cloud");
 }
 
+/// The shortest tape round the intersections, against what else is known of the ring.
+struct Ring {
+  std::vector<Eigen::Vector2d> hull;
+  double length = 0.0;
+  double gap = 0.0;               ///< longest part without an intersection
+  double round_the_points = 0.0;  ///< tape round all points of S
+};
+
+bool is_lost(const Ring& ring, const PartialCloud& part) {
+  return !is_ring(ring.hull) || ring.gap > kWidestGap * ring.length ||
+         ring.length < kCrowd * part.tape_about_mm ||
+         ring.length > kSwollen * ring.round_the_points;
+}
+
+void warn(const Ring& ring, std::size_t initial, std::size_t met, Girth& girth) {
+  girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
+  if (met < initial) {
+    girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(initial - met) +
+                             " of " + std::to_string(initial) + " points");
+  }
+  if (ring.length > kNotableSwelling * ring.round_the_points) {
+    girth.warnings.push_back("the surface swells beyond all points near the plane");
+  }
+  if (ring.gap > kNotableGap * ring.length) {
+    girth.warnings.push_back("a part of the section without points was bridged");
+  }
+  if (girth.contact_mm > kJumping * girth.stretched_mm) {
+    girth.warnings.push_back(
+        "the contact length jumps to and fro: there are stray points, noise, hollows or more than "
+        "one body, which the paper's method takes for one ring");
+  }
+}
+
 }  // namespace
 
 Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
                              const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto part = partial_cloud(cloud, plane);
   if (!part) return tl::make_unexpected(part.error());
-  const RigidTransform principal = principal_from_input(part->places);
+  const RigidTransform principal = principal_from_input(part->slab.places);
   std::vector<Eigen::Vector3d> turned;
-  for (const auto& place : part->places) turned.emplace_back(principal * place);
+  for (const auto& place : part->slab.places) turned.emplace_back(principal * place);
   const auto surface = OctreeSurface::reconstruct(turned);
   if (!surface) return tl::make_unexpected(surface.error());
 
   const SectionOfSurface section(*surface, principal, part->half_width);
   const auto met = section.intersections();
   const auto hull = convex_hull(met);
-  const double length = perimeter(hull);
-  const bool is_ring = hull.size() >= 3 && signed_area(hull) > 1e-6 * length * length;
-  if (!is_ring ||
-      static_cast<double>(met.size()) < kFewestMet * static_cast<double>(section.initial()) ||
-      largest_gap(hull, met) > kWidestGap * length) {
+  const Ring ring{hull, perimeter(hull), largest_gap(hull, met), perimeter(hull_of(part->slab))};
+  const auto initial = static_cast<double>(section.initial());
+  if (static_cast<double>(met.size()) < kFewestMet * initial || is_lost(ring, *part)) {
     return ring_lost();
   }
 
   Girth girth;
-  girth.stretched_mm = length;
+  girth.stretched_mm = ring.length;
   girth.contour = ordered_round(hull, met);
   girth.contact_mm = perimeter(girth.contour);
   girth.points = cloud.size();
-  girth.band_points = part->places.size();
+  girth.band_points = part->slab.places.size();
   girth.sigma_mm = options.sigma_mm.value_or(0.0);
-  girth.largest_gap_mm = largest_gap(hull, seen_within(*part, section.threshold()));
-  girth.warnings.push_back("the paper's method takes noise for shape: for a girth use rbf");
-  if (const std::size_t missed = section.initial() - met.size(); missed > 0) {
-    girth.warnings.push_back("eq. 10 found no intersection for " + std::to_string(missed) + " of " +
-                             std::to_string(section.initial()) + " points");
-  }
+  girth.largest_gap_mm = largest_gap(hull, seen_within(cloud, part->slab, section.threshold()));
+  warn(ring, section.initial(), met.size(), girth);
   return girth;
 }
 

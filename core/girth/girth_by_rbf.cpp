@@ -3,97 +3,131 @@
 #include <utility>
 
 #include "core/geometry/polygon.h"
+#include "core/girth/contour_index.h"
 #include "core/girth/contour_trace.h"
 #include "core/girth/girth.h"
+#include "core/girth/length_doubt.h"
 #include "core/girth/loop_choice.h"
 #include "core/girth/plane_band.h"
-#include "core/girth/section_gaps.h"
+#include "core/girth/section_evidence.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {
 namespace {
 
-/// Steps in spacings: short ones place the patches evenly, longer ones read the finished field.
+/// Steps in grains: short ones place the patches evenly, longer ones read the finished field.
 constexpr double kDraftStep = 0.4;
 constexpr double kReadingStep = 0.6;
-/// Points further from the contour or the plane than this many spacings are no evidence for it.
-constexpr double kEvidenceInSpacings = 2.5;
+/// Points further from the contour or the plane than this many grains are no evidence for it.
+constexpr double kEvidenceInGrains = 2.5;
 /// The surface bridges no wider hole, against the length of the contour.
 constexpr double kWidestBridge = 0.25;
 /// Of a section, against the width of the body.
 constexpr double kLongestSection = 6.0;
-/// A stretch without a seen point that is worth a warning, in spacings.
-constexpr double kNotableGapInSpacings = 6.0;
+/// A stretch without a seen point that is worth a warning, in grains.
+constexpr double kNotableGapInGrains = 6.0;
 /// Chords are refined so that the hull loses less than 0.001 mm to them.
 constexpr int kPiecesOfChord = 8;
 /// Points along a loop, against those along the best founded one.
 constexpr double kLeastFounded = 0.25;
+/// Half of a 95 % interval that leaves nothing to be told, and one that is worth a warning, against
+/// the length.
+constexpr double kMostDoubt = 0.1;
+constexpr double kNotableDoubt = 0.02;
+/// A share of the points near the plane, off all loops, that is worth a warning.
+constexpr double kNotableUnexplained = 0.02;
+/// Noise beyond what depth cameras have, against the section.
+constexpr double kNotableNoise = 0.012;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 
-bool is_near(const Contour& contour, const Eigen::Vector2d& point, double distance) {
-  return std::any_of(contour.points.begin(), contour.points.end(),
-                     [&](const auto& corner) { return (corner - point).norm() < distance; });
-}
+/// A loop of the section with what is known of it.
+struct Loop {
+  Contour contour;
+  ContourIndex index;
+
+  explicit Loop(Contour traced) : contour(std::move(traced)), index(contour) {}
+};
 
 /// Follows every loop that starts near a point on the plane and round which the body lies inside.
-std::vector<Contour> trace_all(const PlaneBand& band, BlendedSurface& surface) {
-  std::vector<Contour> contours;
+std::vector<Loop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
+  std::vector<Loop> loops;
   int starts = 0;
   for (const auto& point : band.points) {
     if (std::abs(point.position.z()) > band.spacing) continue;
     const Eigen::Vector2d start = point.position.head<2>();
-    const bool known = std::any_of(contours.begin(), contours.end(), [&](const Contour& contour) {
-      return is_near(contour, start, kEvidenceInSpacings * band.spacing);
+    const bool known = std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+      return loop.index.foot_of(start).distance < kEvidenceInGrains * band.grain;
     });
     if (known) continue;
-    if (++starts > kMostStarts || contours.size() >= kMostLoops) break;
+    if (++starts > kMostStarts || loops.size() >= kMostLoops) break;
     // The first round places the patches, the second reads the finished field.
     const auto draft =
-        trace_contour(surface, start, kDraftStep * band.spacing, kWidestBridge, kLongestSection);
+        trace_contour(surface, start, kDraftStep * band.grain, kWidestBridge, kLongestSection);
     if (!draft) continue;
-    auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.spacing,
+    auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.grain,
                                  kWidestBridge, kLongestSection);
-    if (contour && signed_area(contour->points) > 0.0) contours.push_back(std::move(*contour));
+    if (contour && signed_area(contour->points) > 0.0) loops.emplace_back(std::move(*contour));
   }
-  return contours;
-}
-
-/// Places on the plane of the points that are evidence for the contour there.
-std::vector<Eigen::Vector2d> evidence(const PlaneBand& band, const Contour& contour,
-                                      bool only_seen) {
-  const double near = kEvidenceInSpacings * band.spacing;
-  std::vector<Eigen::Vector2d> places;
-  for (std::size_t i = 0; i < band.points.size(); ++i) {
-    const auto& position = band.points[i].position;
-    if (only_seen && !band.seen[i]) continue;
-    if (std::abs(position.z()) > near) continue;
-    if (is_near(contour, position.head<2>(), near)) places.push_back(position.head<2>());
-  }
-  return places;
+  return loops;
 }
 
 /// Leaves out loops that far fewer points make than the best founded one, for their length: strays
 /// can lie so that a surface passes through them.
-void drop_unfounded(const PlaneBand& band, std::vector<Contour>& contours) {
+void drop_unfounded(const PlaneBand& band, std::vector<Loop>& loops) {
+  if (loops.size() < 2) return;
   std::vector<double> densities;
-  for (const auto& contour : contours) {
-    const auto points = static_cast<double>(evidence(band, contour, false).size());
-    densities.push_back(points / contour.length());
+  for (const auto& loop : loops) {
+    const auto evidence = evidence_for(band, loop.index, kEvidenceInGrains * band.grain);
+    densities.push_back(static_cast<double>(evidence.points) / loop.index.length());
   }
   const double best = *std::max_element(densities.begin(), densities.end());
-  std::vector<Contour> founded;
-  for (std::size_t i = 0; i < contours.size(); ++i) {
-    if (densities[i] >= kLeastFounded * best) founded.push_back(std::move(contours[i]));
+  std::vector<Loop> founded;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (densities[i] >= kLeastFounded * best) founded.push_back(std::move(loops[i]));
   }
-  contours = std::move(founded);
+  loops = std::move(founded);
+}
+
+/// The share of the points near the plane that lie on no loop.
+double unexplained_share(const PlaneBand& band, const std::vector<Loop>& loops,
+                         const SectionEvidence& of_first) {
+  auto beside = static_cast<double>(of_first.beside);
+  const double all = beside + static_cast<double>(of_first.points);
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    const auto evidence = evidence_for(band, loops[i].index, kEvidenceInGrains * band.grain);
+    beside -= static_cast<double>(evidence.points);
+  }
+  return std::max(beside, 0.0) / std::max(all, 1.0);
 }
 
 /// The loop round the largest area first.
-void largest_first(std::vector<Contour>& contours) {
-  std::stable_sort(contours.begin(), contours.end(), [](const auto& a, const auto& b) {
-    return signed_area(a.points) > signed_area(b.points);
+void largest_first(std::vector<Loop>& loops) {
+  std::stable_sort(loops.begin(), loops.end(), [](const Loop& a, const Loop& b) {
+    return signed_area(a.contour.points) > signed_area(b.contour.points);
   });
+}
+
+/// What whoever reads the girth should know. `doubt`: half of the interval, against the length.
+void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
+                  const SectionEvidence& evidence, double doubt, Girth& girth) {
+  const auto warn_if = [&](bool so, const char* warning) {
+    if (so) girth.warnings.emplace_back(warning);
+  };
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    girth.warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
+  }
+  warn_if(evidence.seen_gap > kNotableGapInGrains * band.grain,
+          "a part of the section that no camera saw was bridged");
+  warn_if(unexplained_share(band, loops, evidence) > kNotableUnexplained,
+          "points beside the section lie on no skin that closes: strays, a second layer or another "
+          "body");
+  const auto points = static_cast<double>(band.points.size() + band.strays);
+  warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
+          "many points near the plane stand alone and were left out");
+  warn_if(band.sigma > kNotableNoise,
+          "the points scatter so much that they may be two layers of skin; the middle was taken");
+  warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
 }
 
 }  // namespace
@@ -101,22 +135,32 @@ void largest_first(std::vector<Contour>& contours) {
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
-  const auto band = band_at(cloud, plane, options.sigma_mm);
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
+  auto band = band_at(cloud, plane, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
-  BlendedSurface surface(band->points, band->roughness);
-  auto contours = trace_all(*band, surface);
-  if (contours.empty()) {
+  BlendedSurface surface(
+      PatchFitter(band->points, std::move(band->index), band->roughness, band->grain));
+  auto loops = trace_all(*band, surface);
+  if (loops.empty()) {
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
                 "scan the body all round, or move the plane");
   }
-  drop_unfounded(*band, contours);
-  largest_first(contours);
-  const Contour& contour = contours.front();
+  drop_unfounded(*band, loops);
+  largest_first(loops);
+  const Contour& contour = loops.front().contour;
+  const auto evidence = evidence_for(*band, loops.front().index, kEvidenceInGrains * band->grain);
   const double length = contour.length();
-  if (largest_gap(contour.points, evidence(*band, contour, false)) > kWidestBridge * length) {
+  if (evidence.gap > kWidestBridge * length) {
     return fail(ErrorCode::kInsufficientData,
                 "more than a quarter of the section at the tape plane has no points",
                 "scan the body all round");
+  }
+
+  const LengthDoubt doubt = doubt_of(contour, surface);
+  if (doubt.stretched_u95 > kMostDoubt * length) {
+    return fail(ErrorCode::kInsufficientData,
+                "the points near the tape plane are too few or too noisy to tell the girth",
+                "scan again, with more or better frames");
   }
 
   Girth girth;
@@ -124,17 +168,13 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
+  girth.contact_u95_mm = band->unit_mm * doubt.contact_u95;
+  girth.stretched_u95_mm = band->unit_mm * doubt.stretched_u95;
   girth.points = cloud.size();
-  girth.band_points = band->used;
+  girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
-  const double gap = largest_gap(contour.points, evidence(*band, contour, true));
-  girth.largest_gap_mm = band->unit_mm * gap;
-  for (std::size_t i = 1; i < contours.size(); ++i) {
-    girth.warnings.push_back(other_loop_warning(band->unit_mm * contours[i].length()));
-  }
-  if (gap > kNotableGapInSpacings * band->spacing) {
-    girth.warnings.push_back("a part of the section that no camera saw was bridged");
-  }
+  girth.largest_gap_mm = band->unit_mm * evidence.seen_gap;
+  add_warnings(*band, loops, evidence, doubt.stretched_u95 / length, girth);
   return girth;
 }
 

@@ -105,6 +105,10 @@ Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane)
   }
   const bool open_outweighs = !lines.front().closed;
   Girth girth = open_outweighs ? open_girth(lines) : closed_girth(lines);
+  if (!is_ring(convex_hull(girth.contour))) {
+    return fail(ErrorCode::kInvalidInput, "the tape plane cuts no ring of faces",
+                "give control points on the body");
+  }
   if (!open_outweighs && girth.largest_gap_mm > kHarmlessSeam * size) {
     girth.warnings.push_back("faces that are not stitched leave gaps, which were bridged");
   }

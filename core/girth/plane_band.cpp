@@ -3,50 +3,37 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "core/geometry/point_index.h"
+#include "core/geometry/stray_points.h"
 #include "core/girth/plane_slab.h"
 #include "core/median.h"
-#include "core/surface/noise_estimate.h"
 #include "core/surface/surface_normals.h"
 
 namespace instep {
 namespace {
 
 constexpr std::size_t kFewestPoints = 24;
-/// Half-width of the band in spacings: a patch reaches five to each side.
-constexpr double kBandInSpacings = 9.0;
-/// Neighbours that tell the spacing, and how much sparser than its surroundings a stray point is.
-constexpr std::size_t kSpacingNeighbours = 8;
-constexpr double kStrayRatio = 2.5;
-/// Points nearer than this part of the spacing count as one.
-constexpr double kDuplicate = 0.02;
-/// Noisy points are averaged over this many standard deviations, up to this part of the section.
-constexpr double kAveragedSigmas = 2.0;
-constexpr double kWidestAverage = 0.018;
-/// Points nearer than this part of the section tell no more about it than their average.
-constexpr double kFinest = 0.007;
-
-constexpr double kNormalReachInSigmas = 5.0;
+/// Half-width of the band in grains: a patch reaches five to each side, and normals two more.
+constexpr double kBandInGrains = 6.5;
+/// Of the slab that is looked at first, against the extent of the cloud. Points of a slab thinner
+/// than their spacing seem farther apart than they are.
+constexpr double kFirstHalfWidth = 0.004;
+constexpr double kWidening = 2.0;
+constexpr double kWideEnough = 1.15;
+constexpr int kMostRounds = 3;
+constexpr std::size_t kSpacingSample = 200;
+/// A grain is this many standard deviations of the noise, up to this part of the section.
+constexpr double kGrainInSigmas = 2.0;
+constexpr double kCoarsestGrain = 0.018;
+/// Points nearer than this part of the section tell no more than fewer would.
+constexpr double kFinestGrain = 0.0075;
+/// Side of the cells that share a normal, and the fewest points for one.
+constexpr double kNormalCellInGrains = 1.5;
+constexpr double kNormalCellInSigmas = 3.3;
+/// Of a cell, against the section: three of them in a row must not reach round the body.
+constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
-constexpr std::size_t kMostNormalPoints = 100;
-
-/// Side of the square that a point has for itself, by the distance to its k-th neighbour.
-double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
-  const auto found = static_cast<double>(nearest.size() - 1);
-  return std::sqrt(nearest.back().squared_distance * std::numbers::pi / std::max(found, 1.0));
-}
-
-double spacing_of(const std::vector<Eigen::Vector3d>& places, const PointIndex& index) {
-  std::vector<double> spacings;
-  const std::size_t stride = std::max<std::size_t>(1, places.size() / 400);
-  for (std::size_t i = 0; i < places.size(); i += stride) {
-    spacings.push_back(own_spacing(index.nearest(places[i], kSpacingNeighbours + 1)));
-  }
-  return median(spacings);
-}
 
 /// Size of the cloud as the plane sees it, so that it turns with the two.
 double extent(const PointCloud& cloud, const TapePlane& plane) {
@@ -58,144 +45,102 @@ double extent(const PointCloud& cloud, const TapePlane& plane) {
   return box.diagonal().norm();
 }
 
-/// Widens the slab until it holds the neighbourhoods of all points on the plane.
-Result<std::pair<PlaneSlab, double>> wide_enough_slab(const PointCloud& cloud,
-                                                      const TapePlane& plane) {
+Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
+  Eigen::AlignedBox2d box;
+  for (const auto& place : places) box.extend(place.head<2>().eval());
+  return box;
+}
+
+double grain_of(double spacing, double sigma) {
+  return std::max({spacing, std::min(kGrainInSigmas * sigma, kCoarsestGrain), kFinestGrain});
+}
+
+tl::unexpected<Error> no_surface() {
+  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
+              "give control points that cut the body, or scan again");
+}
+
+/// Where the section lies and how fine it is.
+struct Probe {
+  Eigen::Vector3d middle_mm;
+  double unit_mm = 1.0;
+  double spacing = 0.0;  ///< in the unit
+};
+
+/// Widens a slab until it is a ring of points that tells their spacing.
+Result<Probe> probe(const PointCloud& cloud, const TapePlane& plane) {
   const double size = extent(cloud, plane);
-  for (double half_width = 0.01 * size; half_width < 0.6 * size; half_width *= 1.4) {
+  bool found_some = false;
+  for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
     PlaneSlab slab = slab_of(cloud, plane, half_width);
-    if (slab.indices.size() < kFewestPoints) continue;
-    const double spacing = spacing_of(slab.places, PointIndex(slab.places));
-    if (half_width >= kBandInSpacings * spacing) return std::pair(std::move(slab), spacing);
+    if (slab.places.size() < kFewestPoints) continue;
+    found_some = true;
+    const Eigen::AlignedBox2d box = section_box(slab.places);
+    const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
+    const double unit = box.diagonal().norm();
+    if (half_width < spacing || !(unit > 0.0)) continue;
+    return Probe{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
   }
+  if (found_some) return no_surface();
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");
 }
 
-/// Leaves out points that are far from all others, compared with their neighbours.
-PlaneSlab without_strays(const PlaneSlab& slab) {
-  const PointIndex index(slab.places);
-  std::vector<std::vector<PointIndex::Neighbour>> nearest;
-  std::vector<double> spacings;
-  nearest.reserve(slab.places.size());
-  spacings.reserve(slab.places.size());
-  for (const auto& place : slab.places) {
-    nearest.push_back(index.nearest(place, kSpacingNeighbours + 1));
-    spacings.push_back(own_spacing(nearest.back()));
-  }
-  PlaneSlab kept;
-  std::vector<double> around;
-  for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    around.clear();
-    for (const auto& neighbour : nearest[i]) around.push_back(spacings[neighbour.index]);
-    if (spacings[i] > kStrayRatio * median(around)) continue;
-    kept.indices.push_back(slab.indices[i]);
-    kept.places.push_back(slab.places[i]);
-  }
-  return kept;
+/// The points within `half_width` of the plane; lengths in the probe's unit.
+PlaneBand gather(const PointCloud& cloud, const TapePlane& plane, const Probe& found,
+                 double half_width) {
+  PlaneSlab slab = slab_of(cloud, plane, half_width * found.unit_mm);
+  for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
+  PlaneBand band{found.unit_mm,
+                 found.middle_mm.head<2>(),
+                 {},
+                 PointIndex(std::move(slab.places)),
+                 std::move(slab.indices),
+                 {},
+                 0.0,
+                 0.0,
+                 0.0,
+                 0,
+                 {}};
+  band.spacing = usual_spacing(band.index, kSpacingSample);
+  return band;
 }
 
-/// Outward normal of a point of the cloud in the plane's frame, where the cloud knows it.
-Eigen::Vector3d known_direction(const std::vector<Eigen::Vector3d>& directions,
-                                const TapePlane& plane, std::size_t index) {
-  const Eigen::Vector3d& direction = directions[index];
-  return {plane.u().dot(direction), plane.v().dot(direction), plane.normal().dot(direction)};
-}
-
-/// Averages points within `reach` of each other, unless their known normals face apart. Weights are
-/// those of the variances, so that a platform point does not outvote a seen one.
-void average(const PointCloud& cloud, const TapePlane& plane, const PlaneSlab& slab, double reach,
-             double sigma_mm, bool use_own_sigma, PlaneBand& band,
-             std::vector<Eigen::Vector3d>& views) {
-  const PointIndex index(slab.places);
-  std::vector<bool> taken(slab.places.size(), false);
-  for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    if (taken[i]) continue;
-    OrientedPoint mean{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0.0};
-    Eigen::Vector3d view = Eigen::Vector3d::Zero();
-    double weights = 0.0;
-    bool seen = false;
-    for (const auto& neighbour : index.within(slab.places[i], reach)) {
-      const std::size_t k = neighbour.index;
-      const std::size_t point = slab.indices[k];
-      if (taken[k]) continue;
-      Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-      if (cloud.has_normals()) {
-        normal = known_direction(cloud.normals, plane, point);
-        if (normal.dot(mean.normal) < 0.0) continue;
-      }
-      taken[k] = true;
-      const double sigma = use_own_sigma ? cloud.sigma_mm[point] : sigma_mm;
-      const double weight = 1.0 / std::max(sigma * sigma, 1e-300);
-      mean.position += weight * slab.places[k];
-      mean.normal += weight * normal;
-      if (!cloud.view_directions.empty()) {
-        view += known_direction(cloud.view_directions, plane, point);
-      }
-      weights += weight;
-      seen = seen || cloud.was_seen(point);
-    }
-    mean.position /= weights;
-    mean.normal.normalize();
-    mean.variance = 1.0 / weights;
-    band.points.push_back(mean);
-    band.seen.push_back(seen);
-    views.push_back(view);
+/// As wide a band as its grain asks for.
+PlaneBand gather_enough(const PointCloud& cloud, const TapePlane& plane, const Probe& found,
+                        double sigma) {
+  double half_width = kBandInGrains * grain_of(found.spacing, sigma);
+  for (int round = 0;; ++round) {
+    PlaneBand band = gather(cloud, plane, found, half_width);
+    band.grain = grain_of(band.spacing, sigma);
+    if (round == kMostRounds || kBandInGrains * band.grain < kWideEnough * half_width) return band;
+    half_width = kBandInGrains * band.grain;
   }
 }
 
-/// As many neighbours as reach beyond the noise, or a normal would be one of noise.
-std::size_t normal_points(const PlaneBand& band) {
-  const double reach = kNormalReachInSigmas * band.sigma / band.spacing;
-  return std::clamp(static_cast<std::size_t>(std::numbers::pi * reach * reach), kFewestNormalPoints,
-                    kMostNormalPoints);
-}
-
-void find_normals(const PointCloud& cloud, const std::vector<Eigen::Vector3d>& views,
-                  PlaneBand& band) {
-  if (cloud.has_normals()) return;
+void drop_strays(PlaneBand& band) {
+  if (!(band.spacing > 0.0)) return;
+  const auto strays = stray_points(band.index, band.spacing);
+  if (std::find(strays.begin(), strays.end(), true) == strays.end()) return;
+  std::vector<std::size_t> sources;
   std::vector<Eigen::Vector3d> places;
-  for (const auto& point : band.points) places.push_back(point.position);
-  const PointIndex index(places);
-  auto normals = estimate_normals(places, index, normal_points(band));
-  if (cloud.view_directions.empty()) {
-    orient_by_neighbours(places, index, normals);
-  } else {
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      if (normals[i].dot(views[i]) < 0.0) normals[i] *= -1.0;
-    }
+  for (std::size_t i = 0; i < strays.size(); ++i) {
+    if (strays[i]) continue;
+    sources.push_back(band.sources[i]);
+    places.push_back(band.index.points()[i]);
   }
-  for (std::size_t i = 0; i < normals.size(); ++i) band.points[i].normal = normals[i];
-}
-
-/// Moves the band into its own unit, in which the section is about one long.
-void normalise(PlaneBand& band) {
-  Eigen::AlignedBox2d box;
-  for (const auto& point : band.points) box.extend(point.position.head<2>().eval());
-  band.unit_mm = box.diagonal().norm();
-  band.middle_mm = box.center();
-  const Eigen::Vector3d centre(band.middle_mm.x(), band.middle_mm.y(), 0.0);
-  for (auto& point : band.points) {
-    point.position = (point.position - centre) / band.unit_mm;
-    point.variance /= band.unit_mm * band.unit_mm;
-  }
-  band.spacing /= band.unit_mm;
-  band.sigma /= band.unit_mm;
-  for (auto& local : band.roughness) {
-    local.place = (local.place - centre) / band.unit_mm;
-    local.roughness *= band.unit_mm;
-  }
+  band.strays = strays.size() - sources.size();
+  band.sources = std::move(sources);
+  band.index = PointIndex(std::move(places));
 }
 
 /// Points next to the plane, in the order in which they lie round the middle.
-std::vector<std::size_t> along_the_plane(const PlaneSlab& slab, double spacing) {
-  Eigen::AlignedBox3d box;
-  for (const auto& place : slab.places) box.extend(place);
+std::vector<std::size_t> along_the_plane(const PlaneBand& band) {
+  const auto& places = band.index.points();
   std::vector<std::pair<double, std::size_t>> angles;
-  for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    if (std::abs(slab.places[i].z()) > 1.5 * spacing) continue;
-    const Eigen::Vector3d arm = slab.places[i] - box.center();
-    angles.emplace_back(std::atan2(arm.y(), arm.x()), i);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (std::abs(places[i].z()) > 1.5 * band.spacing) continue;
+    angles.emplace_back(std::atan2(places[i].y(), places[i].x()), i);
   }
   std::sort(angles.begin(), angles.end());
   std::vector<std::size_t> indices;
@@ -203,16 +148,62 @@ std::vector<std::size_t> along_the_plane(const PlaneSlab& slab, double spacing) 
   return indices;
 }
 
-bool lies_on_both_sides(const PlaneSlab& slab) {
-  const auto above = std::count_if(slab.places.begin(), slab.places.end(),
+double usual_sigma(const PointCloud& cloud, const PlaneBand& band) {
+  std::vector<double> sigmas;
+  for (const std::size_t source : band.sources) sigmas.push_back(cloud.sigma_mm[source]);
+  return median(std::move(sigmas));
+}
+
+/// In the band's unit.
+NoiseEstimate noise_of(const PlaneBand& band, std::optional<double> sigma_mm) {
+  std::optional<double> sigma;
+  if (sigma_mm) sigma = *sigma_mm / band.unit_mm;
+  return estimate_noise(band.index.points(), band.index, along_the_plane(band), sigma);
+}
+
+bool lies_on_both_sides(const std::vector<Eigen::Vector3d>& places) {
+  const auto above = std::count_if(places.begin(), places.end(),
                                    [](const auto& place) { return place.z() > 0.0; });
-  const auto count = static_cast<std::ptrdiff_t>(slab.places.size());
+  const auto count = static_cast<std::ptrdiff_t>(places.size());
   return above * 20 > count && (count - above) * 20 > count;
 }
 
-tl::unexpected<Error> no_surface() {
-  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
-              "scan again");
+/// A direction of the cloud as the plane sees it.
+Eigen::Vector3d turned(const Eigen::Vector3d& direction, const TapePlane& plane) {
+  return {plane.u().dot(direction), plane.v().dot(direction), plane.normal().dot(direction)};
+}
+
+std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const TapePlane& plane,
+                                             const PlaneBand& band) {
+  std::vector<Eigen::Vector3d> normals;
+  if (cloud.has_normals()) {
+    for (const std::size_t source : band.sources) {
+      normals.push_back(turned(cloud.normals[source], plane));
+    }
+    return normals;
+  }
+  const double side =
+      std::min(std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma),
+               kLargestNormalCell);
+  CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
+  if (cloud.view_directions.empty()) cells.orient_by_neighbours();
+  normals = cells.of_points();
+  if (cloud.view_directions.empty()) return normals;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const auto view = turned(cloud.view_directions[band.sources[i]], plane);
+    if (normals[i].dot(view) < 0.0) normals[i] *= -1.0;
+  }
+  return normals;
+}
+
+void set_points(const PointCloud& cloud, const TapePlane& plane, bool own_sigma, PlaneBand& band) {
+  const auto normals = outward_normals(cloud, plane, band);
+  const double least = 1e-9 * band.spacing;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const double sigma =
+        own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : std::max(band.sigma, least);
+    band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
+  }
 }
 
 }  // namespace
@@ -223,45 +214,27 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
                 "scan again");
   }
-  auto found = wide_enough_slab(cloud, plane);
+  const auto found = probe(cloud, plane);
   if (!found) return tl::make_unexpected(found.error());
-  PlaneSlab slab = without_strays(found->first);
-  double spacing = found->second;
-  if (slab.places.size() < kFewestPoints || !(spacing > 0.0)) return no_surface();
+  PlaneBand band = gather_enough(cloud, plane, *found, 0.0);
+  drop_strays(band);
+  if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return no_surface();
 
-  PlaneBand band;
   const bool own_sigma = !sigma_mm && cloud.has_sigma();
-  if (own_sigma) {
-    std::vector<double> sigmas;
-    for (const std::size_t index : slab.indices) sigmas.push_back(cloud.sigma_mm[index]);
-    sigma_mm = median(sigmas);
+  if (own_sigma) sigma_mm = usual_sigma(cloud, band);
+  NoiseEstimate noise = noise_of(band, sigma_mm);
+  if (grain_of(band.spacing, noise.sigma) > band.grain) {
+    band = gather_enough(cloud, plane, *found, noise.sigma);
+    drop_strays(band);
   }
-  const NoiseEstimate noise = estimate_noise(slab.places, PointIndex(slab.places),
-                                             along_the_plane(slab, spacing), sigma_mm);
-  band.sigma = noise.sigma;
-  band.roughness = noise.roughness;
-
-  Eigen::AlignedBox3d box;
-  for (const auto& place : slab.places) box.extend(place);
-  const double size = box.diagonal().norm();
-  double crowd = std::min(kAveragedSigmas * noise.sigma, kWidestAverage * size);
-  if (spacing < kFinest * size) crowd = std::max(crowd, kFinest * size);
-  if (crowd > spacing) {
-    spacing = crowd;
-    slab = without_strays(slab_of(cloud, plane, kBandInSpacings * spacing));
-  }
-  if (!lies_on_both_sides(slab)) {
+  if (!lies_on_both_sides(band.index.points())) {
     return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                 "give control points that cut the body");
   }
-  band.spacing = spacing;
-  band.used = slab.indices.size();
-  std::vector<Eigen::Vector3d> views;
-  average(cloud, plane, slab, std::max(0.5 * crowd, kDuplicate * spacing),
-          std::max(noise.sigma, 1e-9 * spacing), own_sigma, band, views);
-  find_normals(cloud, views, band);
-  normalise(band);
-  if (!(band.unit_mm > 0.0)) return no_surface();
+  band.sigma = noise.sigma;
+  band.roughness = std::move(noise.roughness);
+  for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
+  set_points(cloud, plane, own_sigma, band);
   return band;
 }
 

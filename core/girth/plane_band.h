@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/point_cloud.h"
+#include "core/geometry/point_index.h"
 #include "core/girth/tape_plane.h"
 #include "core/result.h"
 #include "core/surface/noise_estimate.h"
@@ -13,25 +14,31 @@
 namespace instep {
 
 /// The points near a tape plane, made ready for a surface: seen from the plane (x and y on it, z
-/// above it), in a unit of their own so that results scale exactly with the cloud, duplicates and
-/// strays gone, noisy crowds averaged, normals pointing outwards.
+/// above it), in a unit of their own so that results scale exactly with the cloud, in an order that
+/// the cloud's does not change, copies and strays gone, normals pointing outwards.
 struct PlaneBand {
-  double unit_mm = 1.0;       ///< length of the unit
+  double unit_mm = 1.0;       ///< length of the unit: the diagonal of the section
   Eigen::Vector2d middle_mm;  ///< in the plane's coordinates; the origin of the band's
   std::vector<OrientedPoint> points;
-  std::vector<bool> seen;                 ///< whether any member of an averaged point was seen
+  PointIndex index;                       ///< of their positions
+  std::vector<std::size_t> sources;       ///< their places in the cloud
+  std::vector<bool> seen;                 ///< whether a camera saw them
   double spacing = 0.0;                   ///< between points, in the unit
-  double sigma = 0.0;                     ///< noise of the points as they came, in the unit
+  double grain = 0.0;                     ///< finest detail that they tell, in the unit
+  double sigma = 0.0;                     ///< noise of the points, in the unit
+  std::size_t strays = 0;                 ///< points that stood alone and were left out
   std::vector<LocalRoughness> roughness;  ///< in the unit
-  std::size_t used = 0;                   ///< points of the cloud in the band
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {
     return middle_mm + unit_mm * place;
   }
 };
 
+/// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
+/// they tell no more than fewer would, a hundredth of the section.
+///
 /// Fails with kInsufficientData for too few points, kInvalidInput for a plane that has none near it
-/// or all on one side.
+/// or all on one side. O(points of the cloud), and m log m for the m near the plane.
 Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
                           std::optional<double> sigma_mm);
 

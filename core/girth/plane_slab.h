@@ -19,4 +19,15 @@ struct PlaneSlab {
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width);
 
+/// False where the plane only touches what the points are of: hardly one of them lies on the plane
+/// or beyond it.
+bool is_cut(const PlaneSlab& slab);
+
+/// Length of the shortest tape round all points at most `half_width` from the plane, by the mean of
+/// its widths (Cauchy), to a hundredth. O(n), no memory.
+double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_width);
+
+/// The shortest tape round all points of the slab, laid on the plane.
+std::vector<Eigen::Vector2d> hull_of(const PlaneSlab& slab);
+
 }  // namespace instep

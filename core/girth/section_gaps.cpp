@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/geometry/polygon.h"
 
@@ -34,21 +35,22 @@ std::optional<double> station(const std::vector<Eigen::Vector2d>& contour,
 
 }  // namespace
 
+double largest_gap_between(std::vector<double> ways, double length) {
+  if (ways.empty()) return length;
+  std::sort(ways.begin(), ways.end());
+  double gap = ways.front() + length - ways.back();
+  for (std::size_t i = 1; i < ways.size(); ++i) gap = std::max(gap, ways[i] - ways[i - 1]);
+  return gap;
+}
+
 double largest_gap(const std::vector<Eigen::Vector2d>& contour,
                    const std::vector<Eigen::Vector2d>& points, double reach) {
-  const double length = perimeter(contour);
-  std::vector<double> stations;
-  stations.reserve(points.size());
+  std::vector<double> ways;
+  ways.reserve(points.size());
   for (const auto& point : points) {
-    if (const auto way = station(contour, point, reach)) stations.push_back(*way);
+    if (const auto way = station(contour, point, reach)) ways.push_back(*way);
   }
-  if (stations.empty()) return length;
-  std::sort(stations.begin(), stations.end());
-  double gap = stations.front() + length - stations.back();
-  for (std::size_t i = 1; i < stations.size(); ++i) {
-    gap = std::max(gap, stations[i] - stations[i - 1]);
-  }
-  return gap;
+  return largest_gap_between(std::move(ways), perimeter(contour));
 }
 
 }  // namespace instep

@@ -6,6 +6,10 @@
 
 namespace instep {
 
+/// The longest stretch between neighbours among places on a closed line of that `length`, each
+/// given by the way to it; the length itself when there are none.
+double largest_gap_between(std::vector<double> ways, double length);
+
 /// The longest stretch of a closed contour onto which none of the points falls, when each is put on
 /// the contour where it is nearest; the contour's length when there are none. Points further than
 /// `reach` from the contour do not count. The contour does not repeat its first point.

@@ -22,7 +22,7 @@ constexpr std::size_t kPointsAtCrease = 6;
 using Sides = std::vector<bool>;
 
 /// The plane of the points on one side.
-struct Sheet {
+struct SheetPlane {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   std::size_t count = 0;
@@ -30,8 +30,8 @@ struct Sheet {
   double height(const Eigen::Vector3d& place) const { return normal.dot(place - middle); }
 };
 
-Sheet sheet_of(const std::vector<OrientedPoint>& points, const Sides& sides, bool side) {
-  Sheet sheet;
+SheetPlane plane_of(const std::vector<OrientedPoint>& points, const Sides& sides, bool side) {
+  SheetPlane sheet;
   Eigen::Vector3d facing = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (sides[i] != side) continue;
@@ -88,8 +88,8 @@ Sides split_by_normals(const std::vector<OrientedPoint>& points) {
 }
 
 struct TwoSheets {
-  Sheet first;
-  Sheet second;
+  SheetPlane first;
+  SheetPlane second;
   Sides sides;
   bool convex = true;
 };
@@ -99,8 +99,8 @@ std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
   for (int round = 0; round < kRounds; ++round) {
-    sheets.first = sheet_of(points, sheets.sides, false);
-    sheets.second = sheet_of(points, sheets.sides, true);
+    sheets.first = plane_of(points, sheets.sides, false);
+    sheets.second = plane_of(points, sheets.sides, true);
     if (std::min(sheets.first.count, sheets.second.count) < kFewestOnASheet) return std::nullopt;
     sheets.convex =
         sheets.second.height(sheets.first.middle) + sheets.first.height(sheets.second.middle) < 0.0;
@@ -165,7 +165,7 @@ double distance_to(const Eigen::Vector3d& place, const std::vector<OrientedPoint
 
 }  // namespace
 
-CreasedPatch::CreasedPatch(HeightPatch first, HeightPatch second, bool convex)
+CreasedPatch::CreasedPatch(Sheet first, Sheet second, bool convex)
     : first_(std::move(first)), second_(std::move(second)), convex_(convex) {}
 
 std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& points,
@@ -177,21 +177,32 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
   const double cosine = sheets->first.normal.dot(sheets->second.normal);
   if (!(cosine < std::cos(kLeastTurn))) return std::nullopt;
   std::array<std::vector<OrientedPoint>, 2> parts;
-  for (std::size_t i = 0; i < points.size(); ++i) parts[sheets->sides[i]].push_back(points[i]);
+  std::array<std::vector<std::size_t>, 2> members;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    parts[sheets->sides[i]].push_back(points[i]);
+    members[sheets->sides[i]].push_back(i);
+  }
   auto first = HeightPatch::fit(parts[0], centre, sheets->first.normal, radius, roughness);
   auto second = HeightPatch::fit(parts[1], centre, sheets->second.normal, radius, roughness);
   if (!first || !second) return std::nullopt;
   const Crease crease = crease_near(near_crease(points, *first, *second), *first, *second);
-  CreasedPatch patch(std::move(*first), std::move(*second), sheets->convex);
+  CreasedPatch patch({std::move(*first), std::move(members[0])},
+                     {std::move(*second), std::move(members[1])}, sheets->convex);
   patch.turn_ = crease.turn;
   patch.gap_ = std::max(distance_to(crease.place, parts[0]), distance_to(crease.place, parts[1]));
   return patch;
 }
 
 FieldValue CreasedPatch::at(const Eigen::Vector3d& position) const {
-  const FieldValue first = first_.at(position);
-  const FieldValue second = second_.at(position);
+  const FieldValue first = first_.patch.at(position);
+  const FieldValue second = second_.patch.at(position);
   return (second.value > first.value) == convex_ ? second : first;
+}
+
+const CreasedPatch::Sheet& CreasedPatch::sheet_at(const Eigen::Vector3d& position) const {
+  const double first = first_.patch.at(position).value;
+  const double second = second_.patch.at(position).value;
+  return (second > first) == convex_ ? second_ : first_;
 }
 
 }  // namespace instep

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,14 @@ class CreasedPatch {
 
   FieldValue at(const Eigen::Vector3d& position) const;
 
+  /// A sheet and the points it was fitted to, by their places in the list given to fit().
+  struct Sheet {
+    HeightPatch patch;
+    std::vector<std::size_t> members;
+  };
+  /// The sheet that bounds the body there.
+  const Sheet& sheet_at(const Eigen::Vector3d& position) const;
+
   /// Angle between the two sheets' normals where they meet, in radians; near zero where one smooth
   /// surface was cut in two.
   double turn() const { return turn_; }
@@ -32,13 +41,13 @@ class CreasedPatch {
   double gap() const { return gap_; }
 
   /// Comparable with that of one HeightPatch over the same points.
-  double misfit() const { return first_.misfit() + second_.misfit(); }
+  double misfit() const { return first_.patch.misfit() + second_.patch.misfit(); }
 
  private:
-  CreasedPatch(HeightPatch first, HeightPatch second, bool convex);
+  CreasedPatch(Sheet first, Sheet second, bool convex);
 
-  HeightPatch first_;
-  HeightPatch second_;
+  Sheet first_;
+  Sheet second_;
   bool convex_;
   double turn_ = 0.0;
   double gap_ = 0.0;

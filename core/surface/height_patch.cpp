@@ -1,33 +1,28 @@
 #include "core/surface/height_patch.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "core/surface/kriging_likelihood.h"
+
 namespace instep {
 namespace {
 
-/// Terms of the polynomial that the points determine less than this are left out.
-constexpr double kLeastDetermined = 1e-3;
 /// Fewer points than this carry a plane only.
 constexpr std::size_t kFewestForQuadratic = 9;
-constexpr std::size_t kMostSamples = 60;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
 /// Points whose variance is less, in unit scale, are exact: nothing is smoothed.
 constexpr double kExactVariance = 1e-10;
 /// Standard deviation of the logarithm of the roughness round its likely value.
-constexpr double kRoughnessSpread = 2.0;
-/// The roughnesses that are tried, against the likely one: first by the wide factor, then by the
-/// narrow one.
+constexpr double kRoughnessSpread = 4.0;
+/// The roughnesses that are tried, against the likely one.
 constexpr double kRoughest = 1e5;
 constexpr double kSmoothest = 1e-3;
-constexpr double kWideFactor = 25.0;
-constexpr double kNarrowFactor = 5.0;
+constexpr double kRoughnessStep = 1.5;
 /// Less smoothing than is likeliest for the heights: what is asked for in the end is a length, over
 /// which noise averages out but the flattening of bends adds up.
 constexpr double kAllowance = 4.0;
@@ -35,6 +30,14 @@ constexpr double kAllowance = 4.0;
 constexpr double kCoefficientVariance = 0.1;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
+
+bool is_exact(const HeightKriging& kriging) {
+  return !(kriging.level() > kExactVariance);
+}
+
+double smoothing(const HeightKriging& kriging, double roughness) {
+  return is_exact(kriging) ? kLeastSmoothing : kriging.level() / roughness + kLeastSmoothing;
+}
 
 Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
   Eigen::Vector3d along(-outward.y(), outward.x(), 0.0);
@@ -46,116 +49,34 @@ Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
   return axes;
 }
 
-/// The equations in the basis of the polynomial block's QR: on its null space, which is the tail,
-/// they are positive definite.
-class ReducedSystem {
- public:
-  ReducedSystem(const HeightSamples& samples, Eigen::Index wanted_terms)
-      : qr_(monomials(samples.places, wanted_terms)) {
-    qr_.setThreshold(kLeastDetermined);
-    terms_ = spans_a_plane(samples.places) ? qr_.rank() : 0;
-    free_ = samples.size() - terms_;
-    if (!is_determined()) return;
-    const auto basis = qr_.householderQ().setLength(terms_);
-    kernel_ = kernel_between(samples.places);
-    kernel_.applyOnTheLeft(basis.adjoint());
-    kernel_.applyOnTheRight(basis);
-    noise_ = samples.variances.asDiagonal();
-    noise_.applyOnTheLeft(basis.adjoint());
-    noise_.applyOnTheRight(basis);
-    data_ = samples.heights;
-    data_.applyOnTheLeft(basis.adjoint());
-    exact_ = !(samples.variances.maxCoeff() > kExactVariance);
+/// Twice the negative log likelihood, with the coefficients integrated over.
+double misfit_of(const HeightKriging& kriging, const HeightKriging::Solution& solution,
+                 double roughness) {
+  const auto free = static_cast<double>(kriging.free());
+  const double terms = static_cast<double>(solution.on_null_space.size()) - free;
+  const double volume = kriging.log_determined() + terms * std::log(kCoefficientVariance);
+  if (is_exact(kriging)) {
+    const double even = std::max(solution.excess / free, kEven);
+    return volume + solution.log_volume + free * (std::log(even) + 1.0);
   }
+  return volume + solution.log_volume + free * std::log(roughness) + solution.excess / roughness;
+}
 
-  bool is_determined() const { return terms_ >= 3 && free_ >= 1; }
-
-  /// The roughness of the highest likelihood.
-  double likeliest(double usual) const {
-    if (exact_) return usual;
-    double best = std::numeric_limits<double>::infinity();
-    double chosen = usual;
-    const auto attempt = [&](double roughness) {
-      const double misfit =
-          this->misfit(roughness) + std::pow(std::log(roughness / usual) / kRoughnessSpread, 2);
-      if (!(misfit < best)) return;
+/// The roughness of the highest likelihood and of a prior round the usual one.
+double likeliest_roughness(const HeightKriging& kriging, double usual) {
+  const KrigingLikelihood likelihood(kriging);
+  double best = std::numeric_limits<double>::infinity();
+  double chosen = 1.0;
+  for (double factor = kRoughest; factor >= kSmoothest; factor /= kRoughnessStep) {
+    const double misfit = likelihood.misfit(kriging.level(), factor * usual) +
+                          std::pow(std::log(factor) / kRoughnessSpread, 2);
+    if (misfit < best) {
       best = misfit;
-      chosen = roughness;
-    };
-    for (double trial = kRoughest; trial >= kSmoothest; trial /= kWideFactor) {
-      attempt(trial * usual);
+      chosen = factor;
     }
-    const double middle = chosen;
-    attempt(middle * kNarrowFactor);
-    attempt(middle / kNarrowFactor);
-    return chosen;
   }
-
-  /// Twice the negative log likelihood, with the coefficients integrated over.
-  double misfit(double roughness) const {
-    const double volume = 2.0 * qr_.matrixQR().diagonal().head(terms_).array().abs().log().sum() +
-                          static_cast<double>(terms_) * std::log(kCoefficientVariance);
-    Eigen::MatrixXd covariance = kernel_.bottomRightCorner(free_, free_);
-    if (exact_) {
-      covariance.diagonal().array() += kLeastSmoothing;
-    } else {
-      covariance = roughness * covariance + noise_.bottomRightCorner(free_, free_);
-    }
-    const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
-    if (cholesky.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-    const double spread = 2.0 * cholesky.matrixLLT().diagonal().array().log().sum();
-    const double excess = cholesky.matrixL().solve(data_.tail(free_)).squaredNorm();
-    if (!exact_) return volume + spread + excess;
-    const auto count = static_cast<double>(free_);
-    return volume + spread + count * (std::log(std::max(excess / count, kEven)) + 1.0);
-  }
-
-  /// Weights of the kernels and coefficients of the polynomial; false if there are none.
-  bool solve(double roughness, Eigen::VectorXd& weights, Quadratic& polynomial) const {
-    Eigen::MatrixXd system = kernel_ + noise_ / roughness;
-    system.diagonal().array() += kLeastSmoothing;
-    const Eigen::LLT<Eigen::MatrixXd> cholesky(system.bottomRightCorner(free_, free_));
-    if (cholesky.info() != Eigen::Success) return false;
-    weights = Eigen::VectorXd::Zero(data_.size());
-    weights.tail(free_) = cholesky.solve(data_.tail(free_));
-    Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(qr_.cols());
-    coefficients.head(terms_) =
-        qr_.matrixQR()
-            .topLeftCorner(terms_, terms_)
-            .triangularView<Eigen::Upper>()
-            .solve(data_.head(terms_) - system.topRightCorner(terms_, free_) * weights.tail(free_));
-    polynomial.setZero();
-    polynomial.head(qr_.cols()) = qr_.colsPermutation() * coefficients;
-    weights.applyOnTheLeft(qr_.householderQ().setLength(terms_));
-    return weights.allFinite() && polynomial.allFinite();
-  }
-
- private:
-  /// A quadratic along one line has as many terms as a plane.
-  static bool spans_a_plane(const Eigen::Matrix2Xd& places) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(monomials(places, 3));
-    qr.setThreshold(kLeastDetermined);
-    return qr.rank() == 3;
-  }
-
-  static Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places) {
-    const Eigen::Index count = places.cols();
-    Eigen::MatrixXd kernel(count, count);
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const Eigen::ArrayXd squared = (places.colwise() - places.col(j)).colwise().squaredNorm();
-      kernel.col(j) = squared * squared.sqrt();
-    }
-    return kernel;
-  }
-
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
-  Eigen::Index terms_ = 0;
-  Eigen::Index free_ = 0;
-  Eigen::MatrixXd kernel_;
-  Eigen::MatrixXd noise_;
-  Eigen::VectorXd data_;
-  bool exact_ = true;
-};
+  return chosen * usual;
+}
 
 }  // namespace
 
@@ -170,19 +91,54 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   patch.axes_ = axes_with(outward);
   HeightSamples samples = samples_over(points, patch.axes_, centre, radius);
   Quadratic trend = Quadratic::Zero();
-  if (points.size() > kMostSamples) {
+  if (points.size() > kMostHeightSamples) {
     trend = least_squares(samples);
-    samples = averaged_rest(samples, trend);
+    CellAverages averages = averaged_rest(samples, trend);
+    samples = std::move(averages.samples);
+    patch.cells_ = std::move(averages.cells);
+    patch.shares_ = std::move(averages.shares);
   }
-  const ReducedSystem system(samples, points.size() < kFewestForQuadratic ? 3 : 6);
-  if (!system.is_determined()) return std::nullopt;
-  const double likeliest = system.likeliest(std::max(roughness * radius, 1e-12));
+  patch.kriging_ = HeightKriging::of(samples, points.size() < kFewestForQuadratic ? 3 : 6);
+  if (!patch.kriging_) return std::nullopt;
+  const HeightKriging& kriging = *patch.kriging_;
+  const double usual = std::max(roughness * radius, 1e-12);
+  const double likeliest = is_exact(kriging) ? usual : likeliest_roughness(kriging, usual);
+  auto solution = kriging.solve(smoothing(kriging, likeliest));
+  if (!solution) return std::nullopt;
   patch.roughness_ = likeliest / radius;
-  patch.misfit_ = system.misfit(likeliest);
-  if (!system.solve(kAllowance * likeliest, patch.weights_, patch.polynomial_)) return std::nullopt;
-  patch.polynomial_ += trend;
-  patch.places_ = std::move(samples.places);
+  patch.misfit_ = misfit_of(kriging, *solution, likeliest);
+  patch.wander_ = likeliest;
+  if (is_exact(kriging)) {
+    patch.wander_ = solution->excess / static_cast<double>(kriging.free());
+  } else {
+    solution = kriging.solve(smoothing(kriging, kAllowance * likeliest));
+    if (!solution) return std::nullopt;
+  }
+  patch.solution_ = std::move(*solution);
+  patch.weights_ = kriging.weights(patch.solution_);
+  patch.polynomial_ = kriging.polynomial(patch.solution_) + trend;
+  patch.x_ = samples.places.row(0);
+  patch.y_ = samples.places.row(1);
   return patch;
+}
+
+HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
+                                  const Eigen::VectorXd& shares) const {
+  Eigen::Matrix2Xd places(2, shares.size());
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+    const Eigen::Vector3d arm = positions[static_cast<std::size_t>(i)] - centre_;
+    places.col(i) = axes_.topRows<2>() * arm / radius_;
+  }
+  Sum sum;
+  const Eigen::VectorXd influence = kriging_->influence(solution_, places, shares);
+  sum.variance = radius_ * radius_ * wander_ * kriging_->wandering(influence, places, shares);
+  sum.influence = influence;
+  if (cells_.empty()) return sum;
+  sum.influence.resize(shares_.size());
+  for (Eigen::Index i = 0; i < shares_.size(); ++i) {
+    sum.influence[i] = shares_[i] * influence[cells_[static_cast<std::size_t>(i)]];
+  }
+  return sum;
 }
 
 FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
@@ -190,16 +146,15 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const double x = local.x();
   const double y = local.y();
   const Quadratic& c = polynomial_;
-  double height = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;
-  Eigen::Vector2d slope(c[1] + 2.0 * c[3] * x + c[4] * y, c[2] + c[4] * x + 2.0 * c[5] * y);
-  for (Eigen::Index j = 0; j < places_.cols(); ++j) {
-    const Eigen::Vector2d offset = local.head<2>() - places_.col(j);
-    const double squared = offset.squaredNorm();
-    const double weighted = weights_[j] * std::sqrt(squared);
-    height += weighted * squared;
-    slope += 3.0 * weighted * offset;
-  }
-  const Eigen::Vector3d gradient(-slope.x(), -slope.y(), 1.0);
+  const Column along = x - x_;
+  const Column across = y - y_;
+  const Column squared = along.square() + across.square();
+  const Column weighted = weights_ * squared.sqrt();
+  const double height = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y +
+                        (weighted * squared).sum();
+  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * (weighted * along).sum();
+  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + 3.0 * (weighted * across).sum();
+  const Eigen::Vector3d gradient(-slope_x, -slope_y, 1.0);
   return {radius_ * (local.z() - height), axes_.transpose() * gradient};
 }
 

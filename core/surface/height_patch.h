@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/surface/height_kriging.h"
 #include "core/surface/height_samples.h"
 #include "core/surface/oriented_point.h"
 
@@ -15,18 +16,15 @@ namespace instep {
 /// The surface is the paper's radial basis functions (eqs. 6 and 7, phi = r^3, a smoothing for each
 /// point) with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane:
 /// as heights, points need no others put off the surface (eq. 5) and no normals but for the side,
-/// and the system is half as large. It is solved on the null space of the polynomial block, where
-/// it is positive definite, by Cholesky, centred and in unit scale.
-///
-/// Read as kriging: once a quadratic is taken out, heights wander with variogram
-/// roughness * distance^3. The roughness is the likeliest one (restricted maximum likelihood) given
-/// the points and a prior; a point's smoothing is its variance against four times that, since a
-/// length is asked for in the end, over which noise averages out but flattened bends add up.
+/// and the system (HeightKriging), centred and in unit scale, is half as large. The roughness is
+/// the likeliest one (restricted maximum likelihood) given the points and a prior; a point's
+/// smoothing is its variance against four times that, since a length is asked for in the end, over
+/// which noise averages out but flattened bends add up.
 class HeightPatch {
  public:
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:
   /// of the neighbourhood round `centre`. `roughness` > 0: likely value, to within a factor of ten
-  /// or so. Points beyond 60 are averaged over cells. Nothing if the points do not determine a
+  /// or so. More points than kMostHeightSamples are averaged over cells. Nothing if the points do not determine a
   /// surface (fewer than four, all on one line). O(min(points, 64)^3 + points).
   static std::optional<HeightPatch> fit(const std::vector<OrientedPoint>& points,
                                         const Eigen::Vector3d& centre,
@@ -35,6 +33,19 @@ class HeightPatch {
 
   FieldValue at(const Eigen::Vector3d& position) const;
 
+  /// What a sum of heights rests on.
+  struct Sum {
+    Eigen::VectorXd influence;  ///< by how much each point's height moves it, as given to fit()
+    /// Of the sum round the true one, as the surface wanders between the points: noise apart.
+    double variance = 0.0;
+  };
+
+  /// Of the heights at `positions` times `shares`. O(samples^2).
+  Sum sum(const std::vector<Eigen::Vector3d>& positions, const Eigen::VectorXd& shares) const;
+
+  /// Across the middle of the patch, out of the body.
+  Eigen::Vector3d outward() const { return axes_.row(2); }
+
   /// The likeliest; for exact points the given one.
   double roughness() const { return roughness_; }
 
@@ -42,13 +53,22 @@ class HeightPatch {
   double misfit() const { return misfit_; }
 
  private:
+  /// A number for each sample, kept in place: fields are read far more often than fitted.
+  using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostHeightSamples, 1>;
+
   HeightPatch() = default;
 
   Eigen::Vector3d centre_;
   Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards
   double radius_ = 1.0;
-  Eigen::Matrix2Xd places_;
-  Eigen::VectorXd weights_;
+  std::optional<HeightKriging> kriging_;
+  HeightKriging::Solution solution_;
+  Column x_;  ///< of the samples
+  Column y_;
+  Column weights_;
+  std::vector<Eigen::Index> cells_;  ///< the sample that each point went into; empty for itself
+  Eigen::VectorXd shares_;
+  double wander_ = 0.0;  ///< roughness in unit scale
   Quadratic polynomial_;
   double roughness_ = 0.0;
   double misfit_ = 0.0;

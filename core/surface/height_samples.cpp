@@ -7,7 +7,7 @@
 namespace instep {
 namespace {
 
-constexpr int kCellsAcross = 8;
+constexpr int kCellsAcross = 7;
 /// Stands for no variance at all where variances are divided by.
 constexpr double kLeastVariance = 1e-18;
 
@@ -63,27 +63,40 @@ Quadratic least_squares(const HeightSamples& samples) {
   return normal.ldlt().solve(data);
 }
 
-HeightSamples averaged_rest(const HeightSamples& samples, const Quadratic& trend) {
+CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend) {
   const Eigen::VectorXd rest =
       samples.heights - monomials(samples.places, Quadratic::RowsAtCompileTime) * trend;
   std::array<Cell, kCellsAcross * kCellsAcross> cells;
+  CellAverages averages;
+  averages.cells.resize(static_cast<std::size_t>(samples.size()));
+  averages.shares.resize(samples.size());
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
-    Cell& cell = cells[cell_at(samples.places.col(i))];
+    const std::size_t at = cell_at(samples.places.col(i));
+    Cell& cell = cells[at];
     const double weight = 1.0 / std::max(samples.variances[i], kLeastVariance);
     cell.weight += weight;
     cell.place += weight * samples.places.col(i);
     cell.height += weight * rest[i];
+    averages.cells[static_cast<std::size_t>(i)] = static_cast<Eigen::Index>(at);
+    averages.shares[i] = weight;
   }
-  const auto used = std::partition(cells.begin(), cells.end(),
-                                   [](const Cell& cell) { return cell.weight > 0.0; });
-  const auto count = static_cast<Eigen::Index>(used - cells.begin());
-  HeightSamples averages{Eigen::Matrix2Xd(2, count), Eigen::VectorXd(count),
-                         Eigen::VectorXd(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Cell& cell = cells[static_cast<std::size_t>(i)];
-    averages.places.col(i) = cell.place / cell.weight;
-    averages.heights[i] = cell.height / cell.weight;
-    averages.variances[i] = 1.0 / cell.weight;
+  std::array<Eigen::Index, kCellsAcross * kCellsAcross> order{};
+  Eigen::Index count = 0;
+  for (std::size_t at = 0; at < cells.size(); ++at) {
+    if (cells[at].weight > 0.0) order[at] = count++;
+  }
+  averages.samples = {Eigen::Matrix2Xd(2, count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  for (std::size_t at = 0; at < cells.size(); ++at) {
+    const Cell& cell = cells[at];
+    if (!(cell.weight > 0.0)) continue;
+    averages.samples.places.col(order[at]) = cell.place / cell.weight;
+    averages.samples.heights[order[at]] = cell.height / cell.weight;
+    averages.samples.variances[order[at]] = 1.0 / cell.weight;
+  }
+  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    Eigen::Index& at = averages.cells[static_cast<std::size_t>(i)];
+    averages.shares[i] /= cells[static_cast<std::size_t>(at)].weight;
+    at = order[static_cast<std::size_t>(at)];
   }
   return averages;
 }

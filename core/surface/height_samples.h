@@ -7,6 +7,9 @@
 
 namespace instep {
 
+/// As many samples as a patch is fitted to; more points are averaged first.
+inline constexpr int kMostHeightSamples = 64;
+
 /// Points of a small piece of surface as heights over a plane: the patch's own coordinates, in
 /// which the neighbourhood has radius one.
 struct HeightSamples {
@@ -30,9 +33,16 @@ Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms);
 /// The quadratic that fits best. At least six samples.
 Quadratic least_squares(const HeightSamples& samples);
 
+/// Samples of which each is the average of those in one cell.
+struct CellAverages {
+  HeightSamples samples;
+  std::vector<Eigen::Index> cells;  ///< for each of those that came, the average it went into
+  Eigen::VectorXd shares;           ///< for each of those that came, its part in that average
+};
+
 /// What is left of the heights over `trend`, averaged over square cells, weighted by certainty: at
-/// most 64 samples, however many came. As the trend is taken out first, a cell's average is not
+/// most 64 averages, however many came. As the trend is taken out first, a cell's average is not
 /// bent by the curvature of the surface across it.
-HeightSamples averaged_rest(const HeightSamples& samples, const Quadratic& trend);
+CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend);
 
 }  // namespace instep

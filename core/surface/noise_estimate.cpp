@@ -1,24 +1,33 @@
 #include "core/surface/noise_estimate.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/median.h"
+#include "core/surface/height_kriging.h"
+#include "core/surface/kriging_likelihood.h"
 
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbourhoods = 40;
+constexpr std::size_t kNeighbourhoods = 24;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 /// The shape between the neighbourhoods may be rougher than they are: measured on scanned feet,
 /// where the plain estimate flattens bends.
 constexpr double kAllowance = 1.0;
 constexpr double kLeastRoughness = 1e-12;
+/// Ratios of noise to shape that are tried, against the kernel's own size.
+constexpr double kLeastRatio = 1e-12;
+constexpr double kMostRatio = 1e3;
+constexpr double kRatioStep = 2.0;
+/// Roughnesses that are tried, against one that explains all heights.
+constexpr double kRoughest = 4.0;
+constexpr double kSmoothest = 1e-8;
+constexpr double kRoughnessStep = 0.5;
 constexpr std::size_t kPoints = 60;
 /// Terms of a quadratic in two variables: curvature is shape, not roughness.
 constexpr Eigen::Index kTerms = 6;
@@ -28,10 +37,10 @@ constexpr Eigen::Index kTerms = 6;
 constexpr double kFlatEnough = 0.15;
 constexpr std::array<std::size_t, 6> kTriedPoints = {60, 30, 20, 120, 240, 480};
 
-/// A neighbourhood in the basis where kernel and noise are both diagonal.
-struct Spectrum {
-  Eigen::VectorXd kernel;  ///< eigenvalues of the kernel on the null space of the quadratics
-  Eigen::VectorXd squared_heights;
+/// A neighbourhood's heights in units of its radius.
+struct Neighbourhood {
+  double radius;
+  KrigingLikelihood likelihood;
 };
 
 /// Heights over the tangent plane: columns are points, the third row is the height.
@@ -67,103 +76,79 @@ TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const Poin
   return best;
 }
 
-std::optional<Spectrum> spectrum_of(const Eigen::Matrix3Xd& local) {
-  const Eigen::Index count = local.cols();
+std::optional<Neighbourhood> neighbourhood_in(const TangentView& view) {
+  const Eigen::Index count = view.points.cols();
   if (count < 2 * kTerms) return std::nullopt;
-  const Eigen::ArrayXd x = local.row(0).transpose() / local.row(0).norm();
-  const Eigen::ArrayXd y = local.row(1).transpose() / local.row(0).norm();
-  Eigen::MatrixXd quadratic(count, kTerms);
-  quadratic << Eigen::ArrayXd::Ones(count), x, y, x * x, x * y, y * y;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(quadratic);
-  Eigen::MatrixXd kernel(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const double r = (local.col(i) - local.col(j)).head<2>().norm();
-      kernel(i, j) = r * r * r;
-    }
-  }
-  kernel.applyOnTheLeft(qr.householderQ().adjoint());
-  kernel.applyOnTheRight(qr.householderQ());
-  Eigen::VectorXd heights = local.row(2).transpose();
-  heights.applyOnTheLeft(qr.householderQ().adjoint());
-  const Eigen::Index free = count - kTerms;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(kernel.bottomRightCorner(free, free));
-  return Spectrum{solver.eigenvalues().cwiseMax(0.0),
-                  (solver.eigenvectors().transpose() * heights.tail(free)).cwiseAbs2()};
-}
-
-/// Twice the negative log likelihood of the heights.
-double misfit(const Spectrum& spectrum, double roughness, double variance) {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < spectrum.kernel.size(); ++i) {
-    const double total = roughness * spectrum.kernel[i] + variance;
-    sum += std::log(total) + spectrum.squared_heights[i] / total;
-  }
-  return sum;
+  const double radius = view.points.colwise().norm().maxCoeff();
+  if (!(radius > 0.0)) return std::nullopt;
+  const HeightSamples samples{view.points.topRows<2>() / radius,
+                              view.points.row(2).transpose() / radius,
+                              Eigen::VectorXd::Ones(count)};
+  const auto kriging = HeightKriging::of(samples, kTerms);
+  if (!kriging) return std::nullopt;
+  return Neighbourhood{radius, KrigingLikelihood(*kriging)};
 }
 
 /// The noise variance that fits best if the roughness may be anything.
-double own_variance(const Spectrum& spectrum) {
-  const double largest = std::max(spectrum.kernel.maxCoeff(), std::numeric_limits<double>::min());
-  const auto count = static_cast<double>(spectrum.kernel.size());
+double own_variance(const Neighbourhood& here) {
+  const double scale = here.likelihood.mean_diagonal();
   double best = std::numeric_limits<double>::infinity();
   double variance = 0.0;
-  for (double ratio = 1e-12; ratio < 2e3; ratio *= 2.0) {
-    const Eigen::ArrayXd total = spectrum.kernel.array() + ratio * largest;
-    const double scale = (spectrum.squared_heights.array() / total).sum() / count;
-    if (!(scale > 0.0)) return 0.0;
-    const double fit = total.log().sum() + count * std::log(scale);
-    if (fit < best) {
-      best = fit;
-      variance = scale * ratio * largest;
-    }
+  for (double ratio = kLeastRatio * scale; ratio < kMostRatio * scale; ratio *= kRatioStep) {
+    const auto profile = here.likelihood.profile(ratio);
+    if (!(profile.misfit < best)) continue;
+    best = profile.misfit;
+    variance = profile.roughness * ratio;
   }
-  return variance;
+  return variance * here.radius * here.radius;
 }
 
 /// The roughness that fits best at a given noise; the likelihood is flat where noise hides the
 /// shape, so it is held near `usual`, if that is known.
-double likely_roughness(const Spectrum& spectrum, double variance, std::optional<double> usual) {
-  const double level = spectrum.squared_heights.sum() / std::max(spectrum.kernel.sum(), 1e-300);
+double likely_roughness(const Neighbourhood& here, double variance, std::optional<double> usual) {
+  const double noise = variance / (here.radius * here.radius);
+  const double level = std::max(
+      here.likelihood.profile(kMostRatio * here.likelihood.mean_diagonal()).roughness * kMostRatio,
+      1e-300);
   double best = std::numeric_limits<double>::infinity();
   double roughness = level;
-  for (double trial = 4.0 * level; trial > 1e-8 * level; trial *= 0.7) {
-    double fit = misfit(spectrum, trial, variance);
-    if (usual) fit += std::pow(std::log(trial / *usual) / kRoughnessSpread, 2);
-    if (fit < best) {
-      best = fit;
+  for (double trial = kRoughest * level; trial > kSmoothest * level; trial *= kRoughnessStep) {
+    double misfit = here.likelihood.misfit(noise, trial);
+    if (usual) misfit += std::pow(std::log(trial / here.radius / *usual) / kRoughnessSpread, 2);
+    if (misfit < best) {
+      best = misfit;
       roughness = trial;
     }
   }
-  return roughness;
+  return roughness / here.radius;
 }
 
 }  // namespace
 
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                              const std::vector<std::size_t>& places, std::optional<double> sigma) {
-  std::vector<Spectrum> spectra;
+  std::vector<Neighbourhood> neighbourhoods;
   std::vector<double> variances;
   NoiseEstimate estimate;
   const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
   for (std::size_t i = stride / 2; i < places.size(); i += stride) {
     const Eigen::Vector3d& place = points[places[i]];
-    auto spectrum = spectrum_of(flattest_view(points, index, place).points);
-    if (!spectrum) continue;
-    if (!sigma) variances.push_back(own_variance(*spectrum));
-    spectra.push_back(std::move(*spectrum));
+    auto neighbourhood = neighbourhood_in(flattest_view(points, index, place));
+    if (!neighbourhood) continue;
+    if (!sigma) variances.push_back(own_variance(*neighbourhood));
+    neighbourhoods.push_back(std::move(*neighbourhood));
     estimate.roughness.push_back({place, 0.0});
   }
-  if (spectra.empty()) return {sigma.value_or(0.0), {}};
+  if (neighbourhoods.empty()) return {sigma.value_or(0.0), {}};
   estimate.sigma = sigma ? *sigma : std::sqrt(median(std::move(variances)));
   const double variance = std::max(estimate.sigma * estimate.sigma, 1e-24);
   std::vector<double> free;
-  for (const auto& spectrum : spectra) {
-    free.push_back(likely_roughness(spectrum, variance, std::nullopt));
+  for (const auto& neighbourhood : neighbourhoods) {
+    free.push_back(likely_roughness(neighbourhood, variance, std::nullopt));
   }
   const double usual = std::max(median(std::move(free)), 1e-300);
-  for (std::size_t i = 0; i < spectra.size(); ++i) {
-    estimate.roughness[i].roughness = likely_roughness(spectra[i], variance, usual);
+  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
+    estimate.roughness[i].roughness = likely_roughness(neighbourhoods[i], variance, usual);
   }
   return estimate;
 }

@@ -9,9 +9,17 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kTreeNeighbours = 10;
+/// A cell with fewer neighbours stands in a sparse part, where others are further off.
+constexpr std::size_t kFewestLinks = 7;
+constexpr std::size_t kNearestLinks = 10;
 
-/// A bend between two neighbours; the flattest comes first.
+/// Across a larger bend (one less its cosine) a normal tells little of its neighbour's side.
+constexpr double kLargestBend = 0.12;
+/// A part whose normals face away from the middle by this share of what they could needs no
+/// neighbours to tell its side.
+constexpr double kPlainlyOutward = 0.25;
+
+/// A bend between two cells; the flattest comes first.
 struct Bend {
   double size;
   std::size_t from;
@@ -22,11 +30,134 @@ struct Bend {
   }
 };
 
-/// Turns the part of the cloud that hangs together with `root`; returns its points.
-std::vector<std::size_t> orient_part(const std::vector<Eigen::Vector3d>& points,
-                                     const PointIndex& index, std::size_t root,
-                                     std::vector<bool>& reached,
-                                     std::vector<Eigen::Vector3d>& normals) {
+/// Sums over some points, from which their principal axes follow.
+struct Moments {
+  double count = 0.0;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+
+  void add(const Eigen::Vector3d& arm) {
+    count += 1.0;
+    sum += arm;
+    squares += arm * arm.transpose();
+  }
+
+  void add(const Moments& other, const Eigen::Vector3d& shift) {
+    count += other.count;
+    squares += other.squares + shift * other.sum.transpose() + other.sum * shift.transpose() +
+               other.count * shift * shift.transpose();
+    sum += other.sum + other.count * shift;
+  }
+
+  Eigen::Vector3d normal() const {
+    const Eigen::Matrix3d spread = squares - sum * sum.transpose() / count;
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  }
+};
+
+}  // namespace
+
+CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
+                         double side, std::size_t fewest)
+    : grid_(points, side), points_(points.size()), middle_index_({}) {
+  const std::size_t cells = grid_.cell_count();
+  std::vector<Moments> moments(cells);
+  middles_.assign(cells, Eigen::Vector3d::Zero());
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    const auto members = grid_.members(cell);
+    for (const auto member : members) middles_[cell] += points[member];
+    middles_[cell] /= static_cast<double>(members.size());
+    // Round the cell's own middle, so that bodies far from the origin lose no digits.
+    for (const auto member : members) moments[cell].add(points[member] - middles_[cell]);
+  }
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    Moments round;
+    for (const auto other : grid_.neighbourhood(cell)) {
+      round.add(moments[other], middles_[other] - middles_[cell]);
+    }
+    if (round.count < static_cast<double>(fewest)) {
+      round = {};
+      for (const auto& nearest : index.nearest(middles_[cell], fewest)) {
+        round.add(points[nearest.index] - middles_[cell]);
+      }
+    }
+    normals_.push_back(round.normal());
+  }
+  middle_index_ = PointIndex(middles_);
+}
+
+void CellNormals::orient_by_neighbours() {
+  std::vector<bool> reached(normals_.size(), false);
+  std::vector<Part> parts;
+  const Eigen::Vector2d middle = middle_of_all();
+  for (std::size_t root = 0; root < normals_.size(); ++root) {
+    if (reached[root]) continue;
+    Part part{orient_part(root, reached), 0.0};
+    part.outward = outward_share(part.cells, middle);
+    parts.push_back(std::move(part));
+  }
+  std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
+    return std::abs(a.outward) > std::abs(b.outward);
+  });
+  std::vector<bool> sure(normals_.size(), false);
+  for (const Part& part : parts) {
+    double outward = part.outward;
+    if (std::abs(outward) < kPlainlyOutward) {
+      const double agreement = agreement_with(sure, part.cells);
+      if (agreement != 0.0) outward = agreement;
+    }
+    for (const std::size_t cell : part.cells) {
+      if (outward < 0.0) normals_[cell] *= -1.0;
+      sure[cell] = true;
+    }
+  }
+}
+
+Eigen::Vector2d CellNormals::middle_of_all() const {
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& place : middles_) middle += place.head<2>();
+  return middle / std::max(1.0, static_cast<double>(middles_.size()));
+}
+
+/// Between -1 and 1: how far the normals of some cells face away from the middle.
+double CellNormals::outward_share(const std::vector<std::size_t>& cells,
+                                  const Eigen::Vector2d& middle) const {
+  double outward = 0.0;
+  double most = 0.0;
+  for (const std::size_t cell : cells) {
+    const Eigen::Vector2d arm = middles_[cell].head<2>() - middle;
+    outward += normals_[cell].head<2>().dot(arm);
+    most += arm.norm();
+  }
+  return most > 0.0 ? outward / most : 0.0;
+}
+
+/// Sum of the cosines between the normals of some cells and those of their neighbours that are
+/// sure.
+double CellNormals::agreement_with(const std::vector<bool>& sure,
+                                   const std::vector<std::size_t>& cells) const {
+  double agreement = 0.0;
+  for (const std::size_t cell : cells) {
+    for (const std::size_t other : links_of(cell)) {
+      if (sure[other]) agreement += normals_[cell].dot(normals_[other]);
+    }
+  }
+  return agreement;
+}
+
+/// The cells round one, or where they are few its nearest ones.
+std::vector<std::size_t> CellNormals::links_of(std::size_t cell) const {
+  auto links = grid_.neighbourhood(cell);
+  if (links.size() >= kFewestLinks) return links;
+  links.clear();
+  for (const auto& nearest : middle_index_.nearest(middles_[cell], kNearestLinks)) {
+    links.push_back(nearest.index);
+  }
+  return links;
+}
+
+/// Turns the cells that hang together with `root`, round no sharp bend; returns them.
+std::vector<std::size_t> CellNormals::orient_part(std::size_t root, std::vector<bool>& reached) {
   std::vector<std::size_t> part;
   std::priority_queue<Bend> bends;
   bends.push({0.0, root, root});
@@ -36,56 +167,22 @@ std::vector<std::size_t> orient_part(const std::vector<Eigen::Vector3d>& points,
     if (reached[bend.to]) continue;
     reached[bend.to] = true;
     part.push_back(bend.to);
-    if (normals[bend.from].dot(normals[bend.to]) < 0.0) normals[bend.to] *= -1.0;
-    for (const auto& next : index.nearest(points[bend.to], kTreeNeighbours)) {
-      if (reached[next.index]) continue;
-      const double turn = 1.0 - std::abs(normals[bend.to].dot(normals[next.index]));
-      bends.push({turn, bend.to, next.index});
+    if (normals_[bend.from].dot(normals_[bend.to]) < 0.0) normals_[bend.to] *= -1.0;
+    for (const auto next : links_of(bend.to)) {
+      if (reached[next]) continue;
+      const double size = 1.0 - std::abs(normals_[bend.to].dot(normals_[next]));
+      if (size < kLargestBend) bends.push({size, bend.to, next});
     }
   }
   return part;
 }
 
-void turn_outwards(const std::vector<Eigen::Vector3d>& points, const std::vector<std::size_t>& part,
-                   std::vector<Eigen::Vector3d>& normals) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const std::size_t i : part) middle += points[i].head<2>();
-  middle /= static_cast<double>(part.size());
-  double outward = 0.0;
-  for (const std::size_t i : part)
-    outward += normals[i].head<2>().dot(points[i].head<2>() - middle);
-  if (outward >= 0.0) return;
-  for (const std::size_t i : part) normals[i] *= -1.0;
-}
-
-}  // namespace
-
-std::vector<Eigen::Vector3d> estimate_normals(const std::vector<Eigen::Vector3d>& points,
-                                              const PointIndex& index, std::size_t count) {
-  std::vector<Eigen::Vector3d> normals;
-  normals.reserve(points.size());
-  for (const auto& point : points) {
-    const auto nearest = index.nearest(point, count);
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const auto& neighbour : nearest) mean += points[neighbour.index];
-    mean /= static_cast<double>(nearest.size());
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const auto& neighbour : nearest) {
-      const Eigen::Vector3d offset = points[neighbour.index] - mean;
-      spread += offset * offset.transpose();
-    }
-    normals.push_back(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0));
+std::vector<Eigen::Vector3d> CellNormals::of_points() const {
+  std::vector<Eigen::Vector3d> normals(points_);
+  for (std::size_t cell = 0; cell < normals_.size(); ++cell) {
+    for (const auto member : grid_.members(cell)) normals[member] = normals_[cell];
   }
   return normals;
-}
-
-void orient_by_neighbours(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                          std::vector<Eigen::Vector3d>& normals) {
-  std::vector<bool> reached(points.size(), false);
-  for (std::size_t root = 0; root < points.size(); ++root) {
-    if (reached[root]) continue;
-    turn_outwards(points, orient_part(points, index, root, reached, normals), normals);
-  }
 }
 
 }  // namespace instep

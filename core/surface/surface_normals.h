@@ -5,19 +5,48 @@
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/geometry/voxel_grid.h"
 
 namespace instep {
 
-/// Unit normals by principal components over the `count` nearest points (the paper, section 3.2);
-/// their sign means nothing yet.
-std::vector<Eigen::Vector3d> estimate_normals(const std::vector<Eigen::Vector3d>& points,
-                                              const PointIndex& index, std::size_t count);
+/// Unit normals of a surface, one for each cell of its points; their sign means nothing before they
+/// are oriented. A cell is small enough that its points share a normal and large enough that few
+/// normals do for many points.
+class CellNormals {
+ public:
+  /// By principal components (the paper, section 3.2) over the points of a cell and those round it;
+  /// where they are fewer than `fewest`, over that many nearest ones. `side` > 0: of a cell.
+  CellNormals(const std::vector<Eigen::Vector3d>& points, const PointIndex& index, double side,
+              std::size_t fewest);
 
-/// Turns normals to agree with their neighbours along a minimum spanning tree of the bends (Hoppe
-/// 1992), then each connected part as a whole outwards: the sum of normal times place over a ring
-/// round the third axis is twice its area, so it tells the side. Across an edge of a right angle
-/// exact normals of its two sides tell nothing of each other; estimated ones bend over it.
-void orient_by_neighbours(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                          std::vector<Eigen::Vector3d>& normals);
+  /// Turns normals to agree with their neighbours along a minimum spanning tree of the bends (Hoppe
+  /// 1992), within parts that no sharp edge crosses. A part that plainly faces away from the middle
+  /// of all, or towards it, is turned as a whole: over a ring round the third axis the sum of
+  /// normal times place is twice its area, wherever the middle is taken. The others follow their
+  /// neighbours.
+  void orient_by_neighbours();
+
+  /// The normal of each point: that of its cell.
+  std::vector<Eigen::Vector3d> of_points() const;
+
+ private:
+  /// Cells that hang together without a sharp bend, their normals on one side.
+  struct Part {
+    std::vector<std::size_t> cells;
+    double outward = 0.0;
+  };
+
+  std::vector<std::size_t> links_of(std::size_t cell) const;
+  std::vector<std::size_t> orient_part(std::size_t root, std::vector<bool>& reached);
+  Eigen::Vector2d middle_of_all() const;
+  double outward_share(const std::vector<std::size_t>& cells, const Eigen::Vector2d& middle) const;
+  double agreement_with(const std::vector<bool>& sure, const std::vector<std::size_t>& cells) const;
+
+  VoxelGrid grid_;
+  std::size_t points_;
+  std::vector<Eigen::Vector3d> middles_;
+  PointIndex middle_index_;
+  std::vector<Eigen::Vector3d> normals_;
+};
 
 }  // namespace instep

@@ -60,12 +60,15 @@ Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::
               "give PLY, XYZ or CSV text, PCD, OBJ or STL");
 }
 
+/// A coordinate beyond this is damage in any unit: a million kilometres of millimetres.
+constexpr double kLargestInFile = 1e15;
+
 /// The longest side of the box round the points. Fails on what is no number or absurd in any unit.
 Result<double> extent_of(const std::vector<Eigen::Vector3d>& positions, const std::string& file) {
   Eigen::AlignedBox3d box;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto& position = positions[i];
-    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
+    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kLargestInFile) {
       return fail(ErrorCode::kInvalidInput,
                   fmt::format("point {} of {} has a coordinate that is no number or absurdly large",
                               i, file),
@@ -131,13 +134,18 @@ tl::unexpected<Error> damaged_file(const std::string& file, const std::string& w
 }
 
 Result<CloudFile> read_cloud_file(const std::filesystem::path& path, LengthUnit unit) {
-  const std::string file = path.string();
   const auto bytes = read_file_bytes(path, kMostFileBytes);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  if (bytes->empty()) {
+  return read_cloud_bytes(*bytes, path, unit);
+}
+
+Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem::path& name,
+                                   LengthUnit unit) {
+  const std::string file = name.string();
+  if (bytes.empty()) {
     return fail(ErrorCode::kCorruptData, file + " is empty", "export or copy it again");
   }
-  auto raw = read_by_content(*bytes, path);
+  auto raw = read_by_content(bytes, name);
   if (!raw) return tl::make_unexpected(raw.error());
   if (raw->cloud.empty()) {
     return fail(ErrorCode::kInsufficientData, file + " has no points", "scan or export it again");
@@ -159,6 +167,7 @@ Result<CloudFile> read_cloud_file(const std::filesystem::path& path, LengthUnit 
     read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
                                      to_string(*settled), *extent * scale));
   }
+  if (const auto doubt = doubt_of_unit(*settled, *extent)) read.notes.push_back(*doubt);
   settle_normals(read);
   if (!raw->triangles.empty()) {
     read.mesh = {read.cloud.positions, std::move(raw->triangles)};

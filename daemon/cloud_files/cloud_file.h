@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/geometry/point_cloud.h"
@@ -33,5 +34,9 @@ struct CloudFile {
 /// (kInvalidInput). Files up to 4 GiB and 50 million points. Nothing is allocated on the word of a
 /// header alone.
 Result<CloudFile> read_cloud_file(const std::filesystem::path& path, LengthUnit unit);
+
+/// The same out of the bytes of a file; `name` gives the extension, and stands in messages.
+Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem::path& name,
+                                   LengthUnit unit);
 
 }  // namespace instep

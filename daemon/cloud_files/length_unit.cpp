@@ -13,6 +13,9 @@ constexpr double kSmallestBody_mm = 2.0;
 constexpr double kLargestBody_mm = 20000.0;
 constexpr double kSmallestFoot_mm = 100.0;
 constexpr double kLargestFoot_mm = 1000.0;
+constexpr double kSmallestLikely_mm = 50.0;
+constexpr double kLargestLikely_mm = 2000.0;
+constexpr double kMicrometresInMillimetre = 1000.0;
 
 std::optional<LengthUnit> foot_like_unit(double extent) {
   for (const LengthUnit unit : kUnits) {
@@ -20,6 +23,22 @@ std::optional<LengthUnit> foot_like_unit(double extent) {
     if (size_mm >= kSmallestFoot_mm && size_mm < kLargestFoot_mm) return unit;
   }
   return std::nullopt;
+}
+
+bool is_foot_in_micrometres(double extent) {
+  const double size_mm = extent / kMicrometresInMillimetre;
+  return size_mm >= kSmallestFoot_mm && size_mm < kLargestFoot_mm;
+}
+
+/// What to do about a body that is no foot in the unit that was given.
+std::string advice_on_unit(double extent) {
+  if (const auto likely = foot_like_unit(extent)) {
+    return fmt::format("it is probably in {0}, give --unit {0}", to_string(*likely));
+  }
+  if (is_foot_in_micrometres(extent)) {
+    return "it is probably in micrometres, export it in mm, cm or m";
+  }
+  return "say its unit with --unit mm, --unit cm or --unit m";
 }
 
 }  // namespace
@@ -64,12 +83,11 @@ Result<LengthUnit> settle_unit(LengthUnit unit, double extent, const std::string
     return fail(ErrorCode::kInsufficientData, fmt::format("all points of {} are the same", file),
                 "scan or export it again");
   }
-  const auto likely = foot_like_unit(extent);
   if (unit == LengthUnit::kAuto) {
-    if (likely) return *likely;
+    if (const auto likely = foot_like_unit(extent)) return *likely;
     return fail(ErrorCode::kInvalidInput,
                 fmt::format("{} spans {:.4g}, which is no foot in mm, cm or m", file, extent),
-                "say its unit with --unit mm, --unit cm or --unit m");
+                advice_on_unit(extent));
   }
   const double size_mm = extent * millimetres_in(unit);
   if (size_mm >= kSmallestBody_mm && size_mm <= kLargestBody_mm) return unit;
@@ -77,10 +95,15 @@ Result<LengthUnit> settle_unit(LengthUnit unit, double extent, const std::string
       fmt::format("{} spans only {:.4g} mm if its unit is {}", file, size_mm, to_string(unit));
   const std::string huge =
       fmt::format("{} spans {:.4g} m if its unit is {}", file, size_mm / 1000.0, to_string(unit));
-  const std::string advice =
-      likely ? fmt::format("it is probably in {0}, give --unit {0}", to_string(*likely))
-             : "say its unit with --unit mm, --unit cm or --unit m";
-  return fail(ErrorCode::kInvalidInput, size_mm < kSmallestBody_mm ? told : huge, advice);
+  return fail(ErrorCode::kInvalidInput, size_mm < kSmallestBody_mm ? told : huge,
+              advice_on_unit(extent));
+}
+
+std::optional<std::string> doubt_of_unit(LengthUnit unit, double extent) {
+  const double size_mm = extent * millimetres_in(unit);
+  if (size_mm >= kSmallestLikely_mm && size_mm <= kLargestLikely_mm) return std::nullopt;
+  return fmt::format("the body spans {:.4g} mm if its unit is {}: if it is a foot, {}", size_mm,
+                     to_string(unit), advice_on_unit(extent));
 }
 
 }  // namespace instep

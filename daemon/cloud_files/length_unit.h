@@ -24,4 +24,9 @@ double millimetres_in(LengthUnit unit);
 /// the unit in which the body is foot-like, 100 to 1000 mm, and fails if there is none.
 Result<LengthUnit> settle_unit(LengthUnit unit, double extent, const std::string& file);
 
+/// What the user should know of a unit that was given and makes the body so small or so large,
+/// below 50 mm or above 2 m, that it may be another: a foot in centimetres read as millimetres.
+/// Nothing where the size is likely.
+std::optional<std::string> doubt_of_unit(LengthUnit unit, double extent);
+
 }  // namespace instep

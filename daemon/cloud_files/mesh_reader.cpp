@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cstring>
 #include <exception>
@@ -12,6 +13,16 @@
 
 namespace instep {
 namespace {
+
+/// Knows no files. A mesh may name others, of materials and pictures: nothing of them is wanted,
+/// they may be damaged, and opening one that is a pipe would wait for ever.
+class NoOtherFiles final : public Assimp::IOSystem {
+ public:
+  bool Exists(const char*) const override { return false; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char*, const char*) override { return nullptr; }
+  void Close(Assimp::IOStream*) override {}
+};
 
 /// The parts of a scene after each other. Triangles that name corners that are not there are told
 /// by `false`.
@@ -37,6 +48,7 @@ Result<RawCloud> import(std::string_view bytes, const char* kind, const std::str
   TriangleMesh mesh;
   try {
     Assimp::Importer importer;
+    importer.SetIOHandler(new NoOtherFiles);  // which the importer then owns
     const aiScene* scene =
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, kind);
     if (scene == nullptr) return damaged_file(file, "it is no sound mesh file");

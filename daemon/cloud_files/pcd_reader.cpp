@@ -202,6 +202,7 @@ Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
     return damaged_file(file, "its points lack x, y or z");
   }
   want_vectors(*header, {"normal_x", "normal_y", "normal_z"}, count, raw.cloud.normals, targets);
+  if (count == 0) return raw;
   if (ascii) {
     if (auto good = read_ascii(rest, *header, count, targets, file); !good) {
       return tl::make_unexpected(good.error());

@@ -19,6 +19,9 @@ void add_recording_commands(CLI::App& app, int& exit_code);
 /// scan, status, watch, list, show, export, delete: talk to the daemon.
 void add_station_commands(CLI::App& app, int& exit_code);
 
+/// repeat: results on disk, no daemon.
+void add_repeat_command(CLI::App& app, int& exit_code);
+
 /// doctor: what is wrong with this machine and what to do.
 void add_doctor_command(CLI::App& app, int& exit_code);
 

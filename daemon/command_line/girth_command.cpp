@@ -1,6 +1,9 @@
 #include "daemon/command_line/girth_command.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -79,6 +82,17 @@ Result<Girth> measure(const GirthCommand& command, const CloudFile& file, const 
   return girth_by_section(file.mesh, plane);
 }
 
+/// A plane that is given in another unit than millimetres has its points where feet have none.
+std::optional<std::string> doubt_of_plane(const TapePlane& plane) {
+  constexpr double kNearestLandmarks_mm = 1.0;
+  const auto& c = plane.control_points();
+  const double spread_mm =
+      std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+  if (spread_mm >= kNearestLandmarks_mm) return std::nullopt;
+  return fmt::format(
+      "the points of --plane, which are read in mm, lie within {:.2g} mm of each other", spread_mm);
+}
+
 Result<void> run(const GirthCommand& command) {
   const auto start = Clock::now();
   GirthTimes times;
@@ -90,10 +104,15 @@ Result<void> run(const GirthCommand& command) {
 
   const auto measuring = Clock::now();
   auto girth = measure(command, *file, *plane);
-  if (!girth) return tl::make_unexpected(girth.error());
+  const auto doubt = doubt_of_plane(*plane);
+  if (!girth) {
+    if (doubt) girth.error().advice += "; " + *doubt;
+    return tl::make_unexpected(girth.error());
+  }
   times.measure_ms = milliseconds_since(measuring);
   times.total_ms = milliseconds_since(start);
 
+  if (doubt) girth->warnings.insert(girth->warnings.begin(), *doubt);
   girth->warnings.insert(girth->warnings.begin(), file->notes.begin(), file->notes.end());
   const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
   return as_text ? print_text(girth_text(command.method, *girth))

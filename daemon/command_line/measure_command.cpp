@@ -1,16 +1,22 @@
 #include "daemon/command_line/measure_command.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/station_settings.h"
+#include "daemon/page/pdf_page.h"
+#include "daemon/page/report_page.h"
 #include "daemon/report/csv_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/text_report.h"
+#include "drivers/files/file_bytes.h"
 
 namespace instep {
 namespace {
@@ -18,13 +24,39 @@ namespace {
 constexpr const char* kExamples = R"(No landmark is set by hand. Examples:
   instep measure foot.ply
   instep measure foot.stl --unit auto --side left --format text
-  instep measure foot.ply --format csv > foot.csv)";
+  instep measure foot.ply --format csv > foot.csv
+  instep measure foot.ply --report foot.pdf
+A PDF is made by rsvg-convert (apt-get install librsvg2-bin), an SVG needs nothing.)";
 
 struct MeasureCommand {
   CloudOptions cloud;
   std::string side = "auto";
   std::string format;
+  std::string report;
 };
+
+bool is_pdf(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".pdf";
+}
+
+std::string check_report(const std::string& file) {
+  const bool is_known = is_pdf(file) || std::filesystem::path(file).extension() == ".svg";
+  return is_known ? "" : "needs a name that ends in .svg or .pdf";
+}
+
+Result<void> write_report(const ScanRecord& record, const MeasureCommand& command) {
+  const auto page = report_page(record, std::filesystem::path(command.cloud.file).filename());
+  if (!is_pdf(command.report)) return write_file_bytes(command.report, page);
+  return pdf_of_page(page).and_then(
+      [&](const std::string& pdf) { return write_file_bytes(command.report, pdf); });
+}
+
+Result<void> print_measures(const ScanRecord& record, const std::string& format) {
+  const bool as_text = format.empty() ? stdout_is_terminal() : format == "text";
+  if (as_text) return print_text(foot_text(record.foot, record.measures, record.sizes));
+  const Json json = foot_json(record.foot, record.measures, record.sizes);
+  return format == "csv" ? print_text(result_csv(json)) : print_json(json);
+}
 
 Result<void> run(const MeasureCommand& command) {
   const auto file = read_cloud(command.cloud);
@@ -34,13 +66,17 @@ Result<void> run(const MeasureCommand& command) {
   auto foot = align_foot(file->cloud, options).and_then(find_landmarks);
   if (!foot) return tl::make_unexpected(foot.error());
   foot->warnings.insert(foot->warnings.begin(), file->notes.begin(), file->notes.end());
-  const auto measures = measure_foot(*foot);
+  auto measures = measure_foot(*foot);
   if (!measures) return tl::make_unexpected(measures.error());
 
-  if (command.format == "csv") return print_text(foot_csv(*foot, *measures));
-  const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
-  return as_text ? print_text(foot_text(*foot, *measures))
-                 : print_json(foot_json(*foot, *measures));
+  ScanRecord record;
+  record.foot = std::move(*foot);
+  record.sizes = shoe_sizes(sized_foot(*measures), station_settings().sizes);
+  record.measures = std::move(*measures);
+  if (!command.report.empty()) {
+    if (auto written = write_report(record, command); !written) return written;
+  }
+  return print_measures(record, command.format);
 }
 
 }  // namespace
@@ -56,6 +92,10 @@ void add_measure_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   measure->add_option("--format", command->format, "json (if stdout is no terminal), text or csv")
       ->check(CLI::IsMember({"json", "text", "csv"}));
+  measure
+      ->add_option("--report", command->report,
+                   "one page to print, FILE.svg or FILE.pdf; an old one is replaced")
+      ->check(check_report);
   measure->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

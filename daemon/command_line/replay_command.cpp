@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/result_text.h"
+#include "daemon/command_line/station_settings.h"
+#include "daemon/report/pair_report.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/store/posix_storage.h"
 #include "daemon/store/result_content.h"
@@ -16,8 +19,10 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr const char* kExamples = R"(Prints {"results": [...]}, one object for each foot. Examples:
-  instep replay visit
+constexpr const char* kExamples =
+    R"(Prints {"results": [...]}, one object for each foot; if there are two, each has both side by side
+under "pair". Examples:
+  instep replay visit --format text
   instep replay visit --out results --side left
   instep replay visit --poses trust        (the cameras are calibrated))";
 
@@ -26,6 +31,7 @@ struct ReplayCommand {
   std::string out;
   std::string side = "auto";
   std::string poses = "auto";
+  std::string format = "json";
 };
 
 Result<Capture> read_capture(const std::string& folder) {
@@ -60,12 +66,19 @@ Result<json> result_of(const ScanRecord& record, ResultStore* store) {
   return result;
 }
 
+std::string text_of(const json& results) {
+  std::string text;
+  for (const auto& result : results) text += result_text(result);
+  return results.empty() ? text : text + pair_text(results.back().value("pair", json()));
+}
+
 Result<void> run(const ReplayCommand& command) {
   const auto capture = read_capture(command.recording);
   if (!capture) return tl::make_unexpected(capture.error());
 
   PipelineSettings settings;
   settings.station = "replay";
+  settings.sizes = station_settings().sizes;
   settings.side = side_from_string(command.side);
   settings.refine_views = command.poses == "auto" ? !capture->simulated : command.poses == "refine";
   ProgressLine line;
@@ -86,7 +99,8 @@ Result<void> run(const ReplayCommand& command) {
     if (!result) return tl::make_unexpected(result.error());
     results.push_back(std::move(*result));
   }
-  return print_json({{"results", results}});
+  return command.format == "text" ? print_text(text_of(results))
+                                  : print_json({{"results", results}});
 }
 
 }  // namespace
@@ -106,6 +120,9 @@ void add_replay_command(CLI::App& app, int& exit_code) {
                    "trust the cameras' poses, or refine them by fitting the views to each other; "
                    "auto: refine what was not simulated")
       ->check(CLI::IsMember({"auto", "trust", "refine"}))
+      ->capture_default_str();
+  replay->add_option("--format", command->format, "json for programs, text for people")
+      ->check(CLI::IsMember({"json", "text"}))
       ->capture_default_str();
   replay->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }

@@ -5,19 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "daemon/report/json_fields.h"
+#include "daemon/report/sizes_report.h"
+
 namespace instep {
 namespace {
 
 using nlohmann::json;
-
-std::string text(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
-std::optional<double> number(const json& object, const char* key) {
-  if (!object.is_object() || !object.contains(key) || !object[key].is_number()) return {};
-  return object[key].get<double>();
-}
 
 std::string heading(bool with_truth) {
   return fmt::format("  {:<26}{:>8}    {:>8}", "measure", "value", "95 %") +
@@ -25,14 +19,14 @@ std::string heading(bool with_truth) {
 }
 
 std::string measure_line(const json& measure, const json& truth) {
-  const std::string id = text(measure, "id");
+  const std::string id = string_at(measure, "id");
   const bool is_angle = measure.contains("value_deg");
-  const auto value = number(measure, is_angle ? "value_deg" : "value_mm");
+  const auto value = number_at(measure, is_angle ? "value_deg" : "value_mm");
   if (!value) return fmt::format("  {:<26}       -\n", id);
-  const auto interval = number(measure, "u95_mm");
+  const auto interval = number_at(measure, "u95_mm");
   std::string line = fmt::format("  {:<26}{:>8.1f} {}{:>8}", id, *value, is_angle ? "deg" : "mm ",
                                  interval ? fmt::format("+-{:.1f}", *interval) : "");
-  if (const auto known = number(truth, id.c_str())) {
+  if (const auto known = number_at(truth, id.c_str())) {
     line += fmt::format("{:>9.1f}{:>+8.2f}", *known, *value - *known);
   }
   line.erase(line.find_last_not_of(' ') + 1);
@@ -41,8 +35,7 @@ std::string measure_line(const json& measure, const json& truth) {
 
 std::string warning_lines(const json& owner, const std::string& of) {
   std::string lines;
-  if (!owner.contains("warnings") || !owner["warnings"].is_array()) return lines;
-  for (const auto& warning : owner["warnings"]) {
+  for (const auto& warning : list_at(owner, "warnings")) {
     if (warning.is_string()) lines += fmt::format("  note: {}{}\n", of, warning.get<std::string>());
   }
   return lines;
@@ -52,19 +45,23 @@ std::string warning_lines(const json& owner, const std::string& of) {
 
 std::string result_text(const json& result) {
   if (!result.is_object()) return {};
-  const json measures = result.value("measures", json::array());
+  const json measures = list_at(result, "measures");
   const json truth = result.value("truth", json::object());
   std::string report =
-      fmt::format("scan {}\n{} foot{}\n", text(result, "id"), text(result, "side"),
+      fmt::format("scan {}\n{} foot{}\n", string_at(result, "id"), string_at(result, "side"),
                   result.value("simulated", json(false)) == json(true) ? ", simulated" : "") +
       heading(truth.is_object() && !truth.empty());
   std::string notes = warning_lines(result, "");
   for (const auto& measure : measures) {
     if (!measure.is_object()) continue;
     report += measure_line(measure, truth);
-    notes += warning_lines(measure, text(measure, "id") + ": ");
+    notes += warning_lines(measure, string_at(measure, "id") + ": ");
   }
-  return report + notes;
+  for (const auto& withheld : list_at(result, "withheld")) {
+    report += fmt::format("  {:<26}       -    {}\n", string_at(withheld, "id"),
+                          string_at(withheld, "reason"));
+  }
+  return report + sizes_text(result.value("sizes", json::object())) + notes;
 }
 
 }  // namespace instep

@@ -92,9 +92,11 @@ void add_station_commands(CLI::App& app, int& exit_code) {
 
   auto* show =
       add("show", "Print the measures of a scan", "instep show latest",
-          [](const Options& o) { return show_scan(o.id.empty() ? "latest" : o.id, o.as_json()); });
+          [](const Options& o) { return show_scan(o.id.empty() ? "latest" : o.id, o.format); });
   show->add_option("ID", options->id, "The scan's id, or latest (default)");
-  add_format(*show, *options);
+  show->add_option("--format", options->format, "text for people, json or csv for programs")
+      ->check(CLI::IsMember({"text", "json", "csv"}))
+      ->capture_default_str();
 
   auto* take =
       add("export", "Copy a scan's files into a folder", "instep export latest --out ~/scans",

@@ -12,6 +12,8 @@
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
+#include "daemon/report/csv_report.h"
+#include "daemon/report/pair_report.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -41,11 +43,10 @@ Result<json> ask_daemon(const std::string& verb, const std::string& id = {}) {
   return client->ask(verb, id);
 }
 
-Result<void> print_scan(ControlClient& client, const std::string& id, bool as_json) {
-  const auto shown = client.ask("show", id);
-  if (!shown) return tl::make_unexpected(shown.error());
-  const json& result = shown->at("result");
-  return as_json ? print_json(result) : print_text(result_text(result));
+Result<json> stored_result(ControlClient& client, const std::string& id) {
+  auto shown = client.ask("show", id);
+  if (!shown) return shown;
+  return std::move(shown->at("result"));
 }
 
 /// The result or failure that the next scan ends with.
@@ -152,11 +153,16 @@ Result<void> scan_on_station(bool wait, bool as_json) {
   if (!end) return tl::make_unexpected(end.error());
   auto asking = reach_daemon();
   if (!asking) return tl::make_unexpected(asking.error());
+  json last;
   for (const auto& scan : end->value("scans", json::array())) {
-    const auto printed = print_scan(*asking, text(scan, "id"), as_json);
+    auto result = stored_result(*asking, text(scan, "id"));
+    if (!result) return tl::make_unexpected(result.error());
+    last = std::move(*result);
+    const auto printed = as_json ? print_json(last) : print_text(result_text(last));
     if (!printed) return printed;
   }
-  return {};
+  if (as_json || !last.contains("pair")) return {};
+  return print_text(pair_text(last["pair"]));
 }
 
 Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json) {
@@ -209,10 +215,14 @@ Result<void> list_scans(bool as_json) {
   return print_text(ids);
 }
 
-Result<void> show_scan(const std::string& id, bool as_json) {
+Result<void> show_scan(const std::string& id, const std::string& format) {
   auto client = reach_daemon();
   if (!client) return tl::make_unexpected(client.error());
-  return print_scan(*client, id, as_json);
+  const auto result = stored_result(*client, id);
+  if (!result) return tl::make_unexpected(result.error());
+  if (format == "json") return print_json(*result);
+  if (format == "csv") return print_text(result_csv(*result));
+  return print_text(result_text(*result) + pair_text(result->value("pair", json())));
 }
 
 Result<void> export_scan(const std::string& id, const std::filesystem::path& out) {

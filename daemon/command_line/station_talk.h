@@ -18,7 +18,8 @@ Result<void> show_station_status(std::optional<std::chrono::seconds> wait_ready,
 /// `until_result` is given (kTimeout if there is none by then), else never.
 Result<void> watch_station(std::optional<std::chrono::seconds> until_result);
 Result<void> list_scans(bool as_json);
-Result<void> show_scan(const std::string& id, bool as_json);
+/// `format`: text, json or csv.
+Result<void> show_scan(const std::string& id, const std::string& format);
 /// Copies the files of a scan into the folder <out>/<id>, which must not be there yet.
 Result<void> export_scan(const std::string& id, const std::filesystem::path& out);
 Result<void> delete_scan(const std::string& id);

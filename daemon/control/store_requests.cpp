@@ -34,7 +34,7 @@ Result<json> answer(ResultStore& store, const Request& request) {
   if (request.verb == "export") {
     return json{{"id", *id},
                 {"folder", store.folder_of(*id).string()},
-                {"files", {"result.json", "cloud.ply", "sections.svg"}}};
+                {"files", {"result.json", "cloud.ply", "sections.svg", "report.svg"}}};
   }
   const auto removed = store.remove(*id);
   if (!removed) return tl::make_unexpected(removed.error());

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "daemon/report/json_fields.h"
 
 namespace instep {
 namespace {
 
-std::string cell(double value) {
-  return std::isfinite(value) ? fmt::format("{:.3f}", value) : std::string();
+using nlohmann::json;
+
+std::string cell(const json& measure, const char* key) {
+  const auto value = number_at(measure, key);
+  return value ? fmt::format("{:.3f}", *value) : std::string();
 }
 
 std::string quoted(const std::string& text) {
@@ -20,26 +25,31 @@ std::string quoted(const std::string& text) {
   return "\"" + doubled + "\"";
 }
 
-std::string joined(const std::vector<std::string>& warnings) {
+std::string warnings_of(const json& measure) {
   std::string text;
-  for (const auto& warning : warnings) text += (text.empty() ? "" : "; ") + warning;
+  for (const auto& warning : list_at(measure, "warnings")) {
+    if (!warning.is_string()) continue;
+    text += (text.empty() ? "" : "; ") + warning.get<std::string>();
+  }
   return text;
 }
 
 }  // namespace
 
-std::string foot_csv(const FootScan& foot, const MeasureSet& measures) {
-  std::string text = "side,id,value_mm,u95_mm,contact_mm,warnings\n";
-  const auto add = [&](const std::string& id, const std::string& value, const std::string& u95,
-                       const std::string& contact, const std::string& warnings) {
-    text += fmt::format("{},{},{},{},{},{}\n", to_string(foot.side), id, value, u95, contact,
-                        quoted(warnings));
-  };
-  for (const auto& measure : measures.measures) {
-    add(measure.id, cell(measure.value_mm), measure.u95_mm ? cell(*measure.u95_mm) : "",
-        measure.girth ? cell(measure.girth->contact_mm) : "", joined(measure.warnings));
+std::string result_csv(const json& result) {
+  const std::string side = string_at(result, "side");
+  std::string text = "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n";
+  for (const auto& measure : list_at(result, "measures")) {
+    const std::string id = string_at(measure, "id");
+    if (id.empty()) continue;
+    text += fmt::format("{},{},{},{},{},{},{}\n", side, id, cell(measure, "value_mm"),
+                        cell(measure, "u95_mm"), cell(measure, "contact_mm"),
+                        quoted(warnings_of(measure)), cell(measure, "value_deg"));
   }
-  for (const auto& withheld : measures.withheld) add(withheld.id, "", "", "", withheld.reason);
+  for (const auto& withheld : list_at(result, "withheld")) {
+    text += fmt::format("{},{},,,,{},\n", side, string_at(withheld, "id"),
+                        quoted(string_at(withheld, "reason")));
+  }
   return text;
 }
 

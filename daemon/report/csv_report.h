@@ -1,15 +1,14 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
-
-#include "core/foot/foot_scan.h"
-#include "core/foot/measure_set.h"
 
 namespace instep {
 
-/// The measures as CSV (RFC 4180 but for plain newlines): a header, then a line for each measure.
-/// `u95_mm` and `contact_mm` are empty where there is none. A point is the decimal mark in every
-/// locale.
-std::string foot_csv(const FootScan& foot, const MeasureSet& measures);
+/// The measures of a result, as foot_json() or result.json holds them, as CSV (RFC 4180 but for
+/// plain newlines): a header, then a line for each measure and each that was withheld. A cell is
+/// empty where there is no number; `value_deg` is that of an angle. A point is the decimal mark in
+/// every locale. What is of another shape is left out.
+std::string result_csv(const nlohmann::json& result);
 
 }  // namespace instep

@@ -74,9 +74,7 @@ std::string length_line(const FootScan& foot, const MeasureSet& measures, const 
   if (rear == foot.landmarks.end() || front == foot.landmarks.end() || length == nullptr) return {};
   const Vector2d from(view(rear->second.position_mm).x(), bottom + kLengthLineBelowPx);
   const Vector2d to(view(front->second.position_mm).x(), from.y());
-  const Vector2d tick(0.0, 5.0);
-  return svg::line(from, to, "rule") + svg::line(from - tick, from + tick, "rule") +
-         svg::line(to - tick, to + tick, "rule") +
+  return svg::measuring_line(from, to, 5.0, "rule") +
          svg::label((from + to) / 2.0 + Vector2d(0.0, 17.0), "length",
                     interval_text(length->value_mm, length->u95_mm) + " mm");
 }

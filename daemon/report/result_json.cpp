@@ -8,32 +8,21 @@
 #include <optional>
 
 #include "daemon/build_facts.h"
+#include "daemon/report/pair_report.h"
+#include "daemon/report/sizes_report.h"
 
 namespace instep {
 namespace {
 
-constexpr double kMondopointStepMm = 5.0;
-
-Json number(double value, double step = 0.001) {
-  if (!std::isfinite(value)) return nullptr;
-  const double per_unit = std::round(1.0 / step);
-  const double rounded = std::round(value * per_unit) / per_unit;
-  return rounded == 0.0 ? 0.0 : rounded;
-}
-
-Json number(const std::optional<double>& value) {
-  return value ? number(*value) : Json(nullptr);
-}
-
 Json coordinates(const Eigen::Vector3d& point) {
-  return Json::array({number(point.x()), number(point.y()), number(point.z())});
+  return Json::array({json_number(point.x()), json_number(point.y()), json_number(point.z())});
 }
 
 Json matrix(const RigidTransform& transform) {
   Json rows = Json::array();
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      rows.push_back(number(transform.matrix()(row, column), 1e-9));
+      rows.push_back(json_number(transform.matrix()(row, column), 1e-9));
     }
   }
   return rows;
@@ -41,7 +30,7 @@ Json matrix(const RigidTransform& transform) {
 
 Json numbers(const std::map<std::string, double>& values) {
   Json object = Json::object();
-  for (const auto& [name, value] : values) object[name] = number(value);
+  for (const auto& [name, value] : values) object[name] = json_number(value);
   return object;
 }
 
@@ -55,18 +44,18 @@ std::string utc(std::chrono::system_clock::time_point time) {
 
 Json landmark_json(const Landmark& landmark) {
   return {{"xyz_mm", coordinates(landmark.position_mm)},
-          {"confidence", number(landmark.confidence)},
+          {"confidence", json_number(landmark.confidence)},
           {"rule", landmark.rule}};
 }
 
 Json measure_json(const Measure& measure) {
   Json json{{"id", measure.id},
-            {"value_mm", number(measure.value_mm)},
-            {"u95_mm", number(measure.u95_mm)}};
+            {"value_mm", json_number(measure.value_mm)},
+            {"u95_mm", json_number(measure.u95_mm)}};
   if (measure.girth) {
-    json["stretched_mm"] = number(measure.girth->stretched_mm);
-    json["contact_mm"] = number(measure.girth->contact_mm);
-    json["largest_gap_mm"] = number(measure.girth->largest_gap_mm);
+    json["stretched_mm"] = json_number(measure.girth->stretched_mm);
+    json["contact_mm"] = json_number(measure.girth->contact_mm);
+    json["largest_gap_mm"] = json_number(measure.girth->largest_gap_mm);
   }
   if (measure.plane) {
     json["plane"] = Json::array();
@@ -79,21 +68,11 @@ Json measure_json(const Measure& measure) {
   return json;
 }
 
-Json sizes_json(const MeasureSet& measures) {
-  Json sizes = Json::object();
-  const Measure* length = measures.find("foot_length");
-  if (length != nullptr && std::isfinite(length->value_mm)) {
-    sizes["mondopoint_mm"] = kMondopointStepMm * std::round(length->value_mm / kMondopointStepMm);
-    sizes["guide"] = "the foot length rounded to 5 mm: a guide, the shoe decides";
-  }
-  return sizes;
-}
-
 Json device_json(const CameraDescription& device) {
   return {{"id", device.geometry.id},
           {"model", device.model},
           {"serial", device.serial},
-          {"depth_unit_mm", number(device.depth_unit_mm, 1e-6)},
+          {"depth_unit_mm", json_number(device.depth_unit_mm, 1e-6)},
           {"simulated", device.simulated}};
 }
 
@@ -101,24 +80,24 @@ Json device_json(const CameraDescription& device) {
 
 Json girth_json(const std::string& method, const Girth& girth, const GirthTimes& times) {
   return {{"method", method},
-          {"stretched_mm", number(girth.stretched_mm)},
-          {"contact_mm", number(girth.contact_mm)},
-          {"stretched_u95_mm", number(girth.stretched_u95_mm)},
-          {"contact_u95_mm", number(girth.contact_u95_mm)},
+          {"stretched_mm", json_number(girth.stretched_mm)},
+          {"contact_mm", json_number(girth.contact_mm)},
+          {"stretched_u95_mm", json_number(girth.stretched_u95_mm)},
+          {"contact_u95_mm", json_number(girth.contact_u95_mm)},
           {"points", girth.points},
           {"band_points", girth.band_points},
-          {"sigma_mm", number(girth.sigma_mm, 1e-6)},
-          {"largest_gap_mm", number(girth.largest_gap_mm)},
+          {"sigma_mm", json_number(girth.sigma_mm, 1e-6)},
+          {"largest_gap_mm", json_number(girth.largest_gap_mm)},
           {"warnings", girth.warnings},
           {"elapsed_ms",
-           {{"read", number(times.read_ms)},
-            {"measure", number(times.measure_ms)},
-            {"total", number(times.total_ms)}}}};
+           {{"read", json_number(times.read_ms)},
+            {"measure", json_number(times.measure_ms)},
+            {"total", json_number(times.total_ms)}}}};
 }
 
-Json foot_json(const FootScan& foot, const MeasureSet& measures) {
+Json foot_json(const FootScan& foot, const MeasureSet& measures, const ShoeSizes& sizes) {
   Json json{{"side", to_string(foot.side)},
-            {"side_confidence", number(foot.side_confidence)},
+            {"side_confidence", json_number(foot.side_confidence)},
             {"frame", matrix(foot.foot_from_input)},
             {"axis", "pt_toe2"}};
   json["landmarks"] = Json::object();
@@ -131,7 +110,7 @@ Json foot_json(const FootScan& foot, const MeasureSet& measures) {
   for (const auto& withheld : measures.withheld) {
     json["withheld"].push_back({{"id", withheld.id}, {"reason", withheld.reason}});
   }
-  json["sizes"] = sizes_json(measures);
+  json["sizes"] = sizes_json(sizes);
   json["warnings"] = foot.warnings;
   return json;
 }
@@ -147,11 +126,12 @@ Json result_json(const ScanRecord& record) {
   json["simulated"] = record.simulated;
   json["timings_ms"] = numbers(record.timings_ms);
   json["quality"] = numbers(record.quality);
-  Json foot = foot_json(record.foot, record.measures);
+  Json foot = foot_json(record.foot, record.measures, record.sizes);
   std::vector<std::string> warnings = record.warnings;
   warnings.insert(warnings.end(), record.foot.warnings.begin(), record.foot.warnings.end());
   foot["warnings"] = warnings;
   json.update(foot);
+  if (record.pair) json["pair"] = pair_json(*record.pair);
   if (!record.truth.empty()) json["truth"] = numbers(record.truth);
   return json;
 }

@@ -1,19 +1,17 @@
 #pragma once
 
-#include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/foot/foot_scan.h"
 #include "core/foot/measure_set.h"
+#include "core/foot/shoe_sizes.h"
 #include "core/girth/girth.h"
+#include "daemon/report/json_number.h"
 #include "daemon/scan/scan_record.h"
 
 namespace instep {
 
-/// Results as JSON, with the keys in a fixed order. Lengths are rounded to 0.001 mm; what is no
-/// finite number is null, so that the text is always valid JSON.
-using Json = nlohmann::ordered_json;
+/// Lengths are rounded to 0.001 mm; what is no finite number is null.
 
 /// Milliseconds that `instep girth` took, by stage.
 struct GirthTimes {
@@ -27,10 +25,11 @@ Json girth_json(const std::string& method, const Girth& girth, const GirthTimes&
 
 /// A measured foot, as `instep measure` prints it: side, frame, landmarks, measures, those that
 /// were withheld and why, sizes, warnings.
-Json foot_json(const FootScan& foot, const MeasureSet& measures);
+Json foot_json(const FootScan& foot, const MeasureSet& measures, const ShoeSizes& sizes);
 
 /// A whole result, as result.json holds it: what came how and when, then the object of foot_json(),
-/// then `truth` (measure id -> value) if the scan was simulated.
+/// then `pair` (pair_json()) if both feet were scanned together, and `truth` (measure id -> value)
+/// if the scan was simulated.
 Json result_json(const ScanRecord& record);
 
 }  // namespace instep

@@ -84,4 +84,14 @@ SectionDrawing draw_section(const FootScan& foot, const Measure& measure) {
   return drawing;
 }
 
+std::vector<DrawnSection> draw_sections(const FootScan& foot, const MeasureSet& measures) {
+  std::vector<DrawnSection> sections;
+  for (const auto& measure : measures.measures) {
+    if (!measure.girth || !measure.plane) continue;
+    DrawnSection section{&measure, draw_section(foot, measure)};
+    if (section.drawing.contour.size() >= 3) sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
 }  // namespace instep

@@ -21,6 +21,15 @@ struct SectionDrawing {
   double height = 0.0;
 };
 
+/// A section and the girth it is of.
+struct DrawnSection {
+  const Measure* measure = nullptr;
+  SectionDrawing drawing;
+};
+
+/// All girths of a set that have a section to draw. They point into `measures`.
+std::vector<DrawnSection> draw_sections(const FootScan& foot, const MeasureSet& measures);
+
 /// `measure` must have a girth and a plane; what is not finite is left out.
 SectionDrawing draw_section(const FootScan& foot, const Measure& measure);
 

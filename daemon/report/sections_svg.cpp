@@ -25,6 +25,7 @@ constexpr double kPlanWidthPx = 560.0;
 constexpr double kPlanHeightPx = 230.0;
 constexpr double kSectionsTopPx = kPlanTopPx + 322.0;
 constexpr double kBelowSectionsPx = 150.0;
+constexpr double kOutlineStepPx = 1.5;
 constexpr double kRulerMm = 50.0;
 
 constexpr const char* kStyle = R"(<style>
@@ -52,47 +53,31 @@ text { font-family: "Source Serif 4", Georgia, "DejaVu Serif", serif; fill: #3b3
 </style>
 )";
 
-struct Panel {
-  const Measure* measure = nullptr;
-  SectionDrawing drawing;
-
-  double width_px() const { return kPixelsPerMm * (drawing.right - drawing.left); }
-};
-
-std::vector<Panel> draw_panels(const FootScan& foot, const MeasureSet& measures) {
-  std::vector<Panel> panels;
-  for (const auto& measure : measures.measures) {
-    if (!measure.girth || !measure.plane) continue;
-    Panel panel{&measure, draw_section(foot, measure)};
-    if (panel.drawing.contour.size() >= 3) panels.push_back(std::move(panel));
-  }
-  return panels;
+double width_px(const DrawnSection& section) {
+  return kPixelsPerMm * (section.drawing.right - section.drawing.left);
 }
 
 std::vector<Vector2d> placed(const std::vector<Vector2d>& points, const Vector2d& origin) {
-  std::vector<Vector2d> on_page;
-  on_page.reserve(points.size());
-  for (const auto& point : points) on_page.push_back(origin + kPixelsPerMm * point);
-  return on_page;
+  return svg::placed(points, origin, kPixelsPerMm);
 }
 
 /// One section on its base line; `left` is where its leftmost point comes to lie.
-std::string panel_svg(const Panel& panel, double left, double base_line) {
+std::string panel_svg(const DrawnSection& panel, double left, double base_line) {
   const SectionDrawing& drawing = panel.drawing;
   const Vector2d origin(left - kPixelsPerMm * drawing.left, base_line);
-  const double middle = left + panel.width_px() / 2.0;
+  const double middle = left + width_px(panel) / 2.0;
   const double top = base_line - kPixelsPerMm * drawing.height;
   const Girth& girth = *panel.measure->girth;
   std::string text = svg::line({left - 14.0, base_line + 3.0},
-                               {left + panel.width_px() + 14.0, base_line + 3.0}, "floor");
-  text += svg::polygon(placed(drawing.tape, origin), "tape");
-  text += svg::polygon(placed(drawing.contour, origin), "skin");
+                               {left + width_px(panel) + 14.0, base_line + 3.0}, "floor");
+  text += svg::polygon(svg::thinned(placed(drawing.tape, origin), kOutlineStepPx), "tape");
+  text += svg::polygon(svg::thinned(placed(drawing.contour, origin), kOutlineStepPx), "skin");
   text += svg::dots(placed(drawing.platform_points, origin), 1.3, "platform");
   text += svg::dots(placed(drawing.seen_points, origin), 1.3, "seen");
   text += svg::label({middle, top - 12.0}, "side", "dorsal");
   text += svg::label({middle, base_line + 20.0}, "side", "plantar");
   text += svg::label({left + 10.0, base_line + 20.0}, "side", "medial");
-  text += svg::label({left + panel.width_px() - 10.0, base_line + 20.0}, "side", "lateral");
+  text += svg::label({left + width_px(panel) - 10.0, base_line + 20.0}, "side", "lateral");
   text += svg::label({middle, base_line + 52.0}, "heading", as_words(panel.measure->id));
   text += svg::label({middle, base_line + 82.0}, "number",
                      interval_text(panel.measure->value_mm, panel.measure->u95_mm) + " mm");
@@ -131,20 +116,18 @@ std::string table(const MeasureSet& measures, double left, double right) {
 std::string ruler(double y) {
   const Vector2d from(kMarginPx, y);
   const Vector2d to(kMarginPx + kPixelsPerMm * kRulerMm, y);
-  const Vector2d tick(0.0, 4.0);
-  return svg::line(from, to, "rule") + svg::line(from - tick, from + tick, "rule") +
-         svg::line(to - tick, to + tick, "rule") +
+  return svg::measuring_line(from, to, 4.0, "rule") +
          svg::label(to + Vector2d(10.0, 5.0), "note", fmt::format("{:.0f} mm", kRulerMm));
 }
 
 }  // namespace
 
 std::string sections_svg(const FootScan& foot, const MeasureSet& measures) {
-  const auto panels = draw_panels(foot, measures);
+  const auto panels = draw_sections(foot, measures);
   double row_width = 0.0;
   double tallest = 0.0;
   for (const auto& panel : panels) {
-    row_width += panel.width_px() + (row_width > 0.0 ? kBetweenPx : 0.0);
+    row_width += width_px(panel) + (row_width > 0.0 ? kBetweenPx : 0.0);
     tallest = std::max(tallest, kPixelsPerMm * panel.drawing.height);
   }
   const double width = std::max(kLeastPageWidthPx, row_width + 2.0 * kMarginPx);
@@ -163,7 +146,7 @@ std::string sections_svg(const FootScan& foot, const MeasureSet& measures) {
   double left = (width - row_width) / 2.0;
   for (const auto& panel : panels) {
     page += panel_svg(panel, left, base_line);
-    left += panel.width_px() + kBetweenPx;
+    left += width_px(panel) + kBetweenPx;
   }
   if (!panels.empty()) page += ruler(height - 24.0);
   return page + "</svg>\n";

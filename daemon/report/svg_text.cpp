@@ -30,6 +30,14 @@ std::string escaped(std::string_view text) {
   return safe;
 }
 
+std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& line, double least) {
+  std::vector<Eigen::Vector2d> kept;
+  for (const auto& point : line) {
+    if (kept.empty() || (point - kept.back()).norm() >= least) kept.push_back(point);
+  }
+  return kept;
+}
+
 std::string point_list(const std::vector<Eigen::Vector2d>& points) {
   std::string list;
   for (const auto& point : points) {
@@ -40,6 +48,10 @@ std::string point_list(const std::vector<Eigen::Vector2d>& points) {
 
 std::string polygon(const std::vector<Eigen::Vector2d>& points, std::string_view style) {
   return fmt::format("<polygon class=\"{}\" points=\"{}\"/>\n", style, point_list(points));
+}
+
+std::string polyline(const std::vector<Eigen::Vector2d>& points, std::string_view style) {
+  return fmt::format("<polyline class=\"{}\" points=\"{}\"/>\n", style, point_list(points));
 }
 
 std::string dots(const std::vector<Eigen::Vector2d>& points, double radius,
@@ -61,6 +73,21 @@ std::string line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::st
   return fmt::format(
       "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>\n", style,
       from.x(), from.y(), to.x(), to.y());
+}
+
+std::vector<Eigen::Vector2d> placed(const std::vector<Eigen::Vector2d>& points,
+                                    const Eigen::Vector2d& origin, double per_mm) {
+  std::vector<Eigen::Vector2d> on_page;
+  on_page.reserve(points.size());
+  for (const auto& point : points) on_page.push_back(origin + per_mm * point);
+  return on_page;
+}
+
+std::string measuring_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double half_end,
+                           std::string_view style) {
+  const Eigen::Vector2d end(0.0, half_end);
+  return line(from, to, style) + line(from - end, from + end, style) +
+         line(to - end, to + end, style);
 }
 
 }  // namespace instep::svg

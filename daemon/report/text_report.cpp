@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "daemon/report/number_text.h"
+#include "daemon/report/sizes_report.h"
 
 namespace instep {
 namespace {
@@ -33,7 +34,7 @@ void add_warnings(std::string& text, const FootScan& foot, const MeasureSet& mea
 
 }  // namespace
 
-std::string foot_text(const FootScan& foot, const MeasureSet& measures) {
+std::string foot_text(const FootScan& foot, const MeasureSet& measures, const ShoeSizes& sizes) {
   std::string text = fmt::format("{} foot", foot.side == Side::kLeft ? "Left" : "Right");
   if (foot.side_confidence < 1.0) {
     text += fmt::format(" (told from its shape, {:.0f} % sure)", 100.0 * foot.side_confidence);
@@ -50,6 +51,7 @@ std::string foot_text(const FootScan& foot, const MeasureSet& measures) {
     text +=
         fmt::format("  {:<{}}        -     {}\n", as_words(withheld.id), width, withheld.reason);
   }
+  if (const auto guide = sizes_text(sizes_json(sizes)); !guide.empty()) text += "\n" + guide;
   std::string warnings;
   add_warnings(warnings, foot, measures);
   return warnings.empty() ? text : text + "\n" + warnings;

@@ -112,8 +112,20 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   record.simulated = capture.simulated;
   record.truth = truth_of(capture, foot.side);
   record.foot = std::move(foot);
+  record.sizes = shoe_sizes(sized_foot(measures), settings.sizes);
   record.measures = std::move(measures);
   return record;
+}
+
+void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
+  const bool are_pair = records.size() == 2 && records[0].foot.side == Side::kLeft &&
+                        records[1].foot.side == Side::kRight;
+  if (!are_pair) return;
+  const auto& left = records[0].measures;
+  const auto& right = records[1].measures;
+  const ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
+                         shoe_sizes(larger_of(sized_foot(left), sized_foot(right)), rules)};
+  for (auto& record : records) record.pair = pair;
 }
 
 void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& quality) {
@@ -167,6 +179,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   }
   clock.end();
 
+  pair_up(records, settings.sizes);
   for (auto& record : records) {
     record.quality = quality;
     record.warnings = warnings;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 #include "core/fusion/depth_frame.h"
 #include "daemon/scan/scan_record.h"
@@ -37,12 +38,13 @@ struct PipelineSettings {
   double point_spacing_mm = 1.0;
   bool refine_views = false;  ///< align the views to each other: for nominal camera poses
   std::optional<Side> side;   ///< forced side; nothing = told from the shape
+  SizeRules sizes;
 };
 
 /// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Pure
 /// computation; takes no file and no device. What concerns one camera alone runs on a thread of its
 /// own. Gives one record for each foot on the platform, the left one first, and fails if there is
-/// none.
+/// none. A left and a right foot are put side by side, in the records of both.
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
                                                 const PipelineSettings& settings,
                                                 const ScanProgress& progress);

@@ -2,14 +2,25 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/foot/foot_pair.h"
 #include "core/foot/foot_scan.h"
 #include "core/foot/measure_set.h"
+#include "core/foot/shoe_sizes.h"
 #include "drivers/depth_camera.h"
 
 namespace instep {
+
+/// The two feet of one scan.
+struct ScannedPair {
+  std::string left_id;
+  std::string right_id;
+  FootPair feet;
+  ShoeSizes sizes;  ///< for shoes that take the larger foot, in each measure
+};
 
 /// One measured foot with all that is told about how it came to be: what result.json holds.
 struct ScanRecord {
@@ -26,6 +37,8 @@ struct ScanRecord {
 
   FootScan foot;
   MeasureSet measures;
+  ShoeSizes sizes;
+  std::optional<ScannedPair> pair;  ///< if the scan gave a left and a right foot
 };
 
 /// A new id: UTC time to the millisecond and some random letters, such as

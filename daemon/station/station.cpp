@@ -68,6 +68,7 @@ Result<void> Station::request_cancel() {
 void Station::reload(const Settings& settings) {
   settings_.station = settings.station;
   settings_.capture = settings.capture;
+  settings_.sizes = settings.sizes;
   settings_.pedal.debounce = settings.pedal.debounce;
   settings_.pedal.hold_to_cancel = settings.pedal.hold_to_cancel;
   if (pedal_) pedal_->set(settings_.pedal);
@@ -241,6 +242,7 @@ ScanTools Station::tools() const {
   tools.pipeline.point_spacing_mm = settings_.station.point_spacing_mm;
   tools.pipeline.refine_views = settings_.station.refine_views;
   tools.pipeline.side = settings_.station.side;
+  tools.pipeline.sizes = settings_.sizes;
   tools.platform_height_mm = devices_.platform_height_mm;
   tools.calibration = devices_.calibration;
   tools.simulated = devices_.simulated;

@@ -1,6 +1,7 @@
 #include "daemon/store/result_content.h"
 
 #include "daemon/cloud_files/cloud_ply_writer.h"
+#include "daemon/page/report_page.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/sections_svg.h"
 
@@ -13,7 +14,8 @@ Result<ResultContent> content_of(const ScanRecord& record) {
   if (!record.truth.empty()) json["truth"] = record.truth;
   constexpr int kIndent = 2;
   return ResultContent{json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n",
-                       std::move(*cloud), sections_svg(record.foot, record.measures)};
+                       std::move(*cloud), sections_svg(record.foot, record.measures),
+                       report_page(record)};
 }
 
 }  // namespace instep

@@ -12,10 +12,11 @@ struct ResultContent {
   std::string result_json;
   std::string cloud_ply;
   std::string sections_svg;
+  std::string report_svg;
 };
 
-/// Serialises a record. Pure; some milliseconds for a usual cloud. Fails with kInvalidInput on a cloud
-/// that contradicts itself.
+/// Serialises a record. Pure; some milliseconds for a usual cloud. Fails with kInvalidInput on a
+/// cloud that contradicts itself.
 Result<ResultContent> content_of(const ScanRecord& record);
 
 }  // namespace instep

@@ -85,7 +85,8 @@ Result<void> ResultStore::write_files(const std::filesystem::path& folder,
                                       const ResultContent& content) {
   return write_file(folder / "result.json", content.result_json)
       .and_then([&] { return write_file(folder / "cloud.ply", content.cloud_ply); })
-      .and_then([&] { return write_file(folder / "sections.svg", content.sections_svg); });
+      .and_then([&] { return write_file(folder / "sections.svg", content.sections_svg); })
+      .and_then([&] { return write_file(folder / "report.svg", content.report_svg); });
 }
 
 Result<void> ResultStore::write_file(const std::filesystem::path& path, std::string_view bytes) {

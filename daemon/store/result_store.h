@@ -19,7 +19,8 @@ struct Retention {
   int keep_count = 0;
 };
 
-/// The results on disk: <root>/YYYY/MM/DD/<id>/ with result.json, cloud.ply and sections.svg.
+/// The results on disk: <root>/YYYY/MM/DD/<id>/ with result.json, cloud.ply, sections.svg and
+/// report.svg.
 ///
 /// A result appears whole or not at all, whatever fails and whenever the power goes: it is written
 /// under a temporary name in the folder where it will lie, each file and the folder are flushed,

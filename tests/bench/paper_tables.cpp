@@ -21,6 +21,7 @@
 #include "core/surface/triharmonic_rbf.h"
 #include "daemon/cloud_files/cloud_file.h"
 #include "daemon/cloud_files/cloud_ply_writer.h"
+#include "tests/support/analytic_shapes.h"
 #include "tests/support/places.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
@@ -119,27 +120,15 @@ void table_1() {
   fmt::print("r(A) by LU of the whole matrix; \"here\" and eq. 9 as the octree decides them\n\n");
 }
 
-/// `twist`: of each ring against the one below it, in steps of its points.
-PointCloud rings(int per_ring, int count, double pitch, double twist) {
-  PointCloud cloud;
-  for (int ring = 0; ring < count; ++ring) {
-    for (int i = 0; i < per_ring; ++i) {
-      const double angle = 2.0 * std::numbers::pi * (i + twist * ring) / per_ring;
-      cloud.positions.emplace_back(40.0 * std::cos(angle), 40.0 * std::sin(angle),
-                                   pitch * (ring - 0.5 * (count - 1)));
-    }
-  }
-  return cloud;
-}
-
 /// Of the three models.
 std::vector<double> cylinder_deviations(const Method& method, double pitch, double twist,
                                         double z) {
   const auto plane = TapePlane::through({0, 0, z}, {1, 0, z}, {0, 1, z}).value();
   std::vector<double> deviations;
   for (const auto& [per_ring, count] : {std::pair{120, 10}, {60, 15}, {30, 15}}) {
-    deviations.push_back(80.0 * std::numbers::pi -
-                         stretched(method, rings(per_ring, count, pitch, twist), plane));
+    deviations.push_back(
+        80.0 * std::numbers::pi -
+        stretched(method, test::cylinder_rings(per_ring, count, pitch, twist), plane));
   }
   return deviations;
 }

@@ -78,9 +78,63 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[simulation]\nnoise = []", "must be text in quotes, but it is a list"},
         Fault{"[[camera]]\nkind = \"recording\"", "camera.path is missing"},
         Fault{"[store]\nkeep_days = 2020-01-01", "but it is a date or time"},
+        Fault{"[sizes]\nallowance_mm = 41", "sizes.allowance_mm = 41 is outside 0 to 40"},
+        Fault{"[sizes]\nallowance = 15", "did you mean sizes.allowance_mm?"},
+        Fault{"[[sizes.shop]]\nname = \"W\"", "sizes.shop.sizes must have 1 to 64 rows"},
+        Fault{"[[sizes.shop]]\nsizes = [{ size = \"42\", longest_foot_mm = 268 }]",
+              "sizes.shop.name is missing"},
+        Fault{"[[sizes.shop]]\nname = \"W\"\nsizes = [{ longest_foot_mm = 268 }]",
+              "size is missing"},
+        Fault{"[[sizes.shop]]\nname = \"W\"\nsizes = [{ size = \"42\" }]",
+              "longest_foot_mm is missing"},
+        Fault{"[[sizes.shop]]\nname = \"W\"\nsizes = [\n{ size = \"42\", longest_foot_mm = 268 },\n"
+              "{ size = \"41\", longest_foot_mm = 262 }]",
+              "/etc/s.toml:7: sizes.shop.sizes must stand in the order"},
         Fault{"[[log]]\nlevel = \"info\"", "log must be written as [log]"},
         Fault{"[pedal]\nkind = \"none", "/etc/s.toml:4:"},
         Fault{"[pedal]\n[pedal]\n", "/etc/s.toml:4:"}));
+
+/// The example in the shipped file, without the marks that make it a comment.
+std::string shop_example() {
+  std::ifstream stream(test::source_tree() / "config/instep.toml");
+  std::string example;
+  bool inside = false;
+  for (std::string line; std::getline(stream, line);) {
+    if (line == "#   [[sizes.shop]]") inside = true;
+    if (inside && !line.starts_with("#")) break;
+    if (inside) example += line.substr(1) + "\n";
+  }
+  return example;
+}
+
+TEST(SettingsFile, ReadsTheShopTableThatTheShippedFileTeaches) {
+  const auto reading = read(kCamera + shop_example());
+  ASSERT_TRUE(reading.good()) << reading.faults.front();
+  const auto& tables = reading.settings.sizes.shop_tables;
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_EQ(tables[0].name, "Walker");
+  ASSERT_EQ(tables[0].sizes.size(), 3U);
+  EXPECT_EQ(tables[0].sizes[2].size, "42 wide");
+  EXPECT_EQ(tables[0].sizes[2].longest_foot_mm, 268.0);
+  EXPECT_EQ(tables[0].sizes[2].largest_ball_girth_mm, 264.0);
+  EXPECT_FALSE(tables[0].sizes[0].largest_ball_girth_mm);
+  EXPECT_THAT(describe(reading.settings), HasSubstr("Walker with 3 sizes"));
+}
+
+TEST(SettingsFile, TakesNoMoreShopSizesThanItSays) {
+  const auto table = [](std::size_t rows) {
+    std::string text = "[[sizes.shop]]\nname = \"W\"\nsizes = [";
+    for (std::size_t i = 0; i < rows; ++i) text += "{ size = \"42\", longest_foot_mm = 268 },";
+    return text + "]\n";
+  };
+  EXPECT_TRUE(read(kCamera + table(kMostShopSizes)).good());
+  EXPECT_THAT(read(kCamera + table(kMostShopSizes + 1)).faults,
+              ElementsAre(HasSubstr("1 to 64 rows")));
+  std::string many = kCamera;
+  for (std::size_t i = 0; i < kMostShopTables; ++i) many += table(1);
+  EXPECT_TRUE(read(many).good());
+  EXPECT_THAT(read(many + table(1)).faults, ElementsAre(HasSubstr("more than 32")));
+}
 
 TEST(SettingsFile, ReportsAllFaultsOfAFileInItsOrder) {
   const auto reading =

@@ -142,6 +142,22 @@ TEST_F(BadInput, BadCloudsAreOne) {
   expect_failure({"girth", sound, "--plane", kPlane, "--method", "section"}, 1, "no faces");
 }
 
+TEST_F(BadInput, UnitsThatAreOffAreNamed) {
+  expect_bad_girth(file("metres.xyz", cylinder(0.001)), "--unit m");
+  expect_bad_girth(file("micrometres.xyz", cylinder(1000.0)), "micrometres");
+  const auto in_centimetres = test::run_program(
+      "instep", {"girth", file("cm.xyz", cylinder(0.1)), "--plane", "0,0,5,1,0,5,0,1,5"});
+  EXPECT_EQ(in_centimetres.exit_code, 0) << in_centimetres.errors;
+  EXPECT_NE(in_centimetres.output.find("--unit cm"), std::string::npos) << in_centimetres.output;
+  // The plane in metres: through the body, but not where it was meant.
+  const auto sound = file("c.xyz", cylinder());
+  const auto plane_in_metres =
+      test::run_program("instep", {"girth", sound, "--plane", "0,0,50,0.04,0,50,0,0.04,50"});
+  EXPECT_EQ(plane_in_metres.exit_code, 0) << plane_in_metres.errors;
+  EXPECT_NE(plane_in_metres.output.find("read in mm"), std::string::npos) << plane_in_metres.output;
+  expect_bad_girth(sound, "read in mm", "0,0,-30,0.04,0,-30,0,0.04,-30");
+}
+
 TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
   const auto cloud = file("c.xyz", cylinder());
   const auto out = folder_.path() / "mesh.ply";

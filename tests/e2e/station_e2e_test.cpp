@@ -69,7 +69,7 @@ TEST(Station, MakesAResultOfAPressOfThePedal) {
   const auto result = next_event(*watching, "result");
   ASSERT_TRUE(result) << station.log();
   const std::filesystem::path folder = result->at("scans").at(0).at("folder").get<std::string>();
-  for (const auto* file : {"result.json", "cloud.ply", "sections.svg"}) {
+  for (const auto* file : {"result.json", "cloud.ply", "sections.svg", "report.svg"}) {
     EXPECT_GT(std::filesystem::file_size(folder / file), 0U) << file;
   }
   std::size_t count = 0;

@@ -34,6 +34,7 @@ std::size_t whole_results(const std::filesystem::path& store) {
         nlohmann::json::parse(bytes_of(entry.path() / "result.json"), nullptr, false);
     EXPECT_TRUE(result.is_object() && result.value("id", "") == name) << entry.path();
     EXPECT_THAT(bytes_of(entry.path() / "sections.svg"), testing::HasSubstr("</svg>"));
+    EXPECT_THAT(bytes_of(entry.path() / "report.svg"), testing::HasSubstr("</svg>"));
     EXPECT_EQ(bytes_of(entry.path() / "cloud.ply").substr(0, 3), "ply") << entry.path();
   }
   return count;

@@ -1,9 +1,11 @@
 #include "tests/support/analytic_shapes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/polygon.h"
@@ -82,6 +84,28 @@ AnalyticShape superellipse(double a, double b, double power) {
           }};
 }
 
+AnalyticShape lobed_cylinder(double radius, double depth, int lobes) {
+  const auto radius_at = [=](double angle) { return radius + depth * std::cos(lobes * angle); };
+  return {
+      [=](double angle, double height) {
+        const double r = radius_at(angle);
+        return Vector3d(r * std::cos(angle), r * std::sin(angle), height);
+      },
+      [=](const Vector3d& p) { return p.head<2>().norm() - radius_at(std::atan2(p.y(), p.x())); }};
+}
+
+AnalyticShape flat_soled_cylinder(double a, double b, double sole) {
+  return {[=](double angle, double height) {
+            const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
+            const double skin = 1.0 / std::hypot(ray.x() / a, ray.y() / b);
+            const double r = ray.y() * skin < -sole ? -sole / ray.y() : skin;
+            return Vector3d(r * ray.x(), r * ray.y(), height);
+          },
+          [=](const Vector3d& p) {
+            return std::max(std::hypot(p.x() / a, p.y() / b) - 1.0, -p.y() / sole - 1.0);
+          }};
+}
+
 AnalyticShape bent_tube(double bend, double radius) {
   return {[=](double angle, double height) {
             const double way = bend + radius * std::cos(angle);
@@ -108,16 +132,60 @@ PointCloud random_points(const AnalyticShape& shape, std::size_t count, double l
   return cloud;
 }
 
-double true_girth(const AnalyticShape& shape, const TapePlane& plane) {
-  constexpr int kRays = 20000;
+PointCloud points_by_area(const AnalyticShape& shape, std::size_t count, double low, double high,
+                          std::uint64_t seed) {
+  RandomNumbers random(seed);
+  const auto area_at = [&](double angle, double height) {
+    constexpr double kStep = 1e-5;
+    return (shape.at(angle + kStep, height) - shape.at(angle - kStep, height))
+               .cross(shape.at(angle, height + kStep) - shape.at(angle, height - kStep))
+               .norm() /
+           (4.0 * kStep * kStep);
+  };
+  const auto somewhere = [&] {
+    return std::pair(random.uniform(0.0, 2.0 * std::numbers::pi), random.uniform(low, high));
+  };
+  double largest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto [angle, height] = somewhere();
+    largest = std::max(largest, area_at(angle, height));
+  }
+  PointCloud cloud;
+  while (cloud.size() < count) {
+    const auto [angle, height] = somewhere();
+    if (random.uniform() * largest > area_at(angle, height)) continue;
+    cloud.positions.push_back(shape.at(angle, height));
+    cloud.normals.push_back(normal_at(shape, cloud.positions.back()));
+  }
+  return cloud;
+}
+
+PointCloud cylinder_rings(int per_ring, int rings, double pitch_mm, double twist) {
+  PointCloud cloud;
+  for (int ring = 0; ring < rings; ++ring) {
+    for (int i = 0; i < per_ring; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i + twist * ring) / per_ring;
+      cloud.positions.emplace_back(40.0 * std::cos(angle), 40.0 * std::sin(angle),
+                                   pitch_mm * (ring - 0.5 * (rings - 1)));
+    }
+  }
+  return cloud;
+}
+
+std::vector<Eigen::Vector2d> true_section(const AnalyticShape& shape, const TapePlane& plane,
+                                          int rays) {
   const Vector3d middle(0.0, 0.0, plane.origin().dot(plane.normal()) / plane.normal().z());
   std::vector<Eigen::Vector2d> section;
-  for (int i = 0; i < kRays; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kRays;
+  for (int i = 0; i < rays; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / rays;
     const Vector3d direction = std::cos(angle) * plane.u() + std::sin(angle) * plane.v();
     section.push_back(plane.project(middle + ray_length(shape, middle, direction) * direction));
   }
-  return perimeter(section);
+  return section;
+}
+
+double true_girth(const AnalyticShape& shape, const TapePlane& plane) {
+  return perimeter(true_section(shape, plane, 20000));
 }
 
 }  // namespace instep::test

@@ -123,8 +123,8 @@ std::vector<KnownSection> known_sections(const std::string& folder) {
   return sections;
 }
 
-PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
-                     std::uint64_t seed) {
+PointCloud oriented_points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
+                              std::uint64_t seed) {
   const auto corner = [&](const auto& face, std::size_t k) { return mesh.positions[face[k]]; };
   std::vector<double> areas;
   double total = 0.0;
@@ -143,9 +143,18 @@ PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_m
     const Eigen::Vector3d ac = corner(face, 2) - a;
     const double root = std::sqrt(random.uniform());
     const double part = random.uniform();
+    const Eigen::Vector3d normal = ab.cross(ac).normalized();
     cloud.positions.push_back(a + root * ((1.0 - part) * ab + part * ac) +
-                              sigma_mm * random.normal() * ab.cross(ac).normalized());
+                              sigma_mm * random.normal() * normal);
+    cloud.normals.push_back(normal);
   }
+  return cloud;
+}
+
+PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
+                     std::uint64_t seed) {
+  PointCloud cloud = oriented_points_on(mesh, count, sigma_mm, seed);
+  cloud.normals.clear();
   return cloud;
 }
 

@@ -39,4 +39,8 @@ std::vector<KnownSection> known_sections(const std::string& folder);
 PointCloud points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
                      std::uint64_t seed);
 
+/// The same points, and each with the normal of its face.
+PointCloud oriented_points_on(const TriangleMesh& mesh, std::size_t count, double sigma_mm,
+                              std::uint64_t seed);
+
 }  // namespace instep::test

@@ -19,6 +19,19 @@ TEST(ConvexHull, KeepsTheCornersOfASquareOnly) {
   EXPECT_DOUBLE_EQ(signed_area(hull), 1.0);
 }
 
+TEST(IsRing, TellsAnAreaFromALineAndAPoint) {
+  EXPECT_TRUE(is_ring({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_TRUE(is_ring({{0, 0}, {0, 1}, {1, 1}, {1, 0}}));
+  EXPECT_TRUE(is_ring({{0, 0}, {1e-7, 0}, {0, 1e-7}}));
+  EXPECT_TRUE(is_ring({{0, 0}, {100, 0}, {100, 0.1}, {0, 0.1}}));
+  EXPECT_FALSE(is_ring({}));
+  EXPECT_FALSE(is_ring({{1, 2}}));
+  EXPECT_FALSE(is_ring({{0, 0}, {5, 5}}));
+  EXPECT_FALSE(is_ring({{0, 0}, {1, 1}, {2, 2}}));
+  EXPECT_FALSE(is_ring({{3, 3}, {3, 3}, {3, 3}, {3, 3}}));
+  EXPECT_FALSE(is_ring({{0, 0}, {100, 0}, {100, 1e-6}, {0, 1e-6}}));
+}
+
 TEST(ConvexHull, OfARegularPolygonIsThePolygon) {
   const int sides = 120;
   std::vector<Vector2d> points;

@@ -20,7 +20,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.5;
 
 BlendedSurface surface_of(const OrientedPoints& points) {
-  return {points, {{Vector3d::Zero(), 0.01}}};
+  return BlendedSurface(
+      PatchFitter(points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}, 0.0));
 }
 
 std::optional<Contour> trace(BlendedSurface& surface, const Vector2d& start) {

@@ -9,6 +9,7 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cylinder_tape.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -16,32 +17,11 @@ namespace {
 
 using Eigen::Vector3d;
 using test::AnalyticShape;
-
-constexpr double kCircle = 80.0 * std::numbers::pi;  ///< girth of the cylinder of radius 40
-
-TapePlane level(double height) {
-  return TapePlane::through({0, 0, height}, {1, 0, height}, {0, 1, height}).value();
-}
-
-TapePlane oblique() {
-  return TapePlane::through({0, 0, -2}, {10, 0, 1}, {0, 10, 2}).value();
-}
-
-PointCloud cylinder(std::size_t count, double sigma_mm = 0.0) {
-  return test::random_points(test::elliptic_cylinder(40, 40), count, -30, 30, sigma_mm, 5);
-}
-
-/// Rings of a cylinder of radius 40, as in the paper's Table 2.
-PointCloud rings(int per_ring, int count, double pitch) {
-  PointCloud cloud;
-  for (int ring = 0; ring < count; ++ring) {
-    for (int i = 0; i < per_ring; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / per_ring;
-      cloud.positions.emplace_back(40 * std::cos(angle), 40 * std::sin(angle), pitch * ring);
-    }
-  }
-  return cloud;
-}
+using test::cylinder;
+using test::kCylinderGirth;
+using test::level_plane;
+using test::oblique_plane;
+using test::rings;
 
 bool warns(const Girth& girth, const std::string& words) {
   return std::any_of(girth.warnings.begin(), girth.warnings.end(), [&](const std::string& warning) {
@@ -67,7 +47,7 @@ double shortfall(const AnalyticShape& shape, const TapePlane& plane, std::size_t
 TEST(GirthByMesh, IsThatOfThePrismOfAlignedRings) {
   for (const int corners : {120, 60, 30}) {
     for (const double height : {13.1, 15.0}) {
-      const auto girth = girth_by_mesh(rings(corners, 10, 3.0), level(height));
+      const auto girth = girth_by_mesh(rings(corners, 10, 3.0), level_plane(height));
       ASSERT_TRUE(girth) << girth.error().line();
       const double polygon = 2.0 * corners * 40 * std::sin(std::numbers::pi / corners);
       EXPECT_NEAR(girth->stretched_mm, polygon, 1e-9);
@@ -83,7 +63,7 @@ TEST(GirthByMesh, FallsShortOfSmoothShapesByTheirChords) {
   const std::vector<AnalyticShape> shapes = {
       test::elliptic_cylinder(40, 40), test::elliptic_cylinder(45, 28), test::cone(38, 0.3),
       test::ellipsoid(42, 42, 42),     test::ellipsoid(50, 35, 60),     test::bent_tube(90, 35)};
-  for (const auto& plane : {level(1.3), oblique()}) {
+  for (const auto& plane : {level_plane(1.3), oblique_plane()}) {
     for (const auto& shape : shapes) {
       const double sparse = shortfall(shape, plane, 450);
       const double dense = shortfall(shape, plane, 8000);
@@ -107,7 +87,8 @@ TEST(GirthByMesh, FollowsTheSkinIntoHollows) {
   for (int i = 0; i < 20000; ++i) {
     section.push_back(waisted.at(2 * std::numbers::pi * i / 20000, 0).head<2>());
   }
-  const auto girth = girth_by_mesh(test::random_points(waisted, 8000, -30, 30, 0, 3), level(1.3));
+  const auto girth =
+      girth_by_mesh(test::random_points(waisted, 8000, -30, 30, 0, 3), level_plane(1.3));
   ASSERT_TRUE(girth) << girth.error().line();
   EXPECT_NEAR(girth->contact_mm, perimeter(section), 0.1);
   EXPECT_NEAR(girth->stretched_mm, perimeter(convex_hull(section)), 0.1);
@@ -116,18 +97,18 @@ TEST(GirthByMesh, FollowsTheSkinIntoHollows) {
 
 TEST(GirthByMesh, UsesNoNormals) {
   auto cloud = cylinder(2000);
-  const auto without = girth_by_mesh(cloud, level(1.3));
+  const auto without = girth_by_mesh(cloud, level_plane(1.3));
   cloud.normals.assign(cloud.size(), Vector3d::UnitX());
-  const auto with = girth_by_mesh(cloud, level(1.3));
+  const auto with = girth_by_mesh(cloud, level_plane(1.3));
   ASSERT_TRUE(without && with);
   EXPECT_EQ(with->stretched_mm, without->stretched_mm);
 }
 
 TEST(GirthByMesh, IsTheSameInAnyUnit) {
-  const auto girth = girth_by_mesh(cylinder(2000), level(1.3));
+  const auto girth = girth_by_mesh(cylinder(2000), level_plane(1.3));
   auto metres = cylinder(2000);
   for (auto& position : metres.positions) position *= 1e-3;
-  const auto small = girth_by_mesh(metres, level(1.3e-3));
+  const auto small = girth_by_mesh(metres, level_plane(1.3e-3));
   ASSERT_TRUE(girth && small);
   EXPECT_NEAR(1e3 * small->stretched_mm, girth->stretched_mm, 1e-9);
 }
@@ -140,9 +121,9 @@ TEST(GirthByMesh, BearsDuplicatesAndStrays) {
     cloud.positions.emplace_back(random.uniform(-60, 60), random.uniform(-60, 60),
                                  random.uniform(-30, 30));
   }
-  const auto girth = girth_by_mesh(cloud, level(1.3));
+  const auto girth = girth_by_mesh(cloud, level_plane(1.3));
   ASSERT_TRUE(girth) << girth.error().line();
-  EXPECT_NEAR(girth->stretched_mm, kCircle, 0.1);
+  EXPECT_NEAR(girth->stretched_mm, kCylinderGirth, 0.1);
 }
 
 TEST(GirthByMesh, MeasuresTheLargerOfTwoBodiesAndNamesTheOther) {
@@ -151,9 +132,9 @@ TEST(GirthByMesh, MeasuresTheLargerOfTwoBodiesAndNamesTheOther) {
        test::random_points(test::elliptic_cylinder(20, 20), 2000, -30, 30, 0, 6).positions) {
     cloud.positions.push_back(p + Vector3d(66, 0, 0));
   }
-  const auto girth = girth_by_mesh(cloud, level(1.3));
+  const auto girth = girth_by_mesh(cloud, level_plane(1.3));
   ASSERT_TRUE(girth) << girth.error().line();
-  EXPECT_NEAR(girth->stretched_mm, kCircle, 0.1);
+  EXPECT_NEAR(girth->stretched_mm, kCylinderGirth, 0.1);
   ASSERT_EQ(girth->warnings.size(), 1U);
   EXPECT_TRUE(warns(*girth, "closed loop, 125.")) << girth->warnings.front();
 }
@@ -171,17 +152,17 @@ PointCloud without_arc(double half_angle) {
 // The bridge is a straight line between points at most a spacing or two from the rims.
 TEST(GirthByMesh, BridgesAHoleAndTellsItsWidth) {
   const double half_angle = 0.35;
-  const auto girth = girth_by_mesh(without_arc(half_angle), level(1.3));
+  const auto girth = girth_by_mesh(without_arc(half_angle), level_plane(1.3));
   ASSERT_TRUE(girth) << girth.error().line();
   const double chord = 80 * std::sin(half_angle);
   EXPECT_GT(girth->largest_gap_mm, chord);
   EXPECT_LT(girth->largest_gap_mm, chord + 3.0);
-  EXPECT_NEAR(girth->stretched_mm, kCircle - (80 * half_angle - chord), 0.3);
+  EXPECT_NEAR(girth->stretched_mm, kCylinderGirth - (80 * half_angle - chord), 0.3);
   EXPECT_TRUE(warns(*girth, "bridged"));
 }
 
 TEST(GirthByMesh, RefusesWhatIsOpenByMoreThanAQuarter) {
-  const auto girth = girth_by_mesh(without_arc(1.3), level(1.3));
+  const auto girth = girth_by_mesh(without_arc(1.3), level_plane(1.3));
   ASSERT_FALSE(girth);
   EXPECT_EQ(girth.error().code, ErrorCode::kInsufficientData);
 }
@@ -192,41 +173,41 @@ TEST(GirthByMesh, CountsUnseenPointsAsAGap) {
     const bool seen = std::abs(std::atan2(position.y(), position.x())) > 0.35;
     cloud.origins.push_back(seen ? PointOrigin::kSeen : PointOrigin::kPlatform);
   }
-  const auto girth = girth_by_mesh(cloud, level(1.3));
+  const auto girth = girth_by_mesh(cloud, level_plane(1.3));
   ASSERT_TRUE(girth) << girth.error().line();
-  EXPECT_NEAR(girth->stretched_mm, kCircle, 0.1);
+  EXPECT_NEAR(girth->stretched_mm, kCylinderGirth, 0.1);
   EXPECT_NEAR(girth->largest_gap_mm, 28.0, 3.0);
 }
 
 TEST(GirthByMesh, WarnsThatItFollowsNoise) {
-  const auto clean = girth_by_mesh(cylinder(8000), level(1.3));
-  const auto noisy = girth_by_mesh(cylinder(8000, 0.3), level(1.3));
+  const auto clean = girth_by_mesh(cylinder(8000), level_plane(1.3));
+  const auto noisy = girth_by_mesh(cylinder(8000, 0.3), level_plane(1.3));
   ASSERT_TRUE(clean && noisy);
   EXPECT_FALSE(warns(*clean, "noise"));
   EXPECT_TRUE(warns(*noisy, "noise"));
-  EXPECT_GT(noisy->stretched_mm, kCircle + 0.5);
+  EXPECT_GT(noisy->stretched_mm, kCylinderGirth + 0.5);
   EXPECT_GT(noisy->contact_mm, noisy->stretched_mm + 2.0);
 }
 
 TEST(GirthByMesh, RefusesWhatHoldsNoSurface) {
-  EXPECT_FALSE(girth_by_mesh({}, level(0)));
+  EXPECT_FALSE(girth_by_mesh({}, level_plane(0)));
   PointCloud few;
   few.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  EXPECT_FALSE(girth_by_mesh(few, level(0)));
-  EXPECT_FALSE(girth_by_mesh(cylinder(2000), level(200)));
+  EXPECT_FALSE(girth_by_mesh(few, level_plane(0)));
+  EXPECT_FALSE(girth_by_mesh(cylinder(2000), level_plane(200)));
   PointCloud equal;
   equal.positions.assign(500, Vector3d(1, 2, 3));
-  EXPECT_FALSE(girth_by_mesh(equal, level(3)));
+  EXPECT_FALSE(girth_by_mesh(equal, level_plane(3)));
   PointCloud line;
   for (int i = 0; i < 500; ++i) line.positions.emplace_back(i, 2.0 * i, i - 250);
-  EXPECT_FALSE(girth_by_mesh(line, level(3)));
+  EXPECT_FALSE(girth_by_mesh(line, level_plane(3)));
   PointCloud sheet;
   for (int i = 0; i < 900; ++i) sheet.positions.emplace_back(i % 30, 0, i / 30);
-  EXPECT_FALSE(girth_by_mesh(sheet, level(15.5)));
+  EXPECT_FALSE(girth_by_mesh(sheet, level_plane(15.5)));
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e30}) {
     auto broken = cylinder(2000);
     broken.positions[7].y() = bad;
-    EXPECT_FALSE(girth_by_mesh(broken, level(1.3)));
+    EXPECT_FALSE(girth_by_mesh(broken, level_plane(1.3)));
   }
 }
 
@@ -237,7 +218,7 @@ TEST(GirthByMesh, RefusesACrowdWithoutASurface) {
     crowd.positions.emplace_back(random.uniform(-50, 50), random.uniform(-50, 50),
                                  random.uniform(-50, 50));
   }
-  const auto girth = girth_by_mesh(crowd, level(0.3));
+  const auto girth = girth_by_mesh(crowd, level_plane(0.3));
   ASSERT_FALSE(girth);
   EXPECT_EQ(girth.error().code, ErrorCode::kInsufficientData);
 }

@@ -6,6 +6,7 @@
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cylinder_tape.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -13,17 +14,9 @@ namespace {
 
 using Eigen::Vector3d;
 using test::AnalyticShape;
-
-TapePlane plane_at(const Vector3d& c1, const Vector3d& c2, const Vector3d& c3) {
-  return TapePlane::through(c1, c2, c3).value();
-}
-
-TapePlane level_plane() {
-  return plane_at({0, 0, 1.3}, {1, 0, 1.3}, {0, 1, 1.3});
-}
-TapePlane oblique_plane() {
-  return plane_at({0, 0, -2}, {10, 0, 1}, {0, 10, 2});
-}
+using test::level_plane;
+using test::oblique_plane;
+using test::plane_at;
 
 PointCloud cloud_of(const AnalyticShape& shape, std::size_t count, std::uint64_t seed = 11) {
   return test::random_points(shape, count, -30, 30, 0.0, seed);
@@ -48,22 +41,10 @@ TEST(GirthByPaper, MeetsSmoothShapesFromDensePoints) {
   expect_girth(test::bent_tube(90, 35), oblique_plane());
 }
 
-/// Rings of equally spaced points, as the paper's Table 2 has them.
-PointCloud rings(int per_ring, int count) {
-  PointCloud cloud;
-  for (int ring = 0; ring < count; ++ring) {
-    for (int i = 0; i < per_ring; ++i) {
-      const double angle = 2.0 * M_PI * i / per_ring;
-      cloud.positions.emplace_back(40 * std::cos(angle), 40 * std::sin(angle),
-                                   60.0 * ring / (count - 1) - 30.0);
-    }
-  }
-  return cloud;
-}
-
 TEST(GirthByPaper, MeetsAGridOfPointsWithinAMillimetre) {
   for (const auto& [per_ring, count] : {std::pair{120, 10}, {60, 15}, {30, 15}}) {
-    const auto girth = girth_by_paper(rings(per_ring, count), level_plane());
+    const auto girth =
+        girth_by_paper(test::rings(per_ring, count, 60.0 / (count - 1)), level_plane(31.3));
     ASSERT_TRUE(girth) << girth.error().line();
     EXPECT_NEAR(girth->stretched_mm, 80 * M_PI, 1.0) << per_ring;
   }

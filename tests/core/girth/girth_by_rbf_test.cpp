@@ -8,6 +8,7 @@
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cylinder_tape.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -15,22 +16,10 @@ namespace {
 
 using Eigen::Vector3d;
 using test::AnalyticShape;
-
-TapePlane plane_at(const Vector3d& c1, const Vector3d& c2, const Vector3d& c3) {
-  return TapePlane::through(c1, c2, c3).value();
-}
-
-/// Across the axis of the shapes, and obliquely.
-TapePlane level_plane() {
-  return plane_at({0, 0, 1.3}, {1, 0, 1.3}, {0, 1, 1.3});
-}
-TapePlane oblique_plane() {
-  return plane_at({0, 0, -2}, {10, 0, 1}, {0, 10, 2});
-}
-
-PointCloud cylinder(std::size_t count, double sigma_mm = 0.0, std::uint64_t seed = 5) {
-  return test::random_points(test::elliptic_cylinder(40, 40), count, -30, 30, sigma_mm, seed);
-}
+using test::cylinder;
+using test::level_plane;
+using test::oblique_plane;
+using test::plane_at;
 
 void expect_girth(const AnalyticShape& shape, const TapePlane& plane, std::size_t count,
                   double tolerance_mm) {

@@ -6,11 +6,13 @@
 #include <string>
 
 #include "core/girth/girth.h"
+#include "tests/support/cylinder_tape.h"
 
 namespace instep {
 namespace {
 
 using Eigen::Vector3d;
+using test::level_plane;
 
 /// Adds the walls of an upright box; every face has corners of its own, as in an STL file.
 void add_walls(TriangleMesh& mesh, const Vector3d& low, const Vector3d& high, int walls = 4) {
@@ -31,14 +33,10 @@ void add_walls(TriangleMesh& mesh, const Vector3d& low, const Vector3d& high, in
   }
 }
 
-TapePlane level(double height) {
-  return TapePlane::through({0, 0, height}, {1, 0, height}, {0, 1, height}).value();
-}
-
 TEST(GirthBySection, ChainsFacesThatShareNoCorners) {
   TriangleMesh mesh;
   add_walls(mesh, {0, 0, 0}, {30, 20, 10});
-  const auto girth = girth_by_section(mesh, level(4));
+  const auto girth = girth_by_section(mesh, level_plane(4));
   ASSERT_TRUE(girth) << girth.error().line();
   EXPECT_NEAR(girth->contact_mm, 100, 1e-9);
   EXPECT_NEAR(girth->stretched_mm, 100, 1e-9);
@@ -49,7 +47,7 @@ TEST(GirthBySection, CutsThroughCornersOnThePlane) {
   TriangleMesh mesh;
   add_walls(mesh, {0, 0, 0}, {30, 20, 10});
   add_walls(mesh, {0, 0, 10}, {30, 20, 25});
-  const auto girth = girth_by_section(mesh, level(10));
+  const auto girth = girth_by_section(mesh, level_plane(10));
   ASSERT_TRUE(girth) << girth.error().line();
   EXPECT_NEAR(girth->contact_mm, 100, 1e-9);
 }
@@ -58,7 +56,7 @@ TEST(GirthBySection, ChoosesTheLargerLoopAndNamesTheOther) {
   TriangleMesh mesh;
   add_walls(mesh, {50, 0, 0}, {60, 10, 10});
   add_walls(mesh, {0, 0, 0}, {30, 20, 10});
-  const auto girth = girth_by_section(mesh, level(4));
+  const auto girth = girth_by_section(mesh, level_plane(4));
   ASSERT_TRUE(girth);
   EXPECT_NEAR(girth->contact_mm, 100, 1e-9);
   ASSERT_EQ(girth->warnings.size(), 1U);
@@ -68,7 +66,7 @@ TEST(GirthBySection, ChoosesTheLargerLoopAndNamesTheOther) {
 TEST(GirthBySection, BridgesAnOpenSectionOnlyForTheStretchedLength) {
   TriangleMesh mesh;
   add_walls(mesh, {0, 0, 0}, {30, 20, 10}, 3);
-  const auto girth = girth_by_section(mesh, level(4));
+  const auto girth = girth_by_section(mesh, level_plane(4));
   ASSERT_TRUE(girth);
   EXPECT_NEAR(girth->stretched_mm, 100, 1e-9);
   EXPECT_NEAR(girth->contact_mm, 80, 1e-9);
@@ -88,7 +86,7 @@ TEST(GirthBySection, StitchesSeams) {
     }
     mesh.triangles.push_back({first, first + 1, first + 2});
   }
-  const auto girth = girth_by_section(mesh, level(4));
+  const auto girth = girth_by_section(mesh, level_plane(4));
   ASSERT_TRUE(girth);
   EXPECT_NEAR(girth->contact_mm, 100.2, 1e-9);
   EXPECT_TRUE(girth->warnings.empty());
@@ -96,14 +94,14 @@ TEST(GirthBySection, StitchesSeams) {
 
 TEST(GirthBySection, RefusesWhatCannotBeCut) {
   TriangleMesh mesh;
-  EXPECT_FALSE(girth_by_section(mesh, level(4)));
+  EXPECT_FALSE(girth_by_section(mesh, level_plane(4)));
   add_walls(mesh, {0, 0, 0}, {30, 20, 10});
-  EXPECT_FALSE(girth_by_section(mesh, level(40)));
+  EXPECT_FALSE(girth_by_section(mesh, level_plane(40)));
   mesh.triangles.push_back({0, 1, 9999});
-  EXPECT_FALSE(girth_by_section(mesh, level(4)));
+  EXPECT_FALSE(girth_by_section(mesh, level_plane(4)));
   mesh.triangles.pop_back();
   mesh.positions[3].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(girth_by_section(mesh, level(4)));
+  EXPECT_FALSE(girth_by_section(mesh, level_plane(4)));
 }
 
 }  // namespace

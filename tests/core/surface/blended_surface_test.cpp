@@ -19,7 +19,8 @@ using OrientedPoints = std::vector<OrientedPoint>;
 constexpr double kRadius = 0.5;
 
 BlendedSurface surface_of(const OrientedPoints& points) {
-  return {points, {{Vector3d::Zero(), 0.01}}};
+  return BlendedSurface(
+      PatchFitter(points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}, 0.0));
 }
 
 Vector3d on_equator(double angle, double radius = kRadius) {

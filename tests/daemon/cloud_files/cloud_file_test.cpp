@@ -1,6 +1,7 @@
 #include "daemon/cloud_files/cloud_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -169,6 +170,18 @@ TEST_F(CloudFiles, ReadsMeshesAndJoinsTheirCorners) {
   expect_fault("none.obj", "hello\n", ErrorCode::kInsufficientData, "no points");
 }
 
+TEST_F(CloudFiles, OpensNoFileThatAMeshNames) {
+  const auto pipe = folder_.path() / "pipe.mtl";  // to open it is to wait for ever
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& name :
+       {std::string("pipe.mtl"), pipe.string(), std::string("none.mtl")}) {
+    const auto file =
+        read("m.obj", "mtllib " + name + "\nv 0 0 0\nv 10 0 0\nv 10 10 0\nusemtl skin\nf 1 2 3\n");
+    ASSERT_TRUE(file) << file.error().line();
+    EXPECT_EQ(file->mesh.triangles.size(), 1U);
+  }
+}
+
 TEST_F(CloudFiles, CoversLargeFacesWithPointsAndNormals) {
   const auto file = read("m.obj",
                          "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 2 3\nf 1 4 2\nf 1 3 4\n"
@@ -197,6 +210,26 @@ TEST_F(CloudFiles, SettlesTheUnit) {
                LengthUnit::kMetre);
   expect_fault("foot.xyz", "0 0 0\n5 0 0\n", ErrorCode::kInvalidInput, "say its unit",
                LengthUnit::kAuto);
+}
+
+TEST_F(CloudFiles, NamesTheUnitOfAFootThatIsTooSmallOrTooLarge) {
+  for (const auto unit : {LengthUnit::kMillimetre, LengthUnit::kAuto}) {
+    expect_fault("micrometres.xyz", "0 0 0\n250000 0 0\n1e4 1e5 0\n", ErrorCode::kInvalidInput,
+                 "micrometres", unit);
+  }
+  expect_fault("metres.xyz", "0 0 0\n0.25 0 0\n", ErrorCode::kInvalidInput, "--unit m");
+  // Ten times too small can be a toe, so it is read, but not without a word.
+  const auto centimetres = read("centimetres.xyz", "0 0 0\n25 0 0\n10 10 5\n");
+  ASSERT_TRUE(centimetres) << centimetres.error().line();
+  ASSERT_EQ(centimetres->notes.size(), 1U);
+  EXPECT_NE(centimetres->notes[0].find("--unit cm"), std::string::npos) << centimetres->notes[0];
+  const auto millimetres = read("mm.xyz", "0 0 0\n250 0 0\n100 100 50\n", LengthUnit::kCentimetre);
+  ASSERT_TRUE(millimetres) << millimetres.error().line();
+  ASSERT_EQ(millimetres->notes.size(), 1U);
+  EXPECT_NE(millimetres->notes[0].find("--unit mm"), std::string::npos) << millimetres->notes[0];
+  const auto sound = read("mm.xyz", "0 0 0\n250 0 0\n100 100 50\n");
+  ASSERT_TRUE(sound);
+  EXPECT_TRUE(sound->notes.empty());
 }
 
 TEST_F(CloudFiles, TellsEveryFault) {

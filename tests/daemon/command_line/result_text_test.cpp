@@ -40,9 +40,19 @@ TEST(ResultText, PutsTheTruthAndTheErrorBesideAMeasure) {
               HasSubstr("  foot_length                  251.0 mm    +-0.6    250.5   +0.50\n"));
 }
 
+TEST(ResultText, SaysWhatWasWithheldAndTheSizes) {
+  auto partly = result();
+  partly["withheld"] = {{{"id", "waist_girth"}, {"reason", "the section is open"}}};
+  partly["sizes"] = {{"mondopoint_mm", 250.0}, {"eu", 40.0}};
+  const auto text = result_text(partly);
+  EXPECT_THAT(text, HasSubstr("  waist_girth                      -    the section is open\n"));
+  EXPECT_THAT(text, HasSubstr("  size guide: Mondopoint 250, EU 40\n"));
+}
+
 TEST(ResultText, LeavesOutWhatIsOfTheWrongShape) {
   for (const json& odd : {json(), json(3), json::array(), json::object(),
-                          json{{"measures", {1, nullptr, {{"id", 5}}}}, {"truth", "none"}}}) {
+                          json{{"measures", {1, nullptr, {{"id", 5}}}}, {"truth", "none"}},
+                          json{{"withheld", {1, {{"id", 5}}}}, {"warnings", "none"}}}) {
     EXPECT_NO_THROW(static_cast<void>(result_text(odd)));
   }
 }

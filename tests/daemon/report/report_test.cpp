@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "daemon/report/csv_report.h"
+#include "daemon/report/pair_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/sections_svg.h"
+#include "daemon/report/sizes_report.h"
 #include "daemon/report/svg_text.h"
 #include "daemon/report/text_report.h"
+#include "tests/support/xml_check.h"
 
 namespace instep {
 namespace {
@@ -56,6 +59,12 @@ MeasureSet small_set() {
   return set;
 }
 
+ShoeSizes small_sizes() {
+  SizeRules rules;
+  rules.shop_tables = {{"Walker", {{"40", 255.0, 250.0}}}, {"Pump", {{"38", 240.0, {}}}}};
+  return shoe_sizes(sized_foot(small_set()), rules);
+}
+
 ScanRecord small_record() {
   ScanRecord record;
   record.id = "20261121T091502417Z-k3f9";
@@ -71,29 +80,6 @@ ScanRecord small_record() {
   return record;
 }
 
-/// Every opened tag is closed in order, attributes are quoted, and nothing is no number.
-void expect_sound_xml(const std::string& xml) {
-  std::vector<std::string> open;
-  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
-    const std::size_t end = xml.find('>', at);
-    ASSERT_NE(end, std::string::npos);
-    const std::string tag = xml.substr(at + 1, end - at - 1);
-    EXPECT_EQ(tag.find('<'), std::string::npos) << tag;
-    const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
-    if (tag.front() == '/') {
-      ASSERT_FALSE(open.empty());
-      EXPECT_EQ("/" + open.back(), tag);
-      open.pop_back();
-    } else if (tag.back() != '/') {
-      open.push_back(name);
-    }
-  }
-  EXPECT_TRUE(open.empty());
-  for (const char* word : {"nan", "inf,", "inf\"", "infM"}) {
-    EXPECT_EQ(xml.find(word), std::string::npos) << word;
-  }
-}
-
 TEST(ResultJson, HoldsWhatAGirthIs) {
   const Json json = girth_json("rbf", square_girth(), {1.5, 2.25, 4.0});
   EXPECT_EQ(json["method"], "rbf");
@@ -106,7 +92,7 @@ TEST(ResultJson, HoldsWhatAGirthIs) {
 }
 
 TEST(ResultJson, HoldsWhatAFootIs) {
-  const Json json = foot_json(small_foot(), small_set());
+  const Json json = foot_json(small_foot(), small_set(), small_sizes());
   EXPECT_EQ(json["side"], "left");
   ASSERT_EQ(json["frame"].size(), 16U);
   EXPECT_EQ(json["frame"][0], 1.0);
@@ -118,7 +104,19 @@ TEST(ResultJson, HoldsWhatAFootIs) {
   EXPECT_EQ(json["measures"][1]["plane"].size(), 3U);
   EXPECT_EQ(json["measures"][1]["contact_mm"], 241.0);
   EXPECT_EQ(json["withheld"][0]["id"], "waist_girth");
-  EXPECT_EQ(json["sizes"]["mondopoint_mm"], 250.0);
+}
+
+TEST(ResultJson, HoldsTheSizes) {
+  const Json sizes = foot_json(small_foot(), small_set(), small_sizes())["sizes"];
+  EXPECT_EQ(sizes["mondopoint_mm"], 250.0);
+  EXPECT_EQ(sizes["eu"], 40.0);
+  EXPECT_EQ(sizes["exact"]["eu"], 39.94);
+  EXPECT_EQ(sizes["us_women"], 8.5);
+  EXPECT_EQ(sizes["jis_women"], "25.0 E");
+  EXPECT_FALSE(sizes.contains("mondopoint_width_mm"));
+  EXPECT_EQ(sizes["shop"][0], Json({{"table", "Walker"}, {"size", "40"}, {"note", ""}}));
+  EXPECT_TRUE(sizes["shop"][1]["size"].is_null());
+  EXPECT_NE(sizes["guide"].get<std::string>().find("guidance"), std::string::npos);
 }
 
 TEST(ResultJson, SaysWhenAndWhere) {
@@ -137,19 +135,85 @@ TEST(ResultJson, NeverHoldsWhatIsNoNumber) {
   auto set = small_set();
   set.measures[0].value_mm = kNan;
   set.measures[1].u95_mm = std::numeric_limits<double>::infinity();
-  const Json json = foot_json(small_foot(), set);
+  const Json json = foot_json(small_foot(), set, shoe_sizes(sized_foot(set)));
   EXPECT_TRUE(json["measures"][0]["value_mm"].is_null());
   EXPECT_TRUE(json["measures"][1]["u95_mm"].is_null());
-  EXPECT_TRUE(json["sizes"].empty());
+  EXPECT_FALSE(json["sizes"].contains("mondopoint_mm"));
+  EXPECT_EQ(json["sizes"]["notes"].size(), 1U);
+}
+
+ScannedPair small_pair() {
+  auto right = small_set();
+  right.measures[0].value_mm += 1.5;
+  right.measures[1].value_mm += 0.2;
+  right.withheld.clear();
+  right.measures.push_back(right.measures[0]);
+  right.measures.back().id = "foot_breadth";
+  const auto sizes = shoe_sizes(larger_of(sized_foot(small_set()), sized_foot(right)));
+  return {"left id", "right id", pair_feet(small_set(), right), sizes};
+}
+
+TEST(PairReport, HoldsBothFeetSideBySide) {
+  auto record = small_record();
+  EXPECT_FALSE(result_json(record).contains("pair"));
+  record.pair = small_pair();
+  const Json json = result_json(record)["pair"];
+  EXPECT_EQ(json["left"], "left id");
+  EXPECT_EQ(json["right"], "right id");
+  EXPECT_EQ(json["leads"], "right");
+  EXPECT_EQ(json["measures"][0], Json({{"id", "foot_length"},
+                                       {"left_mm", 251.25},
+                                       {"right_mm", 252.75},
+                                       {"difference_mm", 1.5},
+                                       {"u95_mm", nullptr},
+                                       {"larger", "right"}}));
+  EXPECT_EQ(json["measures"][1]["difference_mm"], 0.2);
+  EXPECT_TRUE(json["measures"][1]["larger"].is_null());
+  EXPECT_EQ(json["of_one_foot"], Json({"foot_breadth"}));
+  EXPECT_EQ(json["sizes"]["mondopoint_mm"], 255.0);
+}
+
+TEST(PairReport, IsReadAsATable) {
+  const std::string text = pair_text(nlohmann::json(pair_json(small_pair())));
+  for (const char* line :
+       {"  foot_length                  251.2   252.8    +1.5        right\n",
+        "  ball_girth                   240.0   240.2    +0.2 +-0.3\n",
+        "  foot_breadth              of one foot only\n", "  the right foot is longer and leads\n",
+        "size guide: Mondopoint 255"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  }
+}
+
+TEST(PairReport, LeavesOutWhatIsOfTheWrongShape) {
+  for (const char* odd : {"3", "[]", "{}", R"({"measures": [1, {"id": 2}], "sizes": 3})"}) {
+    EXPECT_NO_THROW(static_cast<void>(pair_text(nlohmann::json::parse(odd)))) << odd;
+  }
+  EXPECT_EQ(pair_text(nlohmann::json()), "");
 }
 
 TEST(TextReport, AlignsMeasuresAndTellsIntervals) {
-  const std::string text = foot_text(small_foot(), small_set());
+  const std::string text = foot_text(small_foot(), small_set(), small_sizes());
   EXPECT_NE(text.find("Left foot"), std::string::npos);
   EXPECT_NE(text.find("ball girth     240.0 mm  ± 0.2\n"), std::string::npos) << text;
   EXPECT_NE(text.find("foot length    251.2 mm\n"), std::string::npos) << text;
   EXPECT_NE(text.find("waist girth        -     the section is open"), std::string::npos) << text;
   EXPECT_NE(text.find("! of the foot"), std::string::npos);
+}
+
+TEST(TextReport, TellsTheSizes) {
+  const std::string text = foot_text(small_foot(), small_set(), small_sizes());
+  EXPECT_NE(text.find("size guide: Mondopoint 250, EU 40, UK 6.5, US men 7.5, US women 8.5, "
+                      "JIS men 25.0 E, JIS women 25.0 E\n"
+                      "  Walker: 40\n"
+                      "  Pump: none (no size of the table is long and wide enough)\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(SizesText, LeavesOutWhatIsOfTheWrongShape) {
+  for (const char* odd : {"3", "[]", "{}", R"({"eu": "x", "shop": [1, {}], "notes": [{}]})"}) {
+    EXPECT_NO_THROW(static_cast<void>(sizes_text(nlohmann::json::parse(odd)))) << odd;
+  }
 }
 
 TEST(TextReport, TellsAGirth) {
@@ -159,16 +223,25 @@ TEST(TextReport, TellsAGirth) {
 }
 
 TEST(CsvReport, HasALineForEachMeasure) {
-  EXPECT_EQ(foot_csv(small_foot(), small_set()),
-            "side,id,value_mm,u95_mm,contact_mm,warnings\n"
-            "left,foot_length,251.250,,,\"\"\n"
-            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\"\n"
-            "left,waist_girth,,,,\"the section is open\"\n");
+  EXPECT_EQ(result_csv(foot_json(small_foot(), small_set(), small_sizes())),
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n"
+            "left,foot_length,251.250,,,\"\",\n"
+            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",\n"
+            "left,waist_girth,,,,\"the section is open\",\n");
+}
+
+TEST(CsvReport, HasTheAnglesInAColumnOfTheirOwn) {
+  const auto result = nlohmann::json::parse(
+      R"({"side": "right", "measures": [{"id": "toe1_angle", "value_deg": 9.5}, 3, {"id": 4}],
+          "withheld": "none"})");
+  EXPECT_EQ(result_csv(result),
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n"
+            "right,toe1_angle,,,,\"\",9.500\n");
 }
 
 TEST(SectionsSvg, IsSoundAndShowsTheNumbers) {
   const std::string svg = sections_svg(small_foot(), small_set());
-  expect_sound_xml(svg);
+  EXPECT_EQ(test::fault_in_xml(svg), "");
   EXPECT_NE(svg.find("240.0 ± 0.2 mm"), std::string::npos);
   EXPECT_NE(svg.find("251.2 mm"), std::string::npos);
   for (const char* word : {"Left foot", "medial", "lateral", "dorsal", "plantar"}) {
@@ -189,16 +262,16 @@ TEST(SectionsSvg, DrawsTheTapeOverTheHollow) {
 }
 
 TEST(SectionsSvg, StandsWhateverItIsGiven) {
-  expect_sound_xml(sections_svg(FootScan{}, MeasureSet{}));
+  EXPECT_EQ(test::fault_in_xml(sections_svg(FootScan{}, MeasureSet{})), "");
   auto foot = small_foot();
   foot.cloud.positions.emplace_back(kNan, 1.0, 2.0);
   foot.landmarks["pternion"].position_mm.y() = kNan;
   auto set = small_set();
   set.measures[1].girth->contour[0].x() = kNan;
   set.withheld[0].id = "<script>";
-  expect_sound_xml(sections_svg(foot, set));
+  EXPECT_EQ(test::fault_in_xml(sections_svg(foot, set)), "");
   set.measures[1].girth->contour.clear();
-  expect_sound_xml(sections_svg(foot, set));
+  EXPECT_EQ(test::fault_in_xml(sections_svg(foot, set)), "");
 }
 
 TEST(SvgText, EscapesWhatXmlDoesNotTake) {

@@ -54,6 +54,46 @@ TEST_P(SimulatedFeet, AreMeasuredWithinAMillimetre) {
   }
 }
 
+TEST(SimulatedPair, IsPutSideBySideAndLedByTheLongerFoot) {
+  SimulationSettings settings;
+  settings.seed = 3;
+  settings.subject = Subject::kFeet;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  ASSERT_TRUE(station) << station.error().line();
+  const auto truth = station->truth();
+  ASSERT_TRUE(truth) << truth.error().line();
+  ASSERT_EQ(truth->size(), 2U);
+  const double true_left = truth->front().measures.at("foot_length");
+  const double true_right = truth->back().measures.at("foot_length");
+  ASSERT_GT(true_left, true_right + 1.0);
+
+  const auto records = measure_capture(capture_of(*station), {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  ASSERT_EQ(records->size(), 2U);
+  for (const auto& record : *records) {
+    ASSERT_TRUE(record.pair);
+    EXPECT_EQ(record.pair->left_id, records->front().id);
+    EXPECT_EQ(record.pair->right_id, records->back().id);
+    EXPECT_EQ(record.pair->feet.leading(), Side::kLeft);
+    const MeasurePair* length = record.pair->feet.find("foot_length");
+    ASSERT_NE(length, nullptr);
+    EXPECT_NEAR(length->difference_mm(), true_right - true_left, 1.0);
+    EXPECT_EQ(record.pair->sizes.mondopoint_mm, records->front().sizes.mondopoint_mm);
+  }
+}
+
+TEST(SimulatedPair, IsNoneForASingleFoot) {
+  SimulationSettings settings;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  ASSERT_TRUE(station) << station.error().line();
+  const auto records = measure_capture(capture_of(*station), {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  ASSERT_EQ(records->size(), 1U);
+  EXPECT_FALSE(records->front().pair);
+}
+
 INSTANTIATE_TEST_SUITE_P(OfSomePeople, SimulatedFeet,
                          testing::Values(Person{2, Side::kLeft}, Person{5, Side::kRight},
                                          Person{7, Side::kRight}),

@@ -83,7 +83,7 @@ class CancelledScan : public testing::Test {
 TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
   const auto whole = run(std::nullopt);
   ASSERT_FALSE(whole.outcome.error) << whole.outcome.error->line();
-  EXPECT_EQ(whole.files, 3U);
+  EXPECT_EQ(whole.files, 4U);  // result.json, cloud.ply, sections.svg, report.svg
   EXPECT_EQ(whole.progress, whole.steps);
   EXPECT_EQ(whole.steps_of_stage.at("fuse frames"), 1U + 3 * 2);
   // Three cameras twice, 40 iterations at least, the stages between, one foot.

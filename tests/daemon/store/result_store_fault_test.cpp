@@ -18,7 +18,8 @@ constexpr const char* kNew = "20261121T091502417Z-k3f9";
 constexpr const char* kNext = "20261121T091502418Z-bbbb";
 
 ResultContent content(const std::string& id) {
-  return {"json of " + id, "cloud of " + id + std::string(1000, '.'), "sections of " + id};
+  return {"json of " + id, "cloud of " + id + std::string(1000, '.'), "sections of " + id,
+          "report of " + id};
 }
 
 bool is_whole(SimulatedDisk& disk, const ResultStore& store, const std::string& id) {
@@ -29,7 +30,7 @@ bool is_whole(SimulatedDisk& disk, const ResultStore& store, const std::string& 
   };
   const auto wanted = content(id);
   return same("result.json", wanted.result_json) && same("cloud.ply", wanted.cloud_ply) &&
-         same("sections.svg", wanted.sections_svg);
+         same("sections.svg", wanted.sections_svg) && same("report.svg", wanted.report_svg);
 }
 
 /// After whatever happened: starts again, and checks that each result is whole, that those reported

@@ -21,7 +21,7 @@ class ResultStoreOnDisk : public testing::Test {
   ResultStoreOnDisk() : store(std::make_shared<PosixStorage>(), folder.path() / "scans") {
     EXPECT_TRUE(store.prepare());
   }
-  void put(const std::string& id) { ASSERT_TRUE(store.put(id, {"{}", "ply", "<svg/>"})); }
+  void put(const std::string& id) { ASSERT_TRUE(store.put(id, {"{}", "ply", "<svg/>", "<svg/>"})); }
 
   test::TemporaryFolder folder;
   ResultStore store;
@@ -34,12 +34,12 @@ mode_t mode(const std::filesystem::path& path) {
 }
 
 TEST_F(ResultStoreOnDisk, LaysAResultInTheFolderOfItsDayForTheGroupToRead) {
-  const auto at = store.put("20261121T091502417Z-k3f9", {"{}", "ply", "<svg/>"});
+  const auto at = store.put("20261121T091502417Z-k3f9", {"{}", "ply", "<svg/>", "<svg/>"});
   ASSERT_TRUE(at);
   EXPECT_EQ(*at, folder.path() / "scans/2026/11/21/20261121T091502417Z-k3f9");
   EXPECT_EQ(mode(*at), 0750U);
   EXPECT_EQ(mode(folder.path() / "scans/2026"), 0750U);
-  for (const auto* file : {"result.json", "cloud.ply", "sections.svg"}) {
+  for (const auto* file : {"result.json", "cloud.ply", "sections.svg", "report.svg"}) {
     EXPECT_EQ(mode(*at / file), 0640U) << file;
   }
 }
@@ -102,7 +102,7 @@ TEST_F(ResultStoreOnDisk, RemovesWhatIsTooOld) {
 
 TEST_F(ResultStoreOnDisk, NeverOverwritesAResult) {
   put("20261121T091502417Z-k3f9");
-  EXPECT_FALSE(store.put("20261121T091502417Z-k3f9", {"other", "", ""}));
+  EXPECT_FALSE(store.put("20261121T091502417Z-k3f9", {"other", "", "", ""}));
   EXPECT_EQ(*store.read_result_json("20261121T091502417Z-k3f9"), "{}");
 }
 

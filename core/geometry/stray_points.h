@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/geometry/point_index.h"
+
+namespace instep {
+
+/// Which points of a surface stand alone: a point whose own spacing, by the distance to its eighth
+/// neighbour, is more than 2.2 times that of its neighbours. `spacing` > 0: of most points; where
+/// cells of that size are well filled nobody is asked for neighbours.
+std::vector<bool> stray_points(const PointIndex& index, double spacing);
+
+/// Side of the square that a point has for itself, by the distance to its eighth neighbour; the
+/// middle one of at most `sample` points spread over the list. Zero for fewer than two points.
+double usual_spacing(const PointIndex& index, std::size_t sample);
+
+}  // namespace instep

@@ -1,0 +1,52 @@
+#include "core/girth/contour_turns.h"
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "core/geometry/polygon.h"
+
+namespace instep {
+namespace {
+
+double turn_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+}
+
+std::vector<double> turns_of_line(const Contour& contour) {
+  const std::size_t count = contour.points.size();
+  std::vector<double> turns(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    const double turn = turn_between(contour.outward[i], contour.outward[next]);
+    turns[i] += 0.5 * turn;
+    turns[next] += 0.5 * turn;
+  }
+  return turns;
+}
+
+std::vector<double> turns_of_tape(const Contour& contour) {
+  const auto hull = convex_hull(contour.points);
+  std::map<std::pair<double, double>, double> turn_at;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d before = hull[i] - hull[(i + hull.size() - 1) % hull.size()];
+    const Eigen::Vector2d after = hull[(i + 1) % hull.size()] - hull[i];
+    turn_at[{hull[i].x(), hull[i].y()}] = turn_between(before, after);
+  }
+  std::vector<double> turns;
+  turns.reserve(contour.points.size());
+  for (const auto& point : contour.points) {
+    const auto found = turn_at.find({point.x(), point.y()});
+    turns.push_back(found == turn_at.end() ? 0.0 : found->second);
+  }
+  return turns;
+}
+
+}  // namespace
+
+ContourTurns turns_of(const Contour& contour) {
+  return {turns_of_line(contour), turns_of_tape(contour)};
+}
+
+}  // namespace instep

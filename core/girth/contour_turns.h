@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "core/girth/contour_trace.h"
+
+namespace instep {
+
+/// What a closed line gains in length for each unit that a corner moves outwards: to first order
+/// the angle (radians) by which the line turns there. One number for each corner.
+struct ContourTurns {
+  std::vector<double> contact;    ///< of the contour itself
+  std::vector<double> stretched;  ///< of a tape round it, which turns only where it touches
+};
+
+ContourTurns turns_of(const Contour& contour);
+
+}  // namespace instep

@@ -1,0 +1,149 @@
+#include "core/girth/length_doubt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <vector>
+
+#include "core/girth/contour_turns.h"
+
+namespace instep {
+namespace {
+
+/// How much each part counts, so that intervals hold.
+constexpr double kNoise = 1.0;
+constexpr double kWandering = 1.4;
+constexpr double kUnseenWaves = 2.0;
+constexpr double kDeviations = 1.96;
+/// A surface through points wanders no further between them, against the radius of a patch, however
+/// rough a crease within it seems.
+constexpr double kWidestWandering = 0.06;
+/// Variance of a direction (square radians) beyond which waves would be folds.
+constexpr double kSteepestWaves = 0.01;
+/// What first order leaves out, against the length.
+constexpr double kLeast = 1e-5;
+/// A surface hardly crosses the plane where its slope on it is less.
+constexpr double kLeastSlope = 0.1;
+
+/// A part of the contour that one sheet of one patch decides.
+struct Stretch {
+  SurfacePatch::Sheet sheet;
+  std::vector<Eigen::Vector3d> corners;
+  std::vector<double> contact;  ///< what each corner's height counts for the lengths
+  std::vector<double> stretched;
+  std::vector<double> slopes;  ///< heights to moves on the plane
+  double length = 0.0;
+};
+
+/// What is gathered over the stretches.
+struct Sums {
+  std::vector<double> contact;  ///< influence of each point on the length
+  std::vector<double> stretched;
+  double contact_wandering = 0.0;  ///< variance
+  double stretched_wandering = 0.0;
+  double noise_waves = 0.0;  ///< length
+  double unseen_waves = 0.0;
+};
+
+std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& surface) {
+  const ContourTurns turns = turns_of(contour);
+  const std::size_t count = contour.points.size();
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d place(contour.points[i].x(), contour.points[i].y(), 0.0);
+    const SurfacePatch* patch = surface.leading_patch(place);
+    if (patch == nullptr) continue;
+    const auto sheet = patch->sheet_at(place);
+    auto here = std::find_if(stretches.begin(), stretches.end(),
+                             [&](const Stretch& stretch) { return stretch.sheet.is_same(sheet); });
+    if (here == stretches.end()) {
+      stretches.push_back({sheet, {}, {}, {}, {}, 0.0});
+      here = std::prev(stretches.end());
+    }
+    Stretch& stretch = *here;
+    const double slope = std::max(patch->at(place).gradient.head<2>().norm(), kLeastSlope);
+    stretch.corners.push_back(place);
+    stretch.contact.push_back(turns.contact[i] / slope);
+    stretch.stretched.push_back(turns.stretched[i] / slope);
+    stretch.slopes.push_back(slope);
+    stretch.length += (contour.points[(i + 1) % count] - contour.points[i]).norm();
+  }
+  return stretches;
+}
+
+Eigen::VectorXd column(const std::vector<double>& values) {
+  return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// Adds the influence of the points on a sum of heights; returns the variance by wandering.
+double add(const Stretch& stretch, const std::vector<double>& shares,
+           std::vector<double>& influence) {
+  const auto sum = stretch.sheet.patch->sum(stretch.corners, column(shares));
+  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
+    influence[stretch.sheet.member(i)] += sum.influence[static_cast<Eigen::Index>(i)];
+  }
+  double turn = 0.0;
+  for (const double share : shares) turn += std::abs(share);
+  const double widest = kWidestWandering * stretch.sheet.owner->radius * turn;
+  return std::min(sum.variance, widest * widest);
+}
+
+/// A line of that length whose direction varies by `variance` is longer by half of it.
+void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {
+  if (stretch.corners.size() < 2) return;
+  const std::size_t at = (stretch.corners.size() - 1) / 2;
+  const std::vector<Eigen::Vector3d> pair = {stretch.corners[at], stretch.corners[at + 1]};
+  const double rise = 1.0 / ((pair[1] - pair[0]).norm() * stretch.slopes[at]);
+  const auto tilt = stretch.sheet.patch->sum(pair, Eigen::Vector2d(-rise, rise));
+  double noise = 0.0;
+  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
+    const double influence = tilt.influence[static_cast<Eigen::Index>(i)];
+    noise += influence * influence * points[stretch.sheet.member(i)].variance;
+  }
+  sums.noise_waves += 0.5 * stretch.length * std::min(noise, kSteepestWaves);
+  sums.unseen_waves += 0.5 * stretch.length * std::min(tilt.variance, kSteepestWaves);
+}
+
+/// A patch in space knows no sums: all of its stretch may be off by as much as its middle.
+double coherent_variance(const Stretch& stretch, const std::vector<double>& shares) {
+  double sum = 0.0;
+  for (const double share : shares) sum += share;
+  return sum * sum * stretch.sheet.variance;
+}
+
+double half_width(const std::vector<double>& influence, double wandering, const Sums& sums,
+                  const std::vector<OrientedPoint>& points, double length) {
+  double noise = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    noise += influence[i] * influence[i] * points[i].variance;
+  }
+  const double unseen = kUnseenWaves * sums.unseen_waves;
+  const double variance = kNoise * kNoise * noise + kWandering * kWandering * wandering +
+                          unseen * unseen + sums.noise_waves * sums.noise_waves;
+  return kDeviations * std::sqrt(variance) + kLeast * length;
+}
+
+}  // namespace
+
+LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
+  const auto& points = surface.points();
+  Sums sums;
+  sums.contact.assign(points.size(), 0.0);
+  sums.stretched.assign(points.size(), 0.0);
+  for (const auto& stretch : stretches_of(contour, surface)) {
+    if (stretch.sheet.patch == nullptr) {
+      sums.contact_wandering += coherent_variance(stretch, stretch.contact);
+      sums.stretched_wandering += coherent_variance(stretch, stretch.stretched);
+      continue;
+    }
+    sums.contact_wandering += add(stretch, stretch.contact, sums.contact);
+    sums.stretched_wandering += add(stretch, stretch.stretched, sums.stretched);
+    add_waves(stretch, points, sums);
+  }
+  const double length = contour.length();
+  return {half_width(sums.contact, sums.contact_wandering, sums, points, length),
+          half_width(sums.stretched, sums.stretched_wandering, sums, points, length)};
+}
+
+}  // namespace instep

@@ -1,0 +1,31 @@
+#include "core/girth/section_evidence.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/girth/section_gaps.h"
+
+namespace instep {
+
+SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near) {
+  std::size_t beside = 0;
+  std::vector<double> ways;
+  std::vector<double> seen;
+  for (std::size_t i = 0; i < band.points.size(); ++i) {
+    const Eigen::Vector3d& position = band.points[i].position;
+    if (std::abs(position.z()) > near) continue;
+    const auto foot = contour.foot_of(position.head<2>());
+    if (foot.distance > near) {
+      ++beside;
+      continue;
+    }
+    ways.push_back(foot.way);
+    if (band.seen[i]) seen.push_back(foot.way);
+  }
+  const std::size_t count = ways.size();
+  return {count, beside, largest_gap_between(std::move(ways), contour.length()),
+          largest_gap_between(std::move(seen), contour.length())};
+}
+
+}  // namespace instep

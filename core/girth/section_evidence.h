@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/girth/contour_index.h"
+#include "core/girth/plane_band.h"
+
+namespace instep {
+
+/// What the points near the tape plane say of a contour on it. Lengths in the band's unit.
+struct SectionEvidence {
+  std::size_t points = 0;  ///< near the contour
+  std::size_t beside = 0;  ///< as near to the plane, but not to the contour
+  double gap = 0.0;        ///< longest stretch of the contour without one
+  double seen_gap = 0.0;   ///< longest stretch without one that a camera saw
+};
+
+/// Points within `near` of the plane and of the contour count.
+SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near);
+
+}  // namespace instep

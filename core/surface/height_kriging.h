@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <optional>
+
+#include "core/surface/height_samples.h"
+
+namespace instep {
+
+/// The paper's system (eqs. 6 and 7, phi = r^3, a smoothing for each point) for heights over a
+/// plane, with a quadratic polynomial or a plane; read as kriging: once the polynomial is taken
+/// out, heights wander with covariance roughness * r^3 and carry noise on top.
+///
+/// It is solved on the null space of the polynomial block, where it is positive definite: the
+/// kernel is projected there, one is put in its place on the polynomials, and Cholesky's method
+/// does the rest. Unequal variances are made equal first, by weighing each sample, so that all
+/// depends on one number, the ratio of noise to roughness.
+class HeightKriging {
+ public:
+  /// Nothing if the samples do not determine the polynomial (fewer than four, all on one line).
+  /// `terms`: 3 or 6. The variances count only against each other. O(n^2).
+  static std::optional<HeightKriging> of(const HeightSamples& samples, Eigen::Index terms);
+
+  /// Variance of a sample of weight one.
+  double level() const { return level_; }
+  /// Samples that the polynomial leaves over.
+  Eigen::Index free() const { return places_.cols() - basis_.cols(); }
+  /// The kernel on the null space of the polynomials, with one in its place on them: the lower
+  /// triangle of a symmetric matrix.
+  const Eigen::MatrixXd& reduced() const { return reduced_; }
+  /// The weighed heights there.
+  const Eigen::VectorXd& free_heights() const { return free_heights_; }
+  /// Log determinant of the polynomial block, for comparing models.
+  double log_determined() const;
+
+  /// All that follows from one ratio of level() to roughness.
+  struct Solution {
+    Eigen::LLT<Eigen::MatrixXd> cholesky;
+    Eigen::VectorXd on_null_space;
+    double log_volume = 0.0;  ///< log determinant of kernel + ratio
+    /// Squares of the heights over kernel + ratio. Divided by free(), the likeliest roughness.
+    double excess = 0.0;
+  };
+  /// Nothing if rounding makes the system indefinite. `ratio` > 0. O(n^3).
+  std::optional<Solution> solve(double ratio) const;
+
+  /// Weights of the kernels round the samples.
+  Eigen::VectorXd weights(const Solution& solution) const;
+  Quadratic polynomial(const Solution& solution) const;
+
+  /// By how much each sample's height moves the sum of the solution's heights at `places` times
+  /// `shares`. O(n^2).
+  Eigen::VectorXd influence(const Solution& solution, const Eigen::Matrix2Xd& places,
+                            const Eigen::VectorXd& shares) const;
+
+  /// Variance of that sum round the true one if there were no noise, for a roughness of one.
+  double wandering(const Eigen::VectorXd& influence, const Eigen::Matrix2Xd& places,
+                   const Eigen::VectorXd& shares) const;
+
+ private:
+  HeightKriging() = default;
+
+  Eigen::Matrix2Xd places_;
+  Eigen::ArrayXd scales_;
+  double level_ = 0.0;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::MatrixXd basis_;     ///< orthonormal columns that span the polynomial block
+  Eigen::MatrixXd on_basis_;  ///< kernel times basis
+  Eigen::MatrixXd reduced_;   ///< lower triangle
+  Eigen::VectorXd heights_;
+  Eigen::VectorXd free_heights_;
+};
+
+}  // namespace instep

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/surface/height_kriging.h"
+
+namespace instep {
+
+/// How likely the heights are for any noise and any roughness: restricted maximum likelihood, with
+/// the polynomial taken out. The kernel is brought to tridiagonal form once, O(n^3); then each pair
+/// costs O(n). Variances and roughnesses are those of the samples' own unit.
+class KrigingLikelihood {
+ public:
+  explicit KrigingLikelihood(const HeightKriging& kriging);
+
+  /// Twice the negative log likelihood, up to what depends on neither. `variance` >= 0 and
+  /// `roughness` > 0, of which at least the first is not lost beside the second by rounding.
+  double misfit(double variance, double roughness) const;
+
+  /// The roughness that fits best for a noise of `ratio` times it, and the misfit then.
+  struct Profile {
+    double roughness = 0.0;
+    double misfit = 0.0;
+  };
+  Profile profile(double ratio) const;
+
+  /// Of the kernel: it bends the heights of neighbours apart by its roughness times this.
+  double mean_diagonal() const;
+
+  Eigen::Index free() const { return free_; }
+
+ private:
+  struct Reading {
+    double log_volume = 0.0;
+    double excess = 0.0;
+  };
+  Reading at(double ratio) const;
+
+  Eigen::Index free_;
+  Eigen::VectorXd diagonal_;
+  Eigen::VectorXd beside_;
+  Eigen::VectorXd heights_;
+};
+
+}  // namespace instep

@@ -1,0 +1,275 @@
+#include "core/surface/patch_fitter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/median.h"
+
+namespace instep {
+namespace {
+
+/// Points of a patch: enough to fit a surface, few enough to solve quickly.
+constexpr std::size_t kPatchPoints = 60;
+/// A place whose points have their middle further off, against their reach, lies in a hole; holes
+/// wider than this part of the body are not spanned.
+constexpr double kOneSided = 0.5;
+constexpr double kWidestHole = 0.15;
+/// Nearest points that tell which way is out.
+constexpr std::size_t kFacingPoints = 8;
+/// Cosine to that direction from which a point can be a height over the patch, and below which it
+/// lies on the other side of a thin part.
+constexpr double kFacing = 0.5;
+constexpr double kBehind = -0.3;
+/// With more than this part of the points on the other side, the patch is one in space.
+constexpr double kThin = 0.1;
+constexpr std::size_t kPointsInSpace = 80;
+/// How far its surface may be off: the variance half-way between points, against roughness times the
+/// cube of their spacing, and how many points share in averaging noise.
+constexpr double kWanderingInSpace = 0.1;
+constexpr int kAveragedInSpace = 6;
+/// Points nearer to each other than this part of the spacing are copies of one.
+constexpr double kTwin = 0.02;
+/// A patch is at least this part of the body wide.
+constexpr double kLeastReach = 0.033;
+/// Cosine to the outward direction of normals that tell of no crease, and how many must tell of
+/// one.
+constexpr double kHardlyBent = 0.96;
+constexpr std::ptrdiff_t kFewestBent = 6;
+/// The shape between the estimates of roughness may be rougher than they are.
+constexpr double kAllowanceInSpace = 4.0;
+/// Heights this many median deviations off, and this part of the radius, are those of strays.
+constexpr double kStrayDeviations = 5.0;
+constexpr double kStrayRise = 0.7;
+/// Where there is noise, a patch is wider than the kriging's bandwidth by this factor, up to this
+/// part of the body.
+constexpr double kBandwidths = 2.0;
+constexpr double kWidest = 0.10;
+/// It is fitted again, narrower, if it turns out rougher than thought.
+constexpr int kMostAttempts = 4;
+constexpr double kTooWide = 1.5;
+/// A crease turns at least this much (radians), and is so much likelier than one smooth sheet.
+constexpr double kLeastTurn = 0.9;
+constexpr double kLeastGain = 8.0;
+/// Its place is a guess where the points of a sheet are further from it, in spacings.
+constexpr double kWidestCreaseGap = 1.4;
+
+Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point.position;
+  return sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+PatchFitter::PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
+                         std::vector<LocalRoughness> roughness, double grain)
+    : points_(std::move(points)),
+      index_(std::move(index)),
+      roughness_(std::move(roughness)),
+      grain_(grain) {}
+
+/// Over which distance noise and roughness weigh the same.
+double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
+  return std::pow(noise_area / of_roughness, 0.2);
+}
+
+/// The nearest points; more of them in a hole, until they lie on all sides, so that the surface
+/// spans it and is not put forth from one side.
+PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
+  auto first = index_.nearest(place, kPatchPoints);
+  auto nearest = first;
+  for (std::size_t count = 2 * kPatchPoints;; count *= 2) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
+    middle /= static_cast<double>(nearest.size());
+    const double reach = std::sqrt(nearest.back().squared_distance);
+    if ((middle - place).norm() < kOneSided * reach || is_thin(nearest)) return nearest;
+    if (reach > kWidestHole || nearest.size() == points_.size()) return first;
+    nearest = index_.nearest(place, count);
+  }
+}
+
+PatchFitter::Surroundings PatchFitter::surroundings_of(const Eigen::Vector3d& place) const {
+  Surroundings here;
+  here.nearest = nearest_all_round(place);
+  here.reach = std::sqrt(here.nearest.back().squared_distance);
+  here.outward = outward_of(here.nearest);
+  const std::size_t count = std::min(kFacingPoints, here.nearest.size());
+  double variance = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    variance += points_[here.nearest[i].index].variance / static_cast<double>(count);
+  }
+  const auto found = static_cast<double>(here.nearest.size());
+  here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
+  here.noise_area = variance * here.spacing * here.spacing;
+  here.roughness = roughness_at(roughness_, place);
+  return here;
+}
+
+/// Leaves out points that stand off from the others by more than a bend or a crease could.
+void PatchFitter::drop_strays(Members& members) const {
+  std::vector<double> heights;
+  heights.reserve(members.all.size());
+  for (const auto i : members.all) heights.push_back(members.outward.dot(points_[i].position));
+  const double level = median(heights);
+  std::vector<double> offsets;
+  offsets.reserve(heights.size());
+  for (const double height : heights) offsets.push_back(std::abs(height - level));
+  const double most = std::max(kStrayDeviations * median(offsets), kStrayRise * members.radius);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (std::abs(heights[i] - level) <= most) members.all[kept++] = members.all[i];
+  }
+  members.all.resize(kept);
+}
+
+/// Leaves out points that nearly repeat another: the slope between the two would be one of
+/// rounding.
+void PatchFitter::drop_twins(std::vector<std::size_t>& members, double nearest) const {
+  if (members.size() > kPointsInSpace) return;
+  std::size_t kept = 0;
+  for (const auto member : members) {
+    const auto is_twin = [&](std::size_t other) {
+      const Eigen::Vector3d arm = points_[member].position - points_[other].position;
+      return arm.squaredNorm() < nearest * nearest;
+    };
+    const auto end = members.begin() + static_cast<std::ptrdiff_t>(kept);
+    if (std::none_of(members.begin(), end, is_twin)) members[kept++] = member;
+  }
+  members.resize(kept);
+}
+
+PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
+                                             const Eigen::Vector3d& place, double width) const {
+  const bool wider = width > surroundings.reach;
+  const auto found = wider ? index_.around(place, width) : surroundings.nearest;
+  Members members;
+  members.radius = std::max(width, surroundings.reach);
+  members.all.reserve(found.size());
+  for (const auto& neighbour : found) {
+    const OrientedPoint& point = points_[neighbour.index];
+    if (point.normal.dot(surroundings.outward) < kBehind) continue;
+    members.all.push_back(neighbour.index);
+    members.outward += point.normal;
+  }
+  members.outward.normalize();
+  drop_strays(members);
+  drop_twins(members.all, kTwin * surroundings.spacing);
+  double farthest = 0.0;
+  for (const auto i : members.all) {
+    if (points_[i].normal.dot(members.outward) < kFacing) continue;
+    members.front.push_back(i);
+    farthest = std::max(farthest, (points_[i].position - place).squaredNorm());
+  }
+  members.front_radius = std::sqrt(farthest);
+  return members;
+}
+
+std::vector<OrientedPoint> PatchFitter::points_at(const std::vector<std::size_t>& indices) const {
+  std::vector<OrientedPoint> points;
+  points.reserve(indices.size());
+  for (const auto i : indices) points.push_back(points_[i]);
+  return points;
+}
+
+/// The mean normal of the nearest points on this side of the body: those that do not face away from
+/// the nearest one.
+Eigen::Vector3d PatchFitter::outward_of(const Neighbours& nearest) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const std::size_t count = std::min(kFacingPoints, nearest.size());
+  const Eigen::Vector3d& first = points_[nearest.front().index].normal;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d& normal = points_[nearest[i].index].normal;
+    if (normal.dot(first) > 0.0) sum += normal;
+  }
+  return sum.normalized();
+}
+
+/// Whether the points show both sides of a thin part.
+bool PatchFitter::is_thin(const Neighbours& nearest) const {
+  const Eigen::Vector3d outward = outward_of(nearest);
+  const auto behind = std::count_if(nearest.begin(), nearest.end(), [&](const auto& one) {
+    return points_[one.index].normal.dot(outward) < kBehind;
+  });
+  return static_cast<double>(behind) > kThin * static_cast<double>(nearest.size());
+}
+
+std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surroundings,
+                                                      const Eigen::Vector3d& place) const {
+  const bool wider = surroundings.nearest.size() > kPointsInSpace;
+  const auto nearest = wider ? surroundings.nearest : index_.nearest(place, kPointsInSpace);
+  // Of many, an even sample by their distance.
+  const std::size_t stride = (nearest.size() + kPointsInSpace - 1) / kPointsInSpace;
+  std::vector<std::size_t> members;
+  for (std::size_t i = 0; i < nearest.size(); i += stride) members.push_back(nearest[i].index);
+  drop_twins(members, kTwin * surroundings.spacing);
+  const double radius = std::sqrt(nearest.back().squared_distance);
+  auto field = HermitePatch::fit(points_at(members), place, radius,
+                                 kAllowanceInSpace * surroundings.roughness);
+  if (!field) return std::nullopt;
+  const double noise = surroundings.noise_area / (surroundings.spacing * surroundings.spacing);
+  const double variance =
+      kWanderingInSpace * surroundings.roughness * std::pow(surroundings.spacing, 3) +
+      noise / static_cast<double>(kAveragedInSpace);
+  return SurfacePatch{place, place, radius, std::move(*field), std::move(members), variance};
+}
+
+/// Where the points tell a crease better than one smooth sheet.
+std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroundings,
+                                                     const Eigen::Vector3d& place,
+                                                     const Members& members,
+                                                     double roughness) const {
+  const auto bent = std::count_if(members.all.begin(), members.all.end(), [&](std::size_t i) {
+    return points_[i].normal.dot(members.outward) < kHardlyBent;
+  });
+  if (bent < kFewestBent) return std::nullopt;
+  const auto points = points_at(members.all);
+  auto creased = CreasedPatch::fit(points, place, members.radius, roughness);
+  if (!creased || creased->turn() <= kLeastTurn) return std::nullopt;
+  if (creased->gap() >= kWidestCreaseGap * surroundings.spacing) return std::nullopt;
+  const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
+  if (smooth && creased->misfit() + kLeastGain >= smooth->misfit()) return std::nullopt;
+  return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all,
+                      0.0};
+}
+
+std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const {
+  const Surroundings here = surroundings_of(place);
+  if (is_thin(here.nearest)) return fit_in_space(here, place);
+  const double narrowest = std::max(here.reach, kLeastReach);
+  double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
+  for (int attempt = 1;; ++attempt) {
+    const Members members = members_of(here, place, std::max(width, narrowest));
+    // Noise hides a roughness whose bandwidth is wider than the patch.
+    const double likely = std::max(here.roughness, here.noise_area / std::pow(members.radius, 5));
+    if (auto creased = fit_creased(here, place, members, likely)) return creased;
+    const auto points = points_at(members.front);
+    auto smooth = HeightPatch::fit(points, place, members.outward, members.front_radius, likely);
+    if (!smooth) return std::nullopt;
+    const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
+    if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) {
+      return SurfacePatch{
+          place, middle_of(points), members.front_radius, std::move(*smooth), members.front, 0.0};
+    }
+    width = fitting;
+  }
+}
+
+FieldValue SurfacePatch::at(const Eigen::Vector3d& place) const {
+  return std::visit([&](const auto& surface) { return surface.at(place); }, field);
+}
+
+SurfacePatch::Sheet SurfacePatch::sheet_at(const Eigen::Vector3d& place) const {
+  if (const auto* smooth = std::get_if<HeightPatch>(&field)) {
+    return {this, smooth, nullptr, variance};
+  }
+  if (const auto* creased = std::get_if<CreasedPatch>(&field)) {
+    const auto& sheet = creased->sheet_at(place);
+    return {this, &sheet.patch, &sheet.members, variance};
+  }
+  return {this, nullptr, nullptr, variance};
+}
+
+}  // namespace instep

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/point_index.h"
+#include "core/surface/creased_patch.h"
+#include "core/surface/height_patch.h"
+#include "core/surface/hermite_patch.h"
+#include "core/surface/noise_estimate.h"
+#include "core/surface/oriented_point.h"
+
+namespace instep {
+
+/// A piece of surface round one place.
+struct SurfacePatch {
+  Eigen::Vector3d centre;
+  Eigen::Vector3d middle;  ///< of its points; off the centre at the edge of a hole
+  double radius;
+  std::variant<HeightPatch, CreasedPatch, HermitePatch> field;
+  std::vector<std::size_t> members;  ///< the points it was fitted to
+  double variance = 0.0;             ///< of the surface round the true one, for a patch in space
+
+  FieldValue at(const Eigen::Vector3d& place) const;
+
+  /// The one smooth surface that the patch is at some place, seen from there. Borrows the patch.
+  struct Sheet {
+    const SurfacePatch* owner = nullptr;
+    const HeightPatch* patch = nullptr;                ///< null in space
+    const std::vector<std::size_t>* chosen = nullptr;  ///< of the owner's members; null for all
+    double variance = 0.0;
+
+    bool is_same(const Sheet& other) const { return owner == other.owner && patch == other.patch; }
+    std::size_t size() const { return chosen ? chosen->size() : owner->members.size(); }
+    /// The index of the i-th point of the sheet.
+    std::size_t member(std::size_t i) const { return owner->members[chosen ? (*chosen)[i] : i]; }
+  };
+  Sheet sheet_at(const Eigen::Vector3d& place) const;
+};
+
+/// Chooses what piece of surface the points round a place make, and fits it: as wide as its
+/// neighbours make it, wider where noise asks for it and the surface allows it, and over holes;
+/// with two sheets where the points tell a crease; a field in space where a thin part shows both of
+/// its sides. Read-only: may be used from several threads.
+class PatchFitter {
+ public:
+  /// At least four points, in a unit in which the body is about one long, whose positions `index`
+  /// holds. `roughness`: of the surface, see there. `grain`: finest detail that is asked for; no
+  /// patch is narrower than some five.
+  PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
+              std::vector<LocalRoughness> roughness, double grain);
+
+  /// Nothing where the points determine no surface. Cost: see the patches.
+  std::optional<SurfacePatch> fit(const Eigen::Vector3d& place) const;
+
+  const std::vector<OrientedPoint>& points() const { return points_; }
+  const PointIndex& index() const { return index_; }
+
+ private:
+  using Neighbours = std::vector<PointIndex::Neighbour>;
+
+  /// What a place knows of its surroundings before a patch is fitted there.
+  struct Surroundings {
+    Neighbours nearest;
+    double reach = 0.0;       ///< of those
+    Eigen::Vector3d outward;  ///< out of the body, here
+    double spacing = 0.0;     ///< between points
+    double noise_area = 0.0;  ///< variance of a point times the area it has for itself
+    double roughness = 0.0;
+
+    double bandwidth(double of_roughness) const;
+  };
+
+  /// The points of a patch.
+  struct Members {
+    std::vector<std::size_t> all;    ///< but those on the other side of the body
+    std::vector<std::size_t> front;  ///< those of them that face as the middle does
+    Eigen::Vector3d outward = Eigen::Vector3d::Zero();
+    double radius = 0.0;
+    double front_radius = 0.0;
+  };
+
+  Neighbours nearest_all_round(const Eigen::Vector3d& place) const;
+  Eigen::Vector3d outward_of(const Neighbours& nearest) const;
+  Surroundings surroundings_of(const Eigen::Vector3d& place) const;
+  void drop_strays(Members& members) const;
+  void drop_twins(std::vector<std::size_t>& members, double nearest) const;
+  Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
+                     double width) const;
+  bool is_thin(const Neighbours& nearest) const;
+  std::optional<SurfacePatch> fit_in_space(const Surroundings& surroundings,
+                                           const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> fit_creased(const Surroundings& surroundings,
+                                          const Eigen::Vector3d& place, const Members& members,
+                                          double roughness) const;
+  std::vector<OrientedPoint> points_at(const std::vector<std::size_t>& indices) const;
+
+  std::vector<OrientedPoint> points_;
+  PointIndex index_;
+  std::vector<LocalRoughness> roughness_;
+  double grain_;
+};
+
+}  // namespace instep

@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tests/support/cases/case_classes.h"
+#include "tests/support/cases/outcome.h"
+
+namespace instep {
+namespace {
+
+using test::Bar;
+
+/// What a class of the report `tests/bench/accuracy` must not exceed, mm: its bar where that is
+/// met, else somewhat more than what was measured, so that it can only become better.
+struct Golden {
+  std::string part;
+  std::string name;
+  Bar bound;
+};
+
+void PrintTo(const Golden& golden, std::ostream* out) {
+  *out << golden.name;
+}
+
+Golden golden(const char* part, const char* name, std::optional<double> mean,
+              std::optional<double> worst, std::optional<double> bias = {}) {
+  return {part, name, {.mean_mm = mean, .worst_mm = worst, .bias_mm = bias}};
+}
+
+std::vector<Golden> goldens() {
+  return {
+      golden("rings", "cylinder of 10 rings of 120", {}, 0.002),
+      golden("rings", "cylinder of 15 rings of 60", {}, 0.002),
+      golden("rings", "cylinder of 15 rings of 30", {}, 0.012),
+      golden("shapes", "exact shapes, 6000 points", {}, 0.002),
+      golden("shapes", "exact shapes, 1500 points", {}, 0.005),
+      golden("shapes", "exact shapes, 450 points", {}, 0.06),
+      golden("noise", "noise of 0.5 mm, 8000 points", {}, 0.45, 0.06),
+      golden("holes", "hole of 20 mm, 4000 points", {}, 0.1),
+      golden("simulated", "simulated feet, 4260 points", 0.02, 0.06),
+      golden("simulated", "simulated feet, 1080 points", 0.15, 0.6),
+      golden("simulated", "simulated feet, 4260 points, 0.5 mm", 0.45, {}),
+      golden("simulated", "simulated feet, 1080 points, 0.5 mm", 1.2, {}),
+      golden("lasts", "lasts, 14240 points", 0.2, 0.6),
+      golden("lasts", "lasts, 3560 points", 0.3, 1.4),
+      golden("lasts", "lasts, 902 points", 1.3, 4.5),
+      golden("lasts", "lasts, 14240 points, 0.5 mm", 0.6, {}),
+      golden("lasts", "lasts, 902 points, bare", 1.5, 4.8),
+      golden("feet", "feet, 4260 points", 0.35, 0.9),
+      golden("feet", "feet, 1080 points", 0.55, 2.2),
+      golden("feet", "feet, 4260 points, 0.5 mm", 0.6, {}),
+      golden("feet", "feet, 1080 points, 0.5 mm", 1.2, {}),
+  };
+}
+
+std::vector<test::CaseClass> classes_of(const std::string& part) {
+  if (part == "lasts") return test::last_classes();
+  if (part == "feet") return test::foot_classes();
+  return part == "simulated" ? test::simulated_foot_classes() : test::smooth_classes();
+}
+
+class GirthByRbfGolden : public ::testing::TestWithParam<Golden> {};
+
+TEST_P(GirthByRbfGolden, KeepsItsBounds) {
+  const Golden& expected = GetParam();
+  const auto classes = classes_of(expected.part);
+  if (classes.empty()) GTEST_SKIP() << "no trial data here";
+  const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& candidate) {
+    return candidate.name == expected.name;
+  });
+  ASSERT_NE(found, classes.end()) << "no class is called " << expected.name;
+  std::vector<test::Outcome> outcomes;
+  for (const auto& one : found->cases()) {
+    outcomes.push_back(test::measured(one));
+    EXPECT_FALSE(outcomes.back().refusal) << one.name << ": " << *outcomes.back().refusal;
+  }
+  const auto summary = test::summary_of(outcomes);
+  EXPECT_TRUE(test::meets(summary, expected.bound))
+      << "mean " << summary.mean_mm << ", worst " << summary.worst_mm << ", bias "
+      << summary.bias_mm;
+}
+
+/// A test's name has letters and digits only.
+std::string test_name(const ::testing::TestParamInfo<Golden>& info) {
+  std::string name;
+  bool starts_word = true;
+  for (const char letter : info.param.name) {
+    const bool counts = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    if (counts) {
+      name += starts_word ? static_cast<char>(std::toupper(static_cast<unsigned char>(letter)))
+                          : letter;
+    } else if (letter == '.') {
+      name += '_';
+    }
+    starts_word = !counts;
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Classes, GirthByRbfGolden, ::testing::ValuesIn(goldens()), test_name);
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,238 @@
+#include "daemon/page/report_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "daemon/page/paper.h"
+#include "tests/support/foot_body.h"
+#include "tests/support/xml_check.h"
+
+namespace instep {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// An elliptic section in the upright plane over x.
+Measure girth_at(const std::string& id, double x, double half_width, double half_height) {
+  Measure measure;
+  measure.id = id;
+  measure.plane = *TapePlane::through({x, 0, 0}, {x, 10, 0}, {x, 0, 10});
+  Girth girth;
+  for (int i = 0; i < 90; ++i) {
+    const double angle = i * std::numbers::pi / 45.0;
+    girth.contour.emplace_back(half_width * std::cos(angle), half_height * (1.0 + std::sin(angle)));
+  }
+  girth.stretched_mm = 2.0 * std::numbers::pi * std::hypot(half_width, half_height) / 1.41421356;
+  girth.contact_mm = girth.stretched_mm + 1.0;
+  girth.stretched_u95_mm = 0.4;
+  measure.value_mm = girth.stretched_mm;
+  measure.u95_mm = girth.stretched_u95_mm;
+  measure.girth = girth;
+  return measure;
+}
+
+ScanRecord made_up_scan(Side side = Side::kLeft) {
+  ScanRecord record;
+  record.id = "20261121T091502417Z-k3f9";
+  record.station = "Bern & Söhne";
+  record.foot.side = side;
+  const auto right = test::FootBody{}.points();
+  record.foot.cloud = side == Side::kRight ? right : test::mirrored(right);
+  record.foot.landmarks["pternion"] = {{0, 0, 20}, 1.0, "rearmost"};
+  record.foot.landmarks["acropodion"] = {{260, 0, 10}, 1.0, "foremost"};
+  record.foot.landmarks["instep_point"] = {{130, 0, 70}, 0.3, "by proportion"};
+  Measure length;
+  length.id = "foot_length";
+  length.value_mm = 260.0;
+  length.u95_mm = 0.3;
+  record.measures.measures = {length, girth_at("ball_girth", 180, 45, 25),
+                              girth_at("waist_girth", 150, 42, 30),
+                              girth_at("instep_girth", 130, 40, 35)};
+  record.measures.withheld = {{"ankle_girth", "the leg is cut below the <malleoli>"}};
+  record.sizes = shoe_sizes(sized_foot(record.measures));
+  return record;
+}
+
+/// The numbers that stand in the places of "#" wherever the text has the pattern, one after
+/// another.
+std::vector<double> numbers(const std::string& text, const std::string& pattern) {
+  constexpr const char* kNumber = "0123456789.-";
+  std::vector<double> found;
+  const std::string head = pattern.substr(0, pattern.find('#'));
+  for (auto at = text.find(head); at != std::string::npos; at = text.find(head, at + 1)) {
+    std::vector<double> here;
+    std::size_t place = at;
+    bool fits = true;
+    for (std::size_t i = 0; i < pattern.size() && fits; ++i) {
+      if (pattern[i] != '#') {
+        fits = place < text.size() && text[place++] == pattern[i];
+        continue;
+      }
+      const auto end = std::min(text.find_first_not_of(kNumber, place), text.size());
+      fits = end > place;
+      if (fits) here.push_back(std::stod(text.substr(place, end - place)));
+      place = end;
+    }
+    if (fits) found.insert(found.end(), here.begin(), here.end());
+  }
+  return found;
+}
+
+TEST(ReportPage, IsA4WithARulerOfFiftyMillimetres) {
+  const std::string page = report_page(made_up_scan());
+  EXPECT_EQ(test::fault_in_xml(page), "");
+  EXPECT_THAT(page, HasSubstr("width=\"210mm\" height=\"297mm\" viewBox=\"0 0 2100 2970\""));
+  // The last long rule is that of the footer or of the length: both are looked at.
+  const auto ends = numbers(page, "class=\"rule\" x1=\"#\" y1=\"2860.0\" x2=\"#\"");
+  ASSERT_GE(ends.size(), 2U);
+  EXPECT_DOUBLE_EQ(ends[1] - ends[0], 500.0);
+}
+
+TEST(ReportPage, SaysWhatWasMeasuredAndWhatNot) {
+  const std::string page = report_page(made_up_scan());
+  for (const char* word : {"Left foot", "scan 20261121T091502417Z-k3f9", "Bern &amp; Söhne",
+                           "foot length 260.0 ± 0.3", "ball girth", "along the skin",
+                           "ankle girth not measured: the leg is cut below the "
+                           "&lt;malleoli&gt;",
+                           "Mondopoint", "instep point (by proportion)", "acropodion"}) {
+    EXPECT_THAT(page, HasSubstr(word));
+  }
+  EXPECT_THAT(report_page(made_up_scan(Side::kRight), "foot.ply"), HasSubstr("Right foot"));
+  EXPECT_THAT(report_page(made_up_scan(Side::kRight), "foot.ply"), HasSubstr("foot.ply · scan"));
+  EXPECT_EQ(page, report_page(made_up_scan()));
+}
+
+TEST(ReportPage, DrawsTheFootToTheScaleItSays) {
+  for (const double length : {200.0, 260.0, 310.0}) {
+    auto record = made_up_scan();
+    record.foot.cloud = test::mirrored(test::FootBody{length}.points());
+    record.foot.landmarks["acropodion"].position_mm.x() = length;
+    const std::string page = report_page(record);
+    const auto scales = numbers(page, "from above, 1 : #<");
+    ASSERT_EQ(scales.size(), 1U);
+    const auto lines = numbers(page, "class=\"rule\" x1=\"#\" y1=\"#\" x2=\"#\"");
+    const bool drawn = [&] {
+      for (std::size_t i = 0; i + 2 < lines.size(); i += 3) {
+        if (std::abs(lines[i + 2] - lines[i] - 10.0 * length / scales[0]) < 0.2) return true;
+      }
+      return false;
+    }();
+    EXPECT_TRUE(drawn) << "1 : " << scales[0] << " of " << length;
+  }
+}
+
+TEST(ReportPage, KeepsAllOnThePageAndTheNamesOfTapesApart) {
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    auto record = made_up_scan(side);
+    record.measures.measures.push_back(girth_at("short_heel_girth", 100, 35, 50));
+    record.measures.measures.push_back(girth_at("long_heel_girth", 101, 36, 55));
+    record.measures.measures.push_back(girth_at("ankle_girth", 60, 30, 45));
+    const std::string page = report_page(record);
+    const auto places = numbers(page, " x=\"#\" y=\"#\"");
+    ASSERT_GT(places.size(), 60U);
+    for (std::size_t i = 0; i + 1 < places.size(); i += 2) {
+      EXPECT_GE(places[i], 0.0);
+      EXPECT_LE(places[i], paper::kWidth);
+      EXPECT_GE(places[i + 1], 0.0);
+      EXPECT_LE(places[i + 1], paper::kHeight);
+    }
+    const auto names = numbers(page, "class=\"tape-name\" x=\"#\" y=\"#\"");
+    ASSERT_EQ(names.size(), 2U * 2U * 6U);
+    for (std::size_t i = 0; i < names.size(); i += 2) {
+      for (std::size_t j = i + 2; j < names.size(); j += 2) {
+        if (names[i + 1] != names[j + 1]) continue;  // of the other view
+        EXPECT_GE(std::abs(names[i] - names[j]), 170.0);
+      }
+    }
+  }
+}
+
+TEST(ReportPage, SaysHowMuchItLeftOut) {
+  auto record = made_up_scan();
+  for (int i = 0; i < 60; ++i) record.warnings.push_back("doubt number " + std::to_string(i));
+  const std::string page = report_page(record);
+  EXPECT_THAT(page, HasSubstr("doubt number 0<"));
+  EXPECT_THAT(page, Not(HasSubstr("doubt number 59<")));
+  const auto left_out = numbers(page, "and # more: see result.json");
+  const auto said = numbers(page, "doubt number #<");
+  ASSERT_EQ(left_out.size(), 1U);
+  EXPECT_EQ(said.size() + static_cast<std::size_t>(left_out[0]), 60U);
+  const auto heights = numbers(page, "class=\"note\" x=\"#\" y=\"#\"");
+  ASSERT_GE(heights.size(), 10U);
+  for (std::size_t i = 1; i < heights.size(); i += 2) EXPECT_LT(heights[i], 2860.0);
+}
+
+TEST(ReportPage, SaysADoubtOfSeveralMeasuresOnce) {
+  auto record = made_up_scan();
+  for (std::size_t i = 1; i < 4; ++i) record.measures.measures[i].warnings = {"it is a guess"};
+  EXPECT_THAT(report_page(record),
+              HasSubstr("ball girth, waist girth, instep girth: it is a guess<"));
+}
+
+TEST(ReportPage, SaysWhatTheOtherFootHasMore) {
+  auto record = made_up_scan();
+  auto right = record.measures;
+  right.measures[0].value_mm += 2.5;
+  right.measures[1].value_mm -= 1.5;
+  record.pair = ScannedPair{"left", "right", pair_feet(record.measures, right),
+                            shoe_sizes(larger_of(sized_foot(record.measures), sized_foot(right)))};
+  const std::string left_page = report_page(record);
+  EXPECT_THAT(left_page, HasSubstr(">right</text>"));
+  EXPECT_THAT(left_page, HasSubstr(">+2.5</text>"));
+  EXPECT_THAT(left_page, HasSubstr(">-1.5</text>"));
+  EXPECT_THAT(left_page, HasSubstr(">265"));
+  record.foot.side = Side::kRight;
+  EXPECT_THAT(report_page(record), HasSubstr(">-2.5</text>"));
+}
+
+TEST(ReportPage, StandsWhateverItIsGiven) {
+  EXPECT_EQ(test::fault_in_xml(report_page(ScanRecord{})), "");
+  auto record = made_up_scan();
+  record.foot.cloud.positions.emplace_back(kNan, 1.0, 2.0);
+  record.foot.landmarks["pternion"].position_mm.y() = kNan;
+  record.measures.measures[1].girth->contour[0].x() = kNan;
+  record.measures.measures[2].girth->contour.clear();
+  record.measures.measures[3].girth->contour.assign(50, {1.0, 1.0});
+  record.station = "<script>";
+  EXPECT_EQ(test::fault_in_xml(report_page(record)), "");
+  record.foot.cloud.positions.assign(1, {5.0, 5.0, 5.0});
+  EXPECT_EQ(test::fault_in_xml(report_page(record)), "");
+  record.foot.cloud.positions.assign(500, {5.0, 5.0, 500.0});
+  EXPECT_EQ(test::fault_in_xml(report_page(record)), "");
+}
+
+TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
+  const std::string text = "no camera saw the sole of foot 1; it is closed by the platform";
+  const auto lines = paper::wrapped(text, 300.0, 20.0);
+  ASSERT_GT(lines.size(), 1U);
+  std::string joined;
+  for (const auto& line : lines) {
+    EXPECT_LE(line.size(), 25U);
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  EXPECT_EQ(joined, text);
+}
+
+TEST(WrappedText, CutsALongWordBetweenLettersOfUtf8) {
+  std::string word;
+  for (int i = 0; i < 40; ++i) word += "ö";
+  std::string joined;
+  for (const auto& line : paper::wrapped(word, 100.0, 20.0)) {
+    EXPECT_EQ(line.size() % 2, 0U);
+    EXPECT_FALSE(line.empty());
+    joined += line;
+  }
+  EXPECT_EQ(joined, word);
+  EXPECT_TRUE(paper::wrapped("", 100.0, 20.0).empty());
+  EXPECT_EQ(paper::wrapped("ab", 0.0, 20.0).size(), 2U);
+}
+
+}  // namespace
+}  // namespace instep
