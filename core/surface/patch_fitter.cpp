@@ -25,8 +25,8 @@ constexpr double kBehind = -0.3;
 /// With more than this part of the points on the other side, the patch is one in space.
 constexpr double kThin = 0.1;
 constexpr std::size_t kPointsInSpace = 80;
-/// How far its surface may be off: the variance half-way between points, against roughness times the
-/// cube of their spacing, and how many points share in averaging noise.
+/// How far its surface may be off: the variance half-way between points, against roughness times
+/// the cube of their spacing, and how many points share in averaging noise.
 constexpr double kWanderingInSpace = 0.1;
 constexpr int kAveragedInSpace = 6;
 /// Points nearer to each other than this part of the spacing are copies of one.
@@ -47,8 +47,10 @@ constexpr double kStrayRise = 0.7;
 constexpr double kBandwidths = 2.0;
 constexpr double kWidest = 0.10;
 /// It is fitted again, narrower, if it turns out rougher than thought.
-constexpr int kMostAttempts = 4;
+constexpr int kMostAttempts = 5;
 constexpr double kTooWide = 1.5;
+/// Or wider, if the points determine no surface yet.
+constexpr double kWidening = 1.6;
 /// A crease turns at least this much (radians), and is so much likelier than one smooth sheet.
 constexpr double kLeastTurn = 0.9;
 constexpr double kLeastGain = 8.0;
@@ -64,11 +66,8 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
 }  // namespace
 
 PatchFitter::PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
-                         std::vector<LocalRoughness> roughness, double grain)
-    : points_(std::move(points)),
-      index_(std::move(index)),
-      roughness_(std::move(roughness)),
-      grain_(grain) {}
+                         std::vector<LocalRoughness> roughness)
+    : points_(std::move(points)), index_(std::move(index)), roughness_(std::move(roughness)) {}
 
 /// Over which distance noise and roughness weigh the same.
 double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
@@ -247,7 +246,12 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
     const auto points = points_at(members.front);
     auto smooth = HeightPatch::fit(points, place, members.outward, members.front_radius, likely);
-    if (!smooth) return std::nullopt;
+    if (!smooth) {
+      // Points on a line, such as one row of a scan, ask for more.
+      width = kWidening * members.radius;
+      if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
+      continue;
+    }
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
     if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) {
       return SurfacePatch{
