@@ -18,7 +18,7 @@ using OrientedPoints = std::vector<OrientedPoint>;
 constexpr double kSpacing = 0.02;
 
 PatchFitter fitter_of(const OrientedPoints& points) {
-  return {points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}, 0.0};
+  return {points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}};
 }
 
 /// No two of them nearly coincide.
