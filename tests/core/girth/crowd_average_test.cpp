@@ -109,15 +109,15 @@ TEST(CrowdAverage, LosesNoCertaintyAndMovesNoMiddle) {
 }
 
 TEST(CrowdAverage, WasSeenIfAnyOfItsPointsWas) {
-  const Vector3d up = Vector3d::UnitZ();
-  const OrientedPoints points = {{{0, 0, 0}, up, 1.0},
-                                 {{0.001, 0, 0}, up, 1.0},
-                                 {{0.2, 0, 0}, up, 1.0},
-                                 {{0.201, 0, 0}, up, 1.0},
-                                 {{0.4, 0, 0}, up, 1.0}};
-  const auto average = average_crowds(crowded(points, {false, true, false, false, true}));
-  EXPECT_EQ(average.points.size(), 3U);
-  EXPECT_EQ(average.seen, std::vector<bool>({true, false, true}));
+  OrientedPoints points;
+  for (int pair = 0; pair < 4; ++pair) {
+    points.push_back({{0.2 * pair, 0, 0}, Vector3d::UnitZ(), 1.0});
+    points.push_back({{0.2 * pair + 0.001, 0, 0}, Vector3d::UnitZ(), 1.0});
+  }
+  const auto average =
+      average_crowds(crowded(points, {false, true, true, false, false, false, true, true}));
+  EXPECT_EQ(average.points.size(), 4U);
+  EXPECT_EQ(average.seen, std::vector<bool>({true, true, false, true}));
 }
 
 TEST(CrowdAverage, OfNothingIsNothing) {
