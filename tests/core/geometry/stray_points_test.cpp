@@ -71,6 +71,26 @@ TEST(StrayPoints, AreThoseOfTheDefinitionWhereTheyLieFarOff) {
   }
 }
 
+/// Up to four together each have more of the surface than of their own kind for neighbours.
+TEST(StrayPoints, AreThoseOfTheDefinitionWhereAFewStandTogether) {
+  for (const std::size_t together : {2U, 3U, 4U, 5U, 9U, 12U}) {
+    Points points = sphere_with_strays(0, 7);
+    const std::size_t surface = points.size();
+    test::RandomNumbers random(8);
+    for (const Vector3d& place : {Vector3d(2, 0, 0), Vector3d(0, -1.6, 1), Vector3d(-1, 2, 3)}) {
+      for (std::size_t i = 0; i < together; ++i) {
+        const Vector3d off(random.normal(), random.normal(), random.normal());
+        points.push_back(place + 0.02 * off);
+      }
+    }
+    const PointIndex index(points);
+    const auto found = stray_points(index, usual_spacing(index, 200));
+    EXPECT_EQ(found, strays_by_definition(points)) << together << " together";
+    if (together > 4) continue;
+    for (std::size_t i = surface; i < points.size(); ++i) EXPECT_TRUE(found[i]) << together;
+  }
+}
+
 TEST(StrayPoints, AreNoneOnASurfaceWhoseSpacingGrowsSlowly) {
   test::RandomNumbers random(4);
   Points points;

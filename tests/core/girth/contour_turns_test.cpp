@@ -64,6 +64,24 @@ TEST(ContourTurns, AreSharedByTheCornersOfACircle) {
   }
 }
 
+/// Half of the way to each neighbour belongs to a corner, however unequal the two are.
+TEST(ContourTurns, AreSharedHalfAndHalfBetweenUnequalNeighbours) {
+  const std::vector<double> angles = {0.0, 0.1, 0.4, 1.2, 1.3, 2.9, 3.5, 4.0, 5.5, 6.1};
+  Contour contour;
+  for (const double angle : angles) {
+    contour.outward.emplace_back(std::cos(angle), std::sin(angle));
+    contour.points.push_back(0.3 * contour.outward.back());
+  }
+  const auto turns = turns_of(contour);
+  const std::size_t count = angles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double before = angles[(i + count - 1) % count] - (i == 0 ? kTurn : 0.0);
+    const double after = angles[(i + 1) % count] + (i + 1 == count ? kTurn : 0.0);
+    EXPECT_NEAR(turns.contact[i], 0.5 * (after - before), 1e-12) << "corner " << i;
+    EXPECT_NEAR(turns.stretched[i], 0.5 * (after - before), 1e-12) << "corner " << i;
+  }
+}
+
 /// A tape turns at a corner by the angle of all directions in which no corner is further out.
 TEST(ContourTurns, OfATapeAreTheDirectionsInWhichACornerIsOutermost) {
   constexpr int kDirections = 20000;

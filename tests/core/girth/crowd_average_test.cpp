@@ -82,17 +82,16 @@ TEST(CrowdAverage, LeavesPointsThatFaceApart) {
   EXPECT_LT(average.points[0].normal.dot(average.points[1].normal), 0.0);
 }
 
+/// Each place has a point, a copy of it and another 0.4 grains off.
 TEST(CrowdAverage, MergesOnlyCopiesWherePointsDoNotCrowd) {
-  const double spacing = 2.0 * kGrain;
-  OrientedPoints points = test::disc_points({0, 0, 0}, Vector3d::UnitZ(), 0.5, 40, 0.001, 1);
+  OrientedPoints points;
   for (int i = 0; i < 40; ++i) {
-    auto copy = points[static_cast<std::size_t>(i)];
-    copy.position.x() += 0.001 * spacing;
-    points.push_back(copy);
+    for (const double off : {0.0, 1e-3 * kGrain, 0.4 * kGrain}) {
+      points.push_back({{0.1 * i + off, 0.0, 0.0}, Vector3d::UnitZ(), 1.0});
+    }
   }
-  const auto average = average_crowds(band_of(points, spacing));
-  EXPECT_EQ(average.points.size(), 40U);
-  EXPECT_LT(average_crowds(crowded(points)).points.size(), 40U);
+  EXPECT_EQ(average_crowds(band_of(points, kGrain)).points.size(), 80U);
+  EXPECT_EQ(average_crowds(band_of(points, 0.99 * kGrain)).points.size(), 40U);
 }
 
 TEST(CrowdAverage, LosesNoCertaintyAndMovesNoMiddle) {
@@ -110,15 +109,15 @@ TEST(CrowdAverage, LosesNoCertaintyAndMovesNoMiddle) {
 }
 
 TEST(CrowdAverage, WasSeenIfAnyOfItsPointsWas) {
-  const Vector3d up = Vector3d::UnitZ();
-  const OrientedPoints points = {{{0, 0, 0}, up, 1.0},
-                                 {{0.001, 0, 0}, up, 1.0},
-                                 {{0.2, 0, 0}, up, 1.0},
-                                 {{0.201, 0, 0}, up, 1.0},
-                                 {{0.4, 0, 0}, up, 1.0}};
-  const auto average = average_crowds(crowded(points, {false, true, false, false, true}));
-  EXPECT_EQ(average.points.size(), 3U);
-  EXPECT_EQ(average.seen, std::vector<bool>({true, false, true}));
+  OrientedPoints points;
+  for (int pair = 0; pair < 4; ++pair) {
+    points.push_back({{0.2 * pair, 0, 0}, Vector3d::UnitZ(), 1.0});
+    points.push_back({{0.2 * pair + 0.001, 0, 0}, Vector3d::UnitZ(), 1.0});
+  }
+  const auto average =
+      average_crowds(crowded(points, {false, true, true, false, false, false, true, true}));
+  EXPECT_EQ(average.points.size(), 4U);
+  EXPECT_EQ(average.seen, std::vector<bool>({true, true, false, true}));
 }
 
 TEST(CrowdAverage, OfNothingIsNothing) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/support/oriented_points.h"
@@ -110,7 +110,7 @@ TEST(PatchFitter, MakesTwoSheetsOfARightAngledEdge) {
   ASSERT_TRUE(patch);
   const auto* creased = std::get_if<CreasedPatch>(&patch->field);
   ASSERT_NE(creased, nullptr);
-  EXPECT_NEAR(creased->turn(), 0.5 * M_PI, 0.02);
+  EXPECT_NEAR(creased->turn(), 0.5 * std::numbers::pi, 0.02);
   for (const double off : {0.01, 0.03, 0.06}) {
     EXPECT_NEAR(patch->at({0.5, 0.5 - off, 0.0}).value, 0.0, 1e-6);
     EXPECT_NEAR(patch->at({0.5 - off, 0.5, 0.0}).value, 0.0, 1e-6);
@@ -199,6 +199,18 @@ TEST(PatchFitter, LeavesOutWhatFacesTheOtherWay) {
   EXPECT_NEAR(patch->at(Vector3d::Zero()).value, 0.0, 1e-9);
 }
 
+TEST(PatchFitter, LeavesOutStraysHighOverTheSheet) {
+  auto points = plane_points(0.0);
+  const std::size_t sound = points.size();
+  points.push_back({{0.01, 0.0, 0.075}, Vector3d::UnitZ(), 0.0});
+  points.push_back({{-0.02, 0.01, 0.072}, Vector3d::UnitZ(), 0.0});
+  const auto patch = fitter_of(points).fit(Vector3d::Zero());
+  ASSERT_TRUE(patch);
+  ASSERT_GT(patch->radius, 0.08) << "wide enough to hold the strays";
+  for (const auto i : patch->members) EXPECT_LT(i, sound);
+  EXPECT_NEAR(patch->at(Vector3d::Zero()).value, 0.0, 1e-9);
+}
+
 TEST(PatchFitter, TakesOneOfPointsThatNearlyCoincide) {
   auto points = plane_points(0.0);
   const std::size_t twin = points.size();
@@ -210,6 +222,7 @@ TEST(PatchFitter, TakesOneOfPointsThatNearlyCoincide) {
   const auto patch = fitter_of(points).fit(Vector3d::Zero());
   ASSERT_TRUE(patch);
   const std::set<std::size_t> members(patch->members.begin(), patch->members.end());
+  EXPECT_EQ(members.size(), patch->members.size());
   EXPECT_EQ(members.count(inner) + members.count(twin), 1U);
 }
 
