@@ -51,8 +51,8 @@ struct Loop {
   explicit Loop(Contour traced) : contour(std::move(traced)), index(contour) {}
 };
 
-/// The points nearest to the plane, in an order that spreads over all of them: most lie on the
-/// largest body, so a lump beside it does not use up the starts.
+/// The points nearest to the plane: the outermost one, then in an order that spreads over all of
+/// them. Most lie on the largest body, so a lump beside it does not use up the starts.
 std::vector<std::size_t> starts_of(const PlaneBand& band) {
   std::vector<double> heights;
   for (const auto& point : band.points) heights.push_back(std::abs(point.position.z()));
@@ -64,7 +64,7 @@ std::vector<std::size_t> starts_of(const PlaneBand& band) {
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (heights[i] <= near) candidates.push_back(i);
   }
-  std::vector<std::size_t> starts;
+  std::vector<std::size_t> starts = {candidates.front()};
   const std::size_t count = candidates.size();
   for (std::size_t stride = std::size_t{1} << 20; stride > 0; stride /= 2) {
     for (std::size_t i = stride; i <= count; i += 2 * stride) starts.push_back(candidates[i - 1]);

@@ -12,8 +12,8 @@ namespace {
 constexpr double kReach = 0.75;
 /// A place needs a patch centred within this part of the patch's radius; at creases and thin parts,
 /// where it changes faster, a nearer one.
-constexpr double kNearEnough = 0.3;
-constexpr double kNearEnoughAtEdges = 0.2;
+constexpr double kNearEnough = 0.4;
+constexpr double kNearEnoughAtEdges = 0.3;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;

@@ -15,7 +15,9 @@ constexpr std::size_t kPatchPoints = 60;
 /// A place whose points have their middle further off, against their reach, lies in a hole; holes
 /// wider than this part of the body are not spanned.
 constexpr double kOneSided = 0.5;
-constexpr double kWidestHole = 0.15;
+constexpr double kWidestHole = 0.2;
+/// In steps of this many halves.
+constexpr std::size_t kMoreInAHole = 3;
 /// Nearest points that tell which way is out.
 constexpr std::size_t kFacingPoints = 8;
 /// Cosine to that direction from which a point can be a height over the patch, and below which it
@@ -79,7 +81,7 @@ double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
 PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
   auto first = index_.nearest(place, kPatchPoints);
   auto nearest = first;
-  for (std::size_t count = 2 * kPatchPoints;; count *= 2) {
+  for (std::size_t count = kMoreInAHole * kPatchPoints / 2;; count = kMoreInAHole * count / 2) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
     middle /= static_cast<double>(nearest.size());
