@@ -25,7 +25,7 @@ class PointIndex {
   PointIndex& operator=(PointIndex&&) noexcept;
 
   /// The `count` nearest points (fewer if there are fewer), nearest first; equal distances are
-  /// ordered by index, so that the answer does not depend on the tree.
+  /// ordered by index. Of several equally far ones at the last place any may be left out.
   std::vector<Neighbour> nearest(const Eigen::Vector3d& query, std::size_t count) const;
 
   /// All points within `radius` (inclusive), nearest first, ordered as above.

@@ -9,7 +9,7 @@
 namespace instep {
 
 /// Finds where on a traced contour a point of the plane is nearest. The contour's corners lie close
-/// and evenly, as trace_contour() puts them. Keeps what it needs of the contour.
+/// and evenly, as trace_contour() puts them; at least one. Keeps what it needs of the contour.
 class ContourIndex {
  public:
   explicit ContourIndex(const Contour& contour);

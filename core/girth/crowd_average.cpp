@@ -1,13 +1,14 @@
 #include "core/girth/crowd_average.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace instep {
 namespace {
 
 /// Points nearer than this part of the spacing count as one.
 constexpr double kDuplicate = 0.02;
+/// Stands for no variance at all where variances are divided by.
+constexpr double kLeastVariance = 1e-18;
 
 }  // namespace
 
@@ -25,7 +26,7 @@ CrowdAverage average_crowds(const PlaneBand& band) {
       const OrientedPoint& point = band.points[neighbour.index];
       if (taken[neighbour.index] || point.normal.dot(mean.normal) < 0.0) continue;
       taken[neighbour.index] = true;
-      const double weight = 1.0 / std::max(point.variance, std::numeric_limits<double>::min());
+      const double weight = 1.0 / std::max(point.variance, kLeastVariance);
       mean.position += weight * point.position;
       mean.normal += weight * point.normal;
       weights += weight;

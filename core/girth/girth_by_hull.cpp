@@ -128,7 +128,7 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto about = neighbourhood_of(cloud, plane);
   if (!about) return tl::make_unexpected(about.error());
-  if (!is_cut(about->slab)) {
+  if (!is_cut(about->slab.places)) {
     return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                 "give control points that cut the body");
   }

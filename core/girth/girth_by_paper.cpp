@@ -95,7 +95,7 @@ Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& pla
     if (slab.places.size() < kFewestPoints) continue;
     const double wanted = kBandInSpacings * spacing_of(slab.places);
     if (!(half_width >= wanted && wanted > 0.0)) continue;
-    if (!is_cut(slab)) {
+    if (!is_cut(slab.places)) {
       return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                   "give control points that cut the body");
     }

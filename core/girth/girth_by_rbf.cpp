@@ -40,6 +40,8 @@ constexpr double kNotableUnexplained = 0.02;
 constexpr double kNotableNoise = 0.012;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
+/// One in so many points, the nearest to the plane, is a start at least.
+constexpr std::size_t kStartShare = 30;
 
 /// A loop of the section with what is known of it.
 struct Loop {
@@ -49,13 +51,33 @@ struct Loop {
   explicit Loop(Contour traced) : contour(std::move(traced)), index(contour) {}
 };
 
+/// The points nearest to the plane: the outermost one, then in an order that spreads over all of
+/// them. Most lie on the largest body, so a lump beside it does not use up the starts.
+std::vector<std::size_t> starts_of(const PlaneBand& band) {
+  std::vector<double> heights;
+  for (const auto& point : band.points) heights.push_back(std::abs(point.position.z()));
+  std::vector<double> order = heights;
+  const auto share = order.begin() + static_cast<std::ptrdiff_t>(order.size() / kStartShare);
+  std::nth_element(order.begin(), share, order.end());
+  const double near = std::max(band.spacing, *share);
+  std::vector<std::size_t> candidates;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (heights[i] <= near) candidates.push_back(i);
+  }
+  std::vector<std::size_t> starts = {candidates.front()};
+  const std::size_t count = candidates.size();
+  for (std::size_t stride = std::size_t{1} << 20; stride > 0; stride /= 2) {
+    for (std::size_t i = stride; i <= count; i += 2 * stride) starts.push_back(candidates[i - 1]);
+  }
+  return starts;
+}
+
 /// Follows every loop that starts near a point on the plane and round which the body lies inside.
 std::vector<Loop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
   std::vector<Loop> loops;
   int starts = 0;
-  for (const auto& point : band.points) {
-    if (std::abs(point.position.z()) > band.spacing) continue;
-    const Eigen::Vector2d start = point.position.head<2>();
+  for (const std::size_t candidate : starts_of(band)) {
+    const Eigen::Vector2d start = band.points[candidate].position.head<2>();
     const bool known = std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) {
       return loop.index.foot_of(start).distance < kEvidenceInGrains * band.grain;
     });
@@ -138,8 +160,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   auto band = band_at(cloud, plane, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
-  BlendedSurface surface(
-      PatchFitter(band->points, std::move(band->index), band->roughness, band->grain));
+  BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
   auto loops = trace_all(*band, surface);
   if (loops.empty()) {
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
@@ -157,7 +178,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   }
 
   const LengthDoubt doubt = doubt_of(contour, surface);
-  if (doubt.stretched_u95 > kMostDoubt * length) {
+  if (!(doubt.stretched_u95 <= kMostDoubt * length)) {
     return fail(ErrorCode::kInsufficientData,
                 "the points near the tape plane are too few or too noisy to tell the girth",
                 "scan again, with more or better frames");

@@ -11,8 +11,7 @@
 namespace instep {
 namespace {
 
-/// How much each part counts, so that intervals hold.
-constexpr double kNoise = 1.0;
+/// How much each part counts against that of the noise, so that intervals hold.
 constexpr double kWandering = 1.4;
 constexpr double kUnseenWaves = 2.0;
 constexpr double kDeviations = 1.96;
@@ -94,7 +93,9 @@ void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points,
   if (stretch.corners.size() < 2) return;
   const std::size_t at = (stretch.corners.size() - 1) / 2;
   const std::vector<Eigen::Vector3d> pair = {stretch.corners[at], stretch.corners[at + 1]};
-  const double rise = 1.0 / ((pair[1] - pair[0]).norm() * stretch.slopes[at]);
+  const double step = (pair[1] - pair[0]).norm();
+  if (!(step > 0.0)) return;
+  const double rise = 1.0 / (step * stretch.slopes[at]);
   const auto tilt = stretch.sheet.patch->sum(pair, Eigen::Vector2d(-rise, rise));
   double noise = 0.0;
   for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
@@ -119,8 +120,8 @@ double half_width(const std::vector<double>& influence, double wandering, const 
     noise += influence[i] * influence[i] * points[i].variance;
   }
   const double unseen = kUnseenWaves * sums.unseen_waves;
-  const double variance = kNoise * kNoise * noise + kWandering * kWandering * wandering +
-                          unseen * unseen + sums.noise_waves * sums.noise_waves;
+  const double variance = noise + kWandering * kWandering * wandering + unseen * unseen +
+                          sums.noise_waves * sums.noise_waves;
   return kDeviations * std::sqrt(variance) + kLeast * length;
 }
 

@@ -9,8 +9,9 @@ namespace instep {
 /// true ones: half-widths of 95 % intervals in the unit of the surface.
 ///
 /// To first order a length changes by what each corner moves outwards times what the line turns
-/// there (ContourTurns). Each height of the surface is a sum over the heights of points, so their
-/// noise goes through to the length exactly (HeightPatch::sum()), however patches overlap. The
+/// there (ContourTurns). Each height of a patch is a sum over the heights of points, so their
+/// noise goes through to the length (HeightPatch::sum()); for a corner the patch that counts most
+/// there stands for the blend. The
 /// same sums tell how far the surface may wander between the points (kriging), holes and the reach
 /// beyond the last points of a crease included. To second order waves lengthen a line: by those
 /// that noise put into the contour it is too long, by those that the true one has between the

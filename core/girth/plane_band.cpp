@@ -14,7 +14,8 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kFewestPoints = 24;
-/// Half-width of the band in grains: a patch reaches five to each side, and normals two more.
+/// Half-width of the band in grains: a patch of points as wide apart as the grain reaches more than
+/// four to each side, and the normals of its outermost points two more.
 constexpr double kBandInGrains = 6.5;
 /// Of the slab that is looked at first, against the extent of the cloud. Points of a slab thinner
 /// than their spacing seem farther apart than they are.
@@ -23,6 +24,8 @@ constexpr double kWidening = 2.0;
 constexpr double kWideEnough = 1.15;
 constexpr int kMostRounds = 3;
 constexpr std::size_t kSpacingSample = 200;
+/// Places where noise is looked for lie so near to the plane.
+constexpr double kNoisePlacesInSpacings = 1.5;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
 constexpr double kGrainInSigmas = 2.0;
 constexpr double kCoarsestGrain = 0.018;
@@ -139,7 +142,7 @@ std::vector<std::size_t> along_the_plane(const PlaneBand& band) {
   const auto& places = band.index.points();
   std::vector<std::pair<double, std::size_t>> angles;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (std::abs(places[i].z()) > 1.5 * band.spacing) continue;
+    if (std::abs(places[i].z()) > kNoisePlacesInSpacings * band.spacing) continue;
     angles.emplace_back(std::atan2(places[i].y(), places[i].x()), i);
   }
   std::sort(angles.begin(), angles.end());
@@ -159,13 +162,6 @@ NoiseEstimate noise_of(const PlaneBand& band, std::optional<double> sigma_mm) {
   std::optional<double> sigma;
   if (sigma_mm) sigma = *sigma_mm / band.unit_mm;
   return estimate_noise(band.index.points(), band.index, along_the_plane(band), sigma);
-}
-
-bool lies_on_both_sides(const std::vector<Eigen::Vector3d>& places) {
-  const auto above = std::count_if(places.begin(), places.end(),
-                                   [](const auto& place) { return place.z() > 0.0; });
-  const auto count = static_cast<std::ptrdiff_t>(places.size());
-  return above * 20 > count && (count - above) * 20 > count;
 }
 
 /// A direction of the cloud as the plane sees it.
@@ -201,7 +197,7 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, bool own_sigma,
   const double least = 1e-9 * band.spacing;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double sigma =
-        own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : std::max(band.sigma, least);
+        std::max(own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : band.sigma, least);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
   }
 }
@@ -226,8 +222,9 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   if (grain_of(band.spacing, noise.sigma) > band.grain) {
     band = gather_enough(cloud, plane, *found, noise.sigma);
     drop_strays(band);
+    if (band.sources.size() < kFewestPoints) return no_surface();
   }
-  if (!lies_on_both_sides(band.index.points())) {
+  if (!is_cut(band.index.points())) {
     return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                 "give control points that cut the body");
   }

@@ -35,10 +35,11 @@ struct PlaneBand {
 };
 
 /// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
-/// they tell no more than fewer would, a hundredth of the section.
+/// they tell no more than fewer would, a part of the section.
 ///
-/// Fails with kInsufficientData for too few points, kInvalidInput for a plane that has none near it
-/// or all on one side. O(points of the cloud), and m log m for the m near the plane.
+/// `cloud` has passed check_cloud(). Fails with kInsufficientData for too few points or none that
+/// form a surface, kInvalidInput for a plane that has none near it or all on one side. O(points of
+/// the cloud), and m log m for the m near the plane.
 Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
                           std::optional<double> sigma_mm);
 

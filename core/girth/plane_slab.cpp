@@ -48,15 +48,15 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
   return slab;
 }
 
-bool is_cut(const PlaneSlab& slab) {
+bool is_cut(const std::vector<Eigen::Vector3d>& places) {
   constexpr std::size_t kOneOf = 50;
   std::size_t above = 0;
   std::size_t below = 0;
-  for (const auto& place : slab.places) {
+  for (const auto& place : places) {
     if (place.z() >= 0.0) ++above;
     if (place.z() <= 0.0) ++below;
   }
-  return std::min(above, below) * kOneOf >= slab.places.size();
+  return std::min(above, below) * kOneOf >= places.size();
 }
 
 double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_width) {

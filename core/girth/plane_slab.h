@@ -21,7 +21,7 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
 
 /// False where the plane only touches what the points are of: hardly one of them lies on the plane
 /// or beyond it.
-bool is_cut(const PlaneSlab& slab);
+bool is_cut(const std::vector<Eigen::Vector3d>& places);
 
 /// Length of the shortest tape round all points at most `half_width` from the plane, by the mean of
 /// its widths (Cauchy), to a hundredth. O(n), no memory.

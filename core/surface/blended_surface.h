@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -29,7 +30,7 @@ class BlendedSurface {
   /// Distance from the place to the nearest point.
   double distance_to_data(const Eigen::Vector3d& place) const;
 
-  /// The patch that counts most at a place; null outside all patches.
+  /// The patch that counts most at a place; null outside all patches. Valid until the next visit.
   const SurfacePatch* leading_patch(const Eigen::Vector3d& place) const;
 
   const std::vector<OrientedPoint>& points() const { return fitter_.points(); }

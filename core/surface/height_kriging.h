@@ -43,6 +43,9 @@ class HeightKriging {
     /// Squares of the heights over kernel + ratio. Divided by free(), the likeliest roughness.
     double excess = 0.0;
   };
+  /// Frees what only solve() and KrigingLikelihood need.
+  void forget_kernel() { reduced_.resize(0, 0); }
+
   /// Nothing if rounding makes the system indefinite. `ratio` > 0. O(n^3).
   std::optional<Solution> solve(double ratio) const;
 

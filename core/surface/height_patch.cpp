@@ -115,6 +115,7 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
     if (!solution) return std::nullopt;
   }
   patch.solution_ = std::move(*solution);
+  patch.kriging_->forget_kernel();
   patch.weights_ = kriging.weights(patch.solution_);
   patch.polynomial_ = kriging.polynomial(patch.solution_) + trend;
   patch.x_ = samples.places.row(0);

@@ -13,8 +13,8 @@ class KrigingLikelihood {
  public:
   explicit KrigingLikelihood(const HeightKriging& kriging);
 
-  /// Twice the negative log likelihood, up to what depends on neither. `variance` >= 0 and
-  /// `roughness` > 0, of which at least the first is not lost beside the second by rounding.
+  /// Twice the negative log likelihood, up to what depends on neither. `variance` and
+  /// `roughness` > 0, their ratio well above the rounding of the kernel.
   double misfit(double variance, double roughness) const;
 
   /// The roughness that fits best for a noise of `ratio` times it, and the misfit then.

@@ -16,9 +16,6 @@ namespace {
 constexpr std::size_t kNeighbourhoods = 24;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
-/// The shape between the neighbourhoods may be rougher than they are: measured on scanned feet,
-/// where the plain estimate flattens bends.
-constexpr double kAllowance = 1.0;
 constexpr double kLeastRoughness = 1e-12;
 /// Ratios of noise to shape that are tried, against the kernel's own size.
 constexpr double kLeastRatio = 1e-12;
@@ -159,7 +156,7 @@ double roughness_at(const std::vector<LocalRoughness>& known, const Eigen::Vecto
   for (const auto& local : known) {
     const double weight = 1.0 / (std::pow((local.place - place).squaredNorm(), 2) + 1e-30);
     weights += weight;
-    sum += weight * std::log(std::max(kAllowance * local.roughness, kLeastRoughness));
+    sum += weight * std::log(std::max(local.roughness, kLeastRoughness));
   }
   return weights > 0.0 ? std::exp(sum / weights) : kLeastRoughness;
 }

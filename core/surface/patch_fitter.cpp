@@ -15,7 +15,9 @@ constexpr std::size_t kPatchPoints = 60;
 /// A place whose points have their middle further off, against their reach, lies in a hole; holes
 /// wider than this part of the body are not spanned.
 constexpr double kOneSided = 0.5;
-constexpr double kWidestHole = 0.15;
+constexpr double kWidestHole = 0.2;
+/// In steps of this many halves.
+constexpr std::size_t kMoreInAHole = 3;
 /// Nearest points that tell which way is out.
 constexpr std::size_t kFacingPoints = 8;
 /// Cosine to that direction from which a point can be a height over the patch, and below which it
@@ -25,8 +27,8 @@ constexpr double kBehind = -0.3;
 /// With more than this part of the points on the other side, the patch is one in space.
 constexpr double kThin = 0.1;
 constexpr std::size_t kPointsInSpace = 80;
-/// How far its surface may be off: the variance half-way between points, against roughness times the
-/// cube of their spacing, and how many points share in averaging noise.
+/// How far its surface may be off: the variance half-way between points, against roughness times
+/// the cube of their spacing, and how many points share in averaging noise.
 constexpr double kWanderingInSpace = 0.1;
 constexpr int kAveragedInSpace = 6;
 /// Points nearer to each other than this part of the spacing are copies of one.
@@ -47,8 +49,10 @@ constexpr double kStrayRise = 0.7;
 constexpr double kBandwidths = 2.0;
 constexpr double kWidest = 0.10;
 /// It is fitted again, narrower, if it turns out rougher than thought.
-constexpr int kMostAttempts = 4;
+constexpr int kMostAttempts = 5;
 constexpr double kTooWide = 1.5;
+/// Or wider, if the points determine no surface yet.
+constexpr double kWidening = 1.6;
 /// A crease turns at least this much (radians), and is so much likelier than one smooth sheet.
 constexpr double kLeastTurn = 0.9;
 constexpr double kLeastGain = 8.0;
@@ -64,11 +68,8 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
 }  // namespace
 
 PatchFitter::PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
-                         std::vector<LocalRoughness> roughness, double grain)
-    : points_(std::move(points)),
-      index_(std::move(index)),
-      roughness_(std::move(roughness)),
-      grain_(grain) {}
+                         std::vector<LocalRoughness> roughness)
+    : points_(std::move(points)), index_(std::move(index)), roughness_(std::move(roughness)) {}
 
 /// Over which distance noise and roughness weigh the same.
 double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
@@ -80,7 +81,7 @@ double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
 PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
   auto first = index_.nearest(place, kPatchPoints);
   auto nearest = first;
-  for (std::size_t count = 2 * kPatchPoints;; count *= 2) {
+  for (std::size_t count = kMoreInAHole * kPatchPoints / 2;; count = kMoreInAHole * count / 2) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
     middle /= static_cast<double>(nearest.size());
@@ -247,7 +248,12 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
     const auto points = points_at(members.front);
     auto smooth = HeightPatch::fit(points, place, members.outward, members.front_radius, likely);
-    if (!smooth) return std::nullopt;
+    if (!smooth) {
+      // Points on a line, such as one row of a scan, ask for more.
+      width = kWidening * members.radius;
+      if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
+      continue;
+    }
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
     if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) {
       return SurfacePatch{

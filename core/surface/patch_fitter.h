@@ -48,10 +48,9 @@ struct SurfacePatch {
 class PatchFitter {
  public:
   /// At least four points, in a unit in which the body is about one long, whose positions `index`
-  /// holds. `roughness`: of the surface, see there. `grain`: finest detail that is asked for; no
-  /// patch is narrower than some five.
+  /// holds. `roughness`: of the surface, see there.
   PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
-              std::vector<LocalRoughness> roughness, double grain);
+              std::vector<LocalRoughness> roughness);
 
   /// Nothing where the points determine no surface. Cost: see the patches.
   std::optional<SurfacePatch> fit(const Eigen::Vector3d& place) const;
@@ -101,7 +100,6 @@ class PatchFitter {
   std::vector<OrientedPoint> points_;
   PointIndex index_;
   std::vector<LocalRoughness> roughness_;
-  double grain_;
 };
 
 }  // namespace instep

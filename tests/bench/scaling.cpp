@@ -137,7 +137,7 @@ void bars(const Timings& timings) {
   for (const auto& girth : rbf) {
     if (girth.points != 200000) continue;
     print_bar(fmt::format("a girth of a cloud of 200,000 points (its band: {})", girth.band_points),
-              girth.milliseconds, 50.0, " ms");
+              girth.milliseconds, 5.0, " ms");
   }
   print_bar(fmt::format("peak memory at {} points, in clouds", rbf.back().points),
             rbf.back().peak_clouds, 3.0, "");

@@ -378,6 +378,24 @@ std::vector<HostileCase> spoilt_clouds() {
            return Vector3d(Vector3d(60, 0, 0) + 2.0 * any_direction(random));
          });
        }},
+      {"OutliersInALumpBeforeTheBody",
+       [] {
+         return with_outliers([](const Vector3d&, RandomNumbers& random) {
+           return Vector3d(Vector3d(-70, 0, 0) + 2.0 * any_direction(random));
+         });
+       }},
+      {"RowsWithThePlaneBetween",
+       [] {
+         PointCloud rows;
+         RandomNumbers random(5);
+         for (int row = -30; row <= 30; ++row) {
+           for (int i = 0; i < 1500; ++i) {
+             const double angle = random.uniform(0.0, 2.0 * kPi);
+             rows.positions.emplace_back(40 * std::cos(angle), 40 * std::sin(angle), row);
+           }
+         }
+         return on_cylinder(std::move(rows), level_plane(0.5));
+       }},
       {"OpenByATenth", [] { return without_arc(0.1 * kPi); }},
       {"OpenByAQuarter", [] { return without_arc(0.25 * kPi); }},
       {"OpenByAThird", [] { return without_arc(kPi / 3.0); }},

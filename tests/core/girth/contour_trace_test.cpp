@@ -21,7 +21,7 @@ constexpr double kRadius = 0.5;
 
 BlendedSurface surface_of(const OrientedPoints& points) {
   return BlendedSurface(
-      PatchFitter(points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}, 0.0));
+      PatchFitter(points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}));
 }
 
 std::optional<Contour> trace(BlendedSurface& surface, const Vector2d& start) {

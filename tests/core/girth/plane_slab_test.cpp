@@ -29,12 +29,12 @@ TEST(PlaneSlab, HoldsEachPlaceOnceInAnOrderOfItsOwn) {
 
 TEST(PlaneSlab, IsCutWherePointsLieBeyondThePlane) {
   const PointCloud cloud = test::cylinder(4000);
-  EXPECT_TRUE(is_cut(slab_of(cloud, level_plane(), 3.0)));
-  EXPECT_TRUE(is_cut(slab_of(cloud, level_plane(29.5), 3.0)));
-  EXPECT_FALSE(is_cut(slab_of(cloud, level_plane(30.0), 3.0)));
-  EXPECT_FALSE(is_cut(slab_of(cloud, plane_at({40, 0, 0}, {40, 1, 0}, {40, 0, 1}), 3.0)));
+  EXPECT_TRUE(is_cut(slab_of(cloud, level_plane(), 3.0).places));
+  EXPECT_TRUE(is_cut(slab_of(cloud, level_plane(29.5), 3.0).places));
+  EXPECT_FALSE(is_cut(slab_of(cloud, level_plane(30.0), 3.0).places));
+  EXPECT_FALSE(is_cut(slab_of(cloud, plane_at({40, 0, 0}, {40, 1, 0}, {40, 0, 1}), 3.0).places));
   // A row of points on the plane is cut by it.
-  EXPECT_TRUE(is_cut(slab_of(test::rings(60, 3, 2.0), level_plane(0.0), 3.0)));
+  EXPECT_TRUE(is_cut(slab_of(test::rings(60, 3, 2.0), level_plane(0.0), 3.0).places));
 }
 
 TEST(PlaneSlab, TapeRoundIsThePerimeterOfTheHull) {

@@ -20,7 +20,7 @@ constexpr double kRadius = 0.5;
 
 BlendedSurface surface_of(const OrientedPoints& points) {
   return BlendedSurface(
-      PatchFitter(points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}, 0.0));
+      PatchFitter(points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}));
 }
 
 Vector3d on_equator(double angle, double radius = kRadius) {

@@ -1,0 +1,109 @@
+#include "core/girth/section_evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRadius = 0.35;
+constexpr double kNear = 0.05;
+constexpr int kCorners = 360;
+
+/// A corner for each degree.
+Contour circle() {
+  Contour contour;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    contour.outward.emplace_back(std::cos(angle), std::sin(angle));
+    contour.points.push_back(kRadius * contour.outward.back());
+  }
+  return contour;
+}
+
+Vector3d at(double degrees, double radius = kRadius, double height = 0.0) {
+  const double angle = degrees * std::numbers::pi / 180.0;
+  return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+/// Along the chords of that many degrees.
+double way(double degrees) {
+  return degrees * 2.0 * kRadius * std::sin(std::numbers::pi / kCorners);
+}
+
+struct Place {
+  Vector3d position;
+  bool seen = true;
+};
+
+SectionEvidence evidence_of(const std::vector<Place>& places) {
+  PlaneBand band{.middle_mm = {0, 0},
+                 .points = {},
+                 .index = PointIndex({}),
+                 .sources = {},
+                 .seen = {},
+                 .roughness = {}};
+  for (const auto& place : places) {
+    band.points.push_back({place.position, Vector3d::UnitX(), 0.0});
+    band.seen.push_back(place.seen);
+  }
+  return evidence_for(band, ContourIndex(circle()), kNear);
+}
+
+TEST(SectionEvidence, IsNothingWithoutPoints) {
+  const auto evidence = evidence_of({});
+  EXPECT_EQ(evidence.points, 0U);
+  EXPECT_EQ(evidence.beside, 0U);
+  EXPECT_NEAR(evidence.gap, way(360), 1e-12);
+  EXPECT_NEAR(evidence.seen_gap, way(360), 1e-12);
+}
+
+TEST(SectionEvidence, CountsPointsNearTheContourAndThoseBesideIt) {
+  const auto evidence = evidence_of({{at(10)},
+                                     {at(20, kRadius + 0.9 * kNear)},
+                                     {at(30, kRadius - 0.9 * kNear)},
+                                     {at(40, kRadius, 0.9 * kNear)},
+                                     {at(50, kRadius, -0.9 * kNear)},
+                                     {at(60, kRadius + 1.1 * kNear)},
+                                     {at(70, kRadius - 1.1 * kNear)},
+                                     {at(80, 0.0)},
+                                     {at(90, kRadius, 1.1 * kNear)},
+                                     {at(100, kRadius, -1.1 * kNear)},
+                                     {at(110, 2.0 * kRadius, 1.1 * kNear)}});
+  EXPECT_EQ(evidence.points, 5U);
+  EXPECT_EQ(evidence.beside, 3U);
+}
+
+TEST(SectionEvidence, MeasuresTheLongestWayBetweenPoints) {
+  const auto evidence = evidence_of({{at(200)}, {at(20)}, {at(110)}, {at(290)}});
+  EXPECT_NEAR(evidence.gap, way(90), 1e-9);
+  const auto across_the_start = evidence_of({{at(50)}, {at(170)}, {at(300)}, {at(301)}});
+  EXPECT_NEAR(across_the_start.gap, way(130), 1e-9);
+  const auto over_the_start = evidence_of({{at(50)}, {at(140)}, {at(230)}, {at(231)}});
+  EXPECT_NEAR(over_the_start.gap, way(179), 1e-9);
+  EXPECT_NEAR(evidence_of({{at(77)}}).gap, way(360), 1e-9);
+}
+
+TEST(SectionEvidence, NoPointBesideTheContourClosesAGap) {
+  const auto evidence = evidence_of(
+      {{at(0)}, {at(90)}, {at(180)}, {at(230, kRadius + 1.1 * kNear)}, {at(250, 0.35, 0.06)}});
+  EXPECT_EQ(evidence.points, 3U);
+  EXPECT_NEAR(evidence.gap, way(180), 1e-9);
+}
+
+TEST(SectionEvidence, TellsPointsThatNoCameraSawApart) {
+  const auto evidence = evidence_of({{at(0)}, {at(90), false}, {at(180)}, {at(270)}});
+  EXPECT_EQ(evidence.points, 4U);
+  EXPECT_NEAR(evidence.gap, way(90), 1e-9);
+  EXPECT_NEAR(evidence.seen_gap, way(180), 1e-9);
+  const auto unseen = evidence_of({{at(0), false}, {at(180), false}});
+  EXPECT_NEAR(unseen.gap, way(180), 1e-9);
+  EXPECT_NEAR(unseen.seen_gap, way(360), 1e-9);
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,239 @@
+#include "core/surface/height_kriging.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+HeightSamples wavy_samples(Index count, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  HeightSamples samples{Eigen::Matrix2Xd(2, count), VectorXd(count), VectorXd(count)};
+  for (Index i = 0; i < count; ++i) {
+    const Vector2d place(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7));
+    samples.places.col(i) = place;
+    samples.heights[i] = 0.3 * place.x() + 0.1 * std::sin(5.0 * place.x() + 4.0 * place.y()) +
+                         0.02 * random.normal();
+    samples.variances[i] = random.uniform(1e-4, 9e-4);
+  }
+  return samples;
+}
+
+double cubed(const Vector2d& a, const Vector2d& b) {
+  return std::pow((a - b).norm(), 3);
+}
+
+Eigen::RowVectorXd terms_at(const Vector2d& p, Index terms) {
+  Eigen::RowVectorXd all(6);
+  all << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+  return all.head(terms);
+}
+
+/// Covariance of the samples for a roughness of one, with a noise of `ratio` times that of the
+/// least certain one.
+MatrixXd covariance_of(const HeightSamples& samples, double ratio) {
+  MatrixXd covariance(samples.size(), samples.size());
+  for (Index i = 0; i < samples.size(); ++i) {
+    for (Index j = 0; j < samples.size(); ++j) {
+      covariance(i, j) = cubed(samples.places.col(i), samples.places.col(j));
+    }
+    covariance(i, i) += ratio * samples.variances[i] / samples.variances.maxCoeff();
+  }
+  return covariance;
+}
+
+MatrixXd polynomial_block(const HeightSamples& samples, Index terms) {
+  MatrixXd block(samples.size(), terms);
+  for (Index i = 0; i < samples.size(); ++i) {
+    block.row(i) = terms_at(samples.places.col(i), terms);
+  }
+  return block;
+}
+
+/// All of eq. 7.
+MatrixXd full_system(const HeightSamples& samples, double ratio, Index terms) {
+  const Index count = samples.size();
+  MatrixXd system = MatrixXd::Zero(count + terms, count + terms);
+  system.topLeftCorner(count, count) = covariance_of(samples, ratio);
+  system.topRightCorner(count, terms) = polynomial_block(samples, terms);
+  system.bottomLeftCorner(terms, count) = polynomial_block(samples, terms).transpose();
+  return system;
+}
+
+/// A sum of heights at some places.
+struct Sought {
+  Eigen::Matrix2Xd places{2, 4};
+  Eigen::Vector4d shares{0.5, -1.2, 2.0, 0.3};
+
+  Sought() { places << 0.1, -0.4, 0.9, 0.2, 0.3, 0.0, -0.2, -0.6; }
+};
+
+double sum_of_heights(const HeightSamples& samples, double ratio, Index terms,
+                      const Sought& sought) {
+  const auto kriging = HeightKriging::of(samples, terms).value();
+  const auto solution = kriging.solve(ratio).value();
+  const VectorXd weights = kriging.weights(solution);
+  const Quadratic polynomial = kriging.polynomial(solution);
+  double sum = 0.0;
+  for (Index i = 0; i < sought.shares.size(); ++i) {
+    const Vector2d place = sought.places.col(i);
+    double height = terms_at(place, 6).dot(polynomial);
+    for (Index j = 0; j < samples.size(); ++j) {
+      height += weights[j] * cubed(place, samples.places.col(j));
+    }
+    sum += sought.shares[i] * height;
+  }
+  return sum;
+}
+
+TEST(HeightKriging, IsTheSolutionOfTheFullSystemByLu) {
+  for (const Index terms : {3, 6}) {
+    for (const Index count : {8, 20, 60}) {
+      for (const double ratio : {1e-6, 1e-3, 0.1, 10.0}) {
+        const auto samples = wavy_samples(count, 1);
+        const auto kriging = HeightKriging::of(samples, terms);
+        ASSERT_TRUE(kriging);
+        EXPECT_DOUBLE_EQ(kriging->level(), samples.variances.maxCoeff());
+        EXPECT_EQ(kriging->free(), count - terms);
+        const auto solution = kriging->solve(ratio);
+        ASSERT_TRUE(solution);
+        VectorXd right = VectorXd::Zero(count + terms);
+        right.head(count) = samples.heights;
+        const VectorXd expected = full_system(samples, ratio, terms).fullPivLu().solve(right);
+        const VectorXd weights = expected.head(count);
+        EXPECT_LT((kriging->weights(*solution) - weights).norm(), 1e-8 * weights.norm())
+            << terms << " terms, " << count << " samples, ratio " << ratio;
+        const Quadratic polynomial = kriging->polynomial(*solution);
+        for (Index term = 0; term < 6; ++term) {
+          EXPECT_NEAR(polynomial[term], term < terms ? expected[count + term] : 0.0, 1e-8);
+        }
+      }
+    }
+  }
+}
+
+/// log det V + log det P' V^-1 P, of the covariance V and the polynomial block P, is what a
+/// likelihood that integrates over the polynomial has for its volume.
+TEST(HeightKriging, VolumesAreThoseOfTheRestrictedLikelihood) {
+  for (const Index terms : {3, 6}) {
+    for (const double ratio : {1e-3, 0.1, 10.0}) {
+      const auto samples = wavy_samples(25, 2);
+      const auto kriging = HeightKriging::of(samples, terms).value();
+      const auto solution = kriging.solve(ratio).value();
+      const MatrixXd covariance = covariance_of(samples, ratio);
+      const MatrixXd block = polynomial_block(samples, terms);
+      const Eigen::FullPivLU<MatrixXd> lu(covariance);
+      const MatrixXd information = block.transpose() * lu.solve(block);
+      const double expected = std::log(std::abs(lu.determinant() * information.determinant()));
+      EXPECT_NEAR(solution.log_volume + kriging.log_determined(), expected, 1e-7);
+      EXPECT_NEAR(solution.excess, samples.heights.dot(kriging.weights(solution)), 1e-9);
+    }
+  }
+}
+
+TEST(HeightKriging, KnowsNothingOfSamplesThatDetermineNoPlane) {
+  for (const Vector2d& along : {Vector2d(1, 0), Vector2d(0, 1), Vector2d(0.6, -0.8)}) {
+    auto line = wavy_samples(20, 3);
+    for (Index i = 0; i < line.size(); ++i) {
+      line.places.col(i) = Vector2d(0.1, 0.2) + line.places(0, i) * along;
+    }
+    EXPECT_FALSE(HeightKriging::of(line, 3));
+    EXPECT_FALSE(HeightKriging::of(line, 6));
+    line.places.col(7) += 0.3 * Vector2d(-along.y(), along.x());
+    EXPECT_TRUE(HeightKriging::of(line, 3)) << "one sample beside the line";
+  }
+  EXPECT_FALSE(HeightKriging::of(wavy_samples(3, 4), 3));
+  EXPECT_TRUE(HeightKriging::of(wavy_samples(4, 4), 3));
+  EXPECT_FALSE(HeightKriging::of(wavy_samples(6, 4), 6)) << "nothing is left over the quadratic";
+}
+
+/// On a circle xx + yy is a constant: one of six terms too many.
+TEST(HeightKriging, PassesThroughSamplesOnACircle) {
+  auto samples = wavy_samples(16, 5);
+  Sought at_samples;
+  for (Index i = 0; i < samples.size(); ++i) {
+    const double angle = 0.4 * static_cast<double>(i);
+    samples.places.col(i) << 0.6 * std::cos(angle), 0.6 * std::sin(angle);
+    samples.heights[i] = std::sin(3.0 * angle);
+  }
+  at_samples.places = samples.places.leftCols(4);
+  EXPECT_NEAR(sum_of_heights(samples, 1e-10, 6, at_samples),
+              samples.heights.head(4).dot(at_samples.shares), 1e-6);
+}
+
+TEST(HeightKriging, InfluenceIsWhatMovingASampleDoesToTheSum) {
+  const Sought sought;
+  for (const Index terms : {3, 6}) {
+    for (const double ratio : {1e-4, 0.05, 2.0}) {
+      const auto samples = wavy_samples(30, 6);
+      const auto kriging = HeightKriging::of(samples, terms).value();
+      const VectorXd influence =
+          kriging.influence(kriging.solve(ratio).value(), sought.places, sought.shares);
+      ASSERT_EQ(influence.size(), 30);
+      const double before = sum_of_heights(samples, ratio, terms, sought);
+      for (Index i = 0; i < samples.size(); ++i) {
+        auto moved = samples;
+        moved.heights[i] += 0.25;
+        const double after = sum_of_heights(moved, ratio, terms, sought);
+        EXPECT_NEAR(influence[i], (after - before) / 0.25, 1e-8) << "sample " << i;
+      }
+    }
+  }
+}
+
+/// The variance of universal kriging, k - [k p] M^-1 [k p]' with M of eq. 7, less its noise.
+TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
+  const Sought sought;
+  for (const Index terms : {3, 6}) {
+    for (const double ratio : {1e-4, 0.05, 2.0}) {
+      const auto samples = wavy_samples(30, 7);
+      const Index count = samples.size();
+      VectorXd beside = VectorXd::Zero(count + terms);
+      double own = 0.0;
+      for (Index i = 0; i < sought.shares.size(); ++i) {
+        const Vector2d place = sought.places.col(i);
+        const double share = sought.shares[i];
+        for (Index j = 0; j < count; ++j) beside[j] += share * cubed(place, samples.places.col(j));
+        beside.tail(terms) += share * terms_at(place, terms).transpose();
+        for (Index j = 0; j < sought.shares.size(); ++j) {
+          own += share * sought.shares[j] * cubed(place, sought.places.col(j));
+        }
+      }
+      const VectorXd solved = full_system(samples, ratio, terms).fullPivLu().solve(beside);
+      const VectorXd noise = ratio / samples.variances.maxCoeff() * samples.variances;
+      const double expected = own - beside.dot(solved) - solved.head(count).cwiseAbs2().dot(noise);
+
+      const auto kriging = HeightKriging::of(samples, terms).value();
+      const VectorXd influence =
+          kriging.influence(kriging.solve(ratio).value(), sought.places, sought.shares);
+      EXPECT_NEAR(kriging.wandering(influence, sought.places, sought.shares), expected,
+                  1e-8 + 1e-8 * expected);
+      EXPECT_GT(expected, 1e-3);
+    }
+  }
+}
+
+TEST(HeightKriging, HardlyWandersAtASampleAndMoreTheFurtherFromAll) {
+  const auto samples = wavy_samples(40, 8);
+  const auto kriging = HeightKriging::of(samples, 6).value();
+  const auto solution = kriging.solve(1e-9).value();
+  const auto wandering_at = [&](const Vector2d& place) {
+    const VectorXd one = VectorXd::Ones(1);
+    return kriging.wandering(kriging.influence(solution, place, one), place, one);
+  };
+  for (Index i = 0; i < 5; ++i) EXPECT_LT(wandering_at(samples.places.col(i)), 1e-7);
+  EXPECT_GT(wandering_at({1.0, 0.0}), 1e-3);
+  EXPECT_GT(wandering_at({1.5, 0.0}), 3.0 * wandering_at({1.0, 0.0}));
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,236 @@
+#include "core/surface/patch_fitter.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "tests/support/oriented_points.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using OrientedPoints = std::vector<OrientedPoint>;
+
+constexpr double kSpacing = 0.02;
+
+PatchFitter fitter_of(const OrientedPoints& points) {
+  return {points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}};
+}
+
+/// No two of them nearly coincide.
+OrientedPoints plane_points(double sigma) {
+  OrientedPoints points;
+  test::RandomNumbers random(1);
+  for (int i = -25; i <= 25; ++i) {
+    for (int j = -25; j <= 25; ++j) {
+      points.push_back({{kSpacing * (i + random.uniform(-0.3, 0.3)),
+                         kSpacing * (j + random.uniform(-0.3, 0.3)), sigma * random.normal()},
+                        Vector3d::UnitZ(),
+                        sigma * sigma});
+    }
+  }
+  return points;
+}
+
+/// Two sheets as far apart as their points.
+OrientedPoints plate_points() {
+  OrientedPoints points;
+  test::RandomNumbers random(2);
+  for (const double side : {-1.0, 1.0}) {
+    for (int i = 0; i < 2500; ++i) {
+      points.push_back(
+          {{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.5 * kSpacing * side},
+           side * Vector3d::UnitZ(),
+           0.0});
+    }
+  }
+  return points;
+}
+
+std::set<std::size_t> members_of(const SurfacePatch::Sheet& sheet) {
+  std::set<std::size_t> members;
+  for (std::size_t i = 0; i < sheet.size(); ++i) members.insert(sheet.member(i));
+  EXPECT_EQ(members.size(), sheet.size()) << "a point counts twice";
+  return members;
+}
+
+/// Those within `radius` of a place.
+std::set<std::size_t> points_within(const OrientedPoints& points, const Vector3d& place,
+                                    double radius) {
+  std::set<std::size_t> within;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if ((points[i].position - place).norm() <= radius * (1.0 + 1e-12)) within.insert(i);
+  }
+  return within;
+}
+
+Vector3d middle_of(const OrientedPoints& points, const std::vector<std::size_t>& members) {
+  Vector3d sum = Vector3d::Zero();
+  for (const auto i : members) sum += points[i].position;
+  return sum / static_cast<double>(members.size());
+}
+
+TEST(PatchFitter, MakesOneSmoothSheetOfAPlane) {
+  for (const double sigma : {0.0, 0.002}) {
+    const auto points = plane_points(sigma);
+    const auto fitter = fitter_of(points);
+    for (const Vector3d& place : {Vector3d(0, 0, 0), Vector3d(0.2, -0.1, 0.003)}) {
+      const auto patch = fitter.fit(place);
+      ASSERT_TRUE(patch);
+      ASSERT_TRUE(std::holds_alternative<HeightPatch>(patch->field));
+      EXPECT_NEAR(patch->at(place).value, place.z(), 1e-9 + sigma);
+      EXPECT_GT(patch->at(place).gradient.normalized().z(), 0.99);
+      EXPECT_EQ(patch->variance, 0.0);
+
+      const auto sheet = patch->sheet_at(place);
+      EXPECT_EQ(sheet.patch, std::get_if<HeightPatch>(&patch->field));
+      EXPECT_TRUE(sheet.is_same(patch->sheet_at(place + Vector3d(0.01, 0.02, -0.03))));
+      EXPECT_EQ(members_of(sheet), points_within(points, place, patch->radius));
+      EXPECT_GE(sheet.size(), 60U);
+      EXPECT_NEAR((patch->middle - middle_of(points, patch->members)).norm(), 0.0, 1e-12);
+    }
+  }
+}
+
+TEST(PatchFitter, IsWiderWhereThereIsNoise) {
+  const auto exact = fitter_of(plane_points(0.0)).fit(Vector3d::Zero());
+  const auto noisy = fitter_of(plane_points(0.004)).fit(Vector3d::Zero());
+  ASSERT_TRUE(exact && noisy);
+  EXPECT_GT(noisy->members.size(), exact->members.size());
+  EXPECT_GT(noisy->radius, 1.05 * exact->radius);
+}
+
+TEST(PatchFitter, MakesTwoSheetsOfARightAngledEdge) {
+  const auto points = test::prism_points(1.0, 0.4, kSpacing, 0.0, 3);
+  const auto patch = fitter_of(points).fit({0.5, 0.5, 0.0});
+  ASSERT_TRUE(patch);
+  const auto* creased = std::get_if<CreasedPatch>(&patch->field);
+  ASSERT_NE(creased, nullptr);
+  EXPECT_NEAR(creased->turn(), 0.5 * std::numbers::pi, 0.02);
+  for (const double off : {0.01, 0.03, 0.06}) {
+    EXPECT_NEAR(patch->at({0.5, 0.5 - off, 0.0}).value, 0.0, 1e-6);
+    EXPECT_NEAR(patch->at({0.5 - off, 0.5, 0.0}).value, 0.0, 1e-6);
+    EXPECT_LT(patch->at({0.5 - off, 0.5 - off, 0.0}).value, -0.9 * off);
+  }
+}
+
+/// The sheet at a place of a wall is made of the points of that wall, those of the other wall are
+/// the other sheet's, and there are no more.
+TEST(PatchFitter, SheetsOfAnEdgeAreThePointsOfTheTwoWalls) {
+  const auto points = test::prism_points(1.0, 0.4, kSpacing, 0.0, 3);
+  const Vector3d edge(0.5, 0.5, 0.0);
+  const auto patch = fitter_of(points).fit(edge);
+  ASSERT_TRUE(patch);
+  std::set<std::size_t> on_x, on_y;
+  for (const auto i : patch->members) {
+    (points[i].normal.x() > 0.5 ? on_x : on_y).insert(i);
+  }
+  ASSERT_GE(on_x.size(), 6U);
+  ASSERT_GE(on_y.size(), 6U);
+  const auto sheet_x = patch->sheet_at({0.5, 0.45, 0.01});
+  const auto sheet_y = patch->sheet_at({0.45, 0.5, -0.01});
+  ASSERT_NE(sheet_x.patch, nullptr);
+  ASSERT_NE(sheet_y.patch, nullptr);
+  EXPECT_FALSE(sheet_x.is_same(sheet_y));
+  EXPECT_EQ(members_of(sheet_x), on_x);
+  EXPECT_EQ(members_of(sheet_y), on_y);
+  const std::set<std::size_t> all(patch->members.begin(), patch->members.end());
+  EXPECT_EQ(all, points_within(points, edge, patch->radius));
+}
+
+TEST(PatchFitter, MakesOneSheetOfAWallAwayFromItsEdges) {
+  const auto points = test::prism_points(1.0, 0.4, kSpacing, 0.0, 3);
+  const auto patch = fitter_of(points).fit({0.5, 0.1, 0.0});
+  ASSERT_TRUE(patch);
+  EXPECT_TRUE(std::holds_alternative<HeightPatch>(patch->field));
+  EXPECT_EQ(members_of(patch->sheet_at(patch->centre)),
+            points_within(points, patch->centre, patch->radius));
+}
+
+TEST(PatchFitter, SeesNoEdgeInASphere) {
+  const auto points = test::sphere_points(0.5, 4000, 0.0, 4);
+  const auto fitter = fitter_of(points);
+  for (const auto i : {0U, 777U, 2000U, 3999U}) {
+    const auto patch = fitter.fit(points[i].position);
+    ASSERT_TRUE(patch);
+    EXPECT_TRUE(std::holds_alternative<HeightPatch>(patch->field));
+  }
+}
+
+TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
+  const auto points = plate_points();
+  const auto fitter = fitter_of(points);
+  for (const double side : {-1.0, 1.0}) {
+    const Vector3d place(0.05, -0.1, 0.5 * kSpacing * side);
+    const auto patch = fitter.fit(place);
+    ASSERT_TRUE(patch);
+    ASSERT_TRUE(std::holds_alternative<HermitePatch>(patch->field));
+    EXPECT_NEAR(patch->at(place).value, 0.0, 0.05 * kSpacing);
+    EXPECT_NEAR(patch->at(-place + Vector3d(0.1, -0.2, 0.0)).value, 0.0, 0.05 * kSpacing);
+    EXPECT_LT(patch->at({0.05, -0.1, 0.0}).value, -0.2 * kSpacing);
+    EXPECT_GT(patch->variance, 0.0);
+
+    const auto sheet = patch->sheet_at(place);
+    EXPECT_EQ(sheet.patch, nullptr);
+    EXPECT_EQ(sheet.variance, patch->variance);
+    const auto members = members_of(sheet);
+    EXPECT_EQ(members, std::set<std::size_t>(patch->members.begin(), patch->members.end()));
+    for (const double facing : {-1.0, 1.0}) {
+      EXPECT_GT(std::count_if(members.begin(), members.end(),
+                              [&](auto i) { return points[i].normal.z() * facing > 0.0; }),
+                20);
+    }
+  }
+}
+
+TEST(PatchFitter, LeavesOutWhatFacesTheOtherWay) {
+  auto points = plane_points(0.0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    points.push_back({{0.03 * static_cast<double>(i), 0.02, -0.05}, -Vector3d::UnitZ(), 0.0});
+  }
+  const auto patch = fitter_of(points).fit(Vector3d::Zero());
+  ASSERT_TRUE(patch);
+  ASSERT_TRUE(std::holds_alternative<HeightPatch>(patch->field));
+  for (const auto i : patch->members) EXPECT_GT(points[i].normal.z(), 0.0);
+  EXPECT_NEAR(patch->at(Vector3d::Zero()).value, 0.0, 1e-9);
+}
+
+TEST(PatchFitter, LeavesOutStraysHighOverTheSheet) {
+  auto points = plane_points(0.0);
+  const std::size_t sound = points.size();
+  points.push_back({{0.01, 0.0, 0.075}, Vector3d::UnitZ(), 0.0});
+  points.push_back({{-0.02, 0.01, 0.072}, Vector3d::UnitZ(), 0.0});
+  const auto patch = fitter_of(points).fit(Vector3d::Zero());
+  ASSERT_TRUE(patch);
+  ASSERT_GT(patch->radius, 0.08) << "wide enough to hold the strays";
+  for (const auto i : patch->members) EXPECT_LT(i, sound);
+  EXPECT_NEAR(patch->at(Vector3d::Zero()).value, 0.0, 1e-9);
+}
+
+TEST(PatchFitter, TakesOneOfPointsThatNearlyCoincide) {
+  auto points = plane_points(0.0);
+  const std::size_t twin = points.size();
+  const auto alone = fitter_of(points).fit(Vector3d::Zero());
+  ASSERT_TRUE(alone);
+  const std::size_t inner = alone->members[alone->members.size() / 2];
+  points.push_back(points[inner]);
+  points.back().position.x() += 1e-3 * kSpacing;
+  const auto patch = fitter_of(points).fit(Vector3d::Zero());
+  ASSERT_TRUE(patch);
+  const std::set<std::size_t> members(patch->members.begin(), patch->members.end());
+  EXPECT_EQ(members.size(), patch->members.size());
+  EXPECT_EQ(members.count(inner) + members.count(twin), 1U);
+}
+
+TEST(PatchFitter, MakesNothingOfPointsOnALine) {
+  OrientedPoints line;
+  for (int i = 0; i < 100; ++i) line.push_back({{0.01 * i, 0, 0}, Vector3d::UnitZ(), 0.0});
+  EXPECT_FALSE(fitter_of(line).fit({0.5, 0.0, 0.0}));
+}
+
+}  // namespace
+}  // namespace instep
