@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/foot/robust_extreme.h"
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
@@ -61,7 +62,7 @@ Vector2d long_axis(const std::vector<Vector2d>& polygon) {
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const Vector2d a = polygon[i] - anchor;
     const Vector2d b = polygon[i + 1] - anchor;
-    const double twice = a.x() * b.y() - a.y() * b.x();
+    const double twice = cross(a, b);
     const Vector2d sum = a + b;
     area += twice / 2.0;
     first += twice / 6.0 * sum;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/rectangle.h"
@@ -203,7 +204,7 @@ bool inside_outline(const std::vector<Vector2d>& hull, const Vector2d& point) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vector2d edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
     const Vector2d offset = point - hull[i];
-    if (edge.x() * offset.y() - edge.y() * offset.x() < -kOutlineMarginMm) return false;
+    if (cross(edge, offset) < -kOutlineMarginMm) return false;
   }
   return true;
 }

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/geometry/plane_vectors.h"
+
 namespace instep {
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 bool left_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();

@@ -13,7 +13,8 @@ namespace instep {
 std::vector<bool> stray_points(const PointIndex& index, double spacing);
 
 /// Side of the square that a point has for itself, by the distance to its eighth neighbour; the
-/// middle one of at most `sample` points spread over the list. Zero for fewer than two points.
+/// middle one of some `sample` points (fewer than twice as many) spread over the list. Zero for
+/// fewer than two points.
 double usual_spacing(const PointIndex& index, std::size_t sample);
 
 }  // namespace instep

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/plane_vectors.h"
+
 namespace instep {
 namespace {
 
@@ -30,14 +32,6 @@ struct Place {
   Eigen::Vector2d point;
   Eigen::Vector2d outward;  ///< unit length
 };
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-double turn_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return std::atan2(cross(a, b), a.dot(b));
-}
 
 /// Newton along the gradient to the zero line, moving no further than `reach`.
 std::optional<Place> correct(BlendedSurface& surface, const Eigen::Vector2d& start, double reach) {

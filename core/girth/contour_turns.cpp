@@ -1,18 +1,14 @@
 #include "core/girth/contour_turns.h"
 
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
-
-double turn_between(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
-}
 
 std::vector<double> turns_of_line(const Contour& contour) {
   const std::size_t count = contour.points.size();

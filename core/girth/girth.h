@@ -52,12 +52,12 @@ struct Girth {
 /// Refuses, with the reason, where no closed section can be told from the points: too few points
 /// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput).
 /// A section of which more than a quarter has no points is refused; a narrower hole is bridged by
-/// the surface and reported, as far as patches span it: a slit along the body that opens more than a
-/// tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider than
-/// a tenth of it to each side. Strays and loops that far fewer points make are left out; of several
-/// loops the one round the largest area counts, and the others are named in a warning. A crease
-/// such as a last's featherline stays sharp. The intervals are LengthDoubt's.
-/// Deterministic: the same cloud gives the same bytes.
+/// the surface and reported, as far as patches span it: a slit along the body that opens more than
+/// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
+/// than a tenth of it to each side. Strays and loops that far fewer points make are left out; of
+/// several loops the one round the largest area counts, and the others are named in a warning. A
+/// crease such as a last's featherline stays sharp. The intervals are LengthDoubt's. Deterministic:
+/// the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
@@ -89,7 +90,7 @@ double depth(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& po
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Eigen::Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
     const Eigen::Vector2d arm = point - hull[i];
-    least = std::min(least, along.x() * arm.y() - along.y() * arm.x());
+    least = std::min(least, cross(along, arm));
   }
   return least;
 }

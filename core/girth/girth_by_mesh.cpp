@@ -18,8 +18,6 @@ namespace {
 /// Half-width of what is meshed: the triangles at the plane are then as they would be in a mesh of
 /// the whole body.
 constexpr double kMeshedInSpacings = 4.0;
-/// Widest hole that is bridged, against the tape's length.
-constexpr double kWidestBridge = 0.25;
 /// A stretch without a seen point that is worth a warning, in spacings.
 constexpr double kNotableGapInSpacings = 6.0;
 /// A hole in the mesh, in spacings, that is worth one too if it is this part of a small tape.
@@ -134,7 +132,7 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   if (girth.largest_gap_mm > kNotableGapInSpacings * spacing ||
       band->unit_mm * seam >
           std::max(kHoleInSpacings * spacing, kNotableHole * girth.stretched_mm)) {
-    girth.warnings.push_back("a part of the section that no camera saw was bridged");
+    girth.warnings.emplace_back(kBridgedWarning);
   }
   if (band->sigma > kHarmlessNoise * band->grain) {
     girth.warnings.push_back(

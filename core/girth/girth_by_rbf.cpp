@@ -10,6 +10,7 @@
 #include "core/girth/loop_choice.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
+#include "core/girth/section_gaps.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {
@@ -20,8 +21,6 @@ constexpr double kDraftStep = 0.4;
 constexpr double kReadingStep = 0.6;
 /// Points further from the contour or the plane than this many grains are no evidence for it.
 constexpr double kEvidenceInGrains = 2.5;
-/// The surface bridges no wider hole, against the length of the contour.
-constexpr double kWidestBridge = 0.25;
 /// Of a section, against the width of the body.
 constexpr double kLongestSection = 6.0;
 /// A stretch without a seen point that is worth a warning, in grains.
@@ -111,16 +110,21 @@ void drop_unfounded(const PlaneBand& band, std::vector<Loop>& loops) {
   loops = std::move(founded);
 }
 
-/// The share of the points near the plane that lie on no loop.
-double unexplained_share(const PlaneBand& band, const std::vector<Loop>& loops,
-                         const SectionEvidence& of_first) {
-  auto beside = static_cast<double>(of_first.beside);
-  const double all = beside + static_cast<double>(of_first.points);
-  for (std::size_t i = 1; i < loops.size(); ++i) {
-    const auto evidence = evidence_for(band, loops[i].index, kEvidenceInGrains * band.grain);
-    beside -= static_cast<double>(evidence.points);
-  }
-  return std::max(beside, 0.0) / std::max(all, 1.0);
+/// Whether more of the points near the plane than strays would be lie on no loop.
+bool leaves_points_unexplained(const PlaneBand& band, const std::vector<Loop>& loops,
+                               const SectionEvidence& of_first) {
+  const double near = kEvidenceInGrains * band.grain;
+  const double most = kNotableUnexplained * static_cast<double>(of_first.beside + of_first.points);
+  // The other loops can only explain some of what the first one does not.
+  if (static_cast<double>(of_first.beside) <= most) return false;
+  const auto unexplained =
+      std::count_if(band.points.begin(), band.points.end(), [&](const OrientedPoint& point) {
+        if (std::abs(point.position.z()) > near) return false;
+        return std::none_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+          return loop.index.foot_of(point.position.head<2>()).distance <= near;
+        });
+      });
+  return static_cast<double>(unexplained) > most;
 }
 
 /// The loop round the largest area first.
@@ -139,9 +143,8 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   for (std::size_t i = 1; i < loops.size(); ++i) {
     girth.warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
   }
-  warn_if(evidence.seen_gap > kNotableGapInGrains * band.grain,
-          "a part of the section that no camera saw was bridged");
-  warn_if(unexplained_share(band, loops, evidence) > kNotableUnexplained,
+  warn_if(evidence.seen_gap > kNotableGapInGrains * band.grain, kBridgedWarning);
+  warn_if(leaves_points_unexplained(band, loops, evidence),
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
   const auto points = static_cast<double>(band.points.size() + band.strays);
@@ -160,6 +163,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   auto band = band_at(cloud, plane, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
+  // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
   auto loops = trace_all(*band, surface);
   if (loops.empty()) {

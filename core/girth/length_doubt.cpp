@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 #include "core/girth/contour_turns.h"
@@ -29,7 +30,8 @@ constexpr double kLeastSlope = 0.1;
 struct Stretch {
   SurfacePatch::Sheet sheet;
   std::vector<Eigen::Vector3d> corners;
-  std::vector<double> contact;  ///< what each corner's height counts for the lengths
+  std::vector<std::size_t> numbers;  ///< of the corners on the contour
+  std::vector<double> contact;       ///< what each corner's height counts for the lengths
   std::vector<double> stretched;
   std::vector<double> slopes;  ///< heights to moves on the plane
   double length = 0.0;
@@ -57,12 +59,13 @@ std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& 
     auto here = std::find_if(stretches.begin(), stretches.end(),
                              [&](const Stretch& stretch) { return stretch.sheet.is_same(sheet); });
     if (here == stretches.end()) {
-      stretches.push_back({sheet, {}, {}, {}, {}, 0.0});
+      stretches.push_back({sheet, {}, {}, {}, {}, {}, 0.0});
       here = std::prev(stretches.end());
     }
     Stretch& stretch = *here;
     const double slope = std::max(patch->at(place).gradient.head<2>().norm(), kLeastSlope);
     stretch.corners.push_back(place);
+    stretch.numbers.push_back(i);
     stretch.contact.push_back(turns.contact[i] / slope);
     stretch.stretched.push_back(turns.stretched[i] / slope);
     stretch.slopes.push_back(slope);
@@ -88,10 +91,26 @@ double add(const Stretch& stretch, const std::vector<double>& shares,
   return std::min(sum.variance, widest * widest);
 }
 
+/// Of a stretch's corners the first of the two that are neighbours on the contour and nearest to
+/// its middle: elsewhere another patch may come between them.
+std::optional<std::size_t> middle_chord(const Stretch& stretch) {
+  const auto& numbers = stretch.numbers;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i + 1 < numbers.size(); ++i) {
+    if (numbers[i + 1] != numbers[i] + 1) continue;
+    const auto off = [&](std::size_t at) {
+      return std::abs(2.0 * static_cast<double>(at) - static_cast<double>(numbers.size() - 2));
+    };
+    if (!best || off(i) < off(*best)) best = i;
+  }
+  return best;
+}
+
 /// A line of that length whose direction varies by `variance` is longer by half of it.
 void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {
-  if (stretch.corners.size() < 2) return;
-  const std::size_t at = (stretch.corners.size() - 1) / 2;
+  const auto middle = middle_chord(stretch);
+  if (!middle) return;
+  const std::size_t at = *middle;
   const std::vector<Eigen::Vector3d> pair = {stretch.corners[at], stretch.corners[at + 1]};
   const double step = (pair[1] - pair[0]).norm();
   if (!(step > 0.0)) return;
@@ -110,7 +129,7 @@ void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points,
 double coherent_variance(const Stretch& stretch, const std::vector<double>& shares) {
   double sum = 0.0;
   for (const double share : shares) sum += share;
-  return sum * sum * stretch.sheet.variance;
+  return sum * sum * stretch.sheet.owner->variance;
 }
 
 double half_width(const std::vector<double>& influence, double wandering, const Sums& sums,

@@ -6,6 +6,12 @@
 
 namespace instep {
 
+/// The widest hole that a girth bridges, against the length of its section.
+inline constexpr double kWidestBridge = 0.25;
+/// What is said of a stretch without seen points that is worth a warning.
+inline constexpr const char* kBridgedWarning =
+    "a part of the section that no camera saw was bridged";
+
 /// The longest stretch between neighbours among places on a closed line of that `length`, each
 /// given by the way to it; the length itself when there are none.
 double largest_gap_between(std::vector<double> ways, double length);

@@ -8,8 +8,8 @@ namespace {
 
 /// Terms of the polynomial that the points determine less than this are left out.
 constexpr double kLeastDetermined = 1e-3;
-/// No sample outweighs the middling one by more, or a certain one would leave the others no say in
-/// how rough the surface is.
+/// No sample outweighs the least certain one by more, or a certain one would leave the others no
+/// say in how rough the surface is.
 constexpr double kLargestScale = 1e3;
 
 Eigen::ArrayXd cubed_distances(const Eigen::Matrix2Xd& places, const Eigen::Vector2d& place) {

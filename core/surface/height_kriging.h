@@ -23,7 +23,7 @@ class HeightKriging {
   /// `terms`: 3 or 6. The variances count only against each other. O(n^2).
   static std::optional<HeightKriging> of(const HeightSamples& samples, Eigen::Index terms);
 
-  /// Variance of a sample of weight one.
+  /// Variance of a sample of weight one: the least certain one's.
   double level() const { return level_; }
   /// Samples that the polynomial leaves over.
   Eigen::Index free() const { return places_.cols() - basis_.cols(); }
@@ -43,11 +43,11 @@ class HeightKriging {
     /// Squares of the heights over kernel + ratio. Divided by free(), the likeliest roughness.
     double excess = 0.0;
   };
-  /// Frees what only solve() and KrigingLikelihood need.
-  void forget_kernel() { reduced_.resize(0, 0); }
-
   /// Nothing if rounding makes the system indefinite. `ratio` > 0. O(n^3).
   std::optional<Solution> solve(double ratio) const;
+
+  /// Frees what reduced() and solve() read; neither may be called afterwards.
+  void forget_kernel() { reduced_.resize(0, 0); }
 
   /// Weights of the kernels round the samples.
   Eigen::VectorXd weights(const Solution& solution) const;

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/surface/kriging_likelihood.h"
@@ -22,7 +21,7 @@ constexpr double kRoughnessSpread = 4.0;
 /// The roughnesses that are tried, against the likely one.
 constexpr double kRoughest = 1e5;
 constexpr double kSmoothest = 1e-3;
-constexpr double kRoughnessStep = 1.5;
+constexpr double kRoughnessStep = 1.0 / 1.5;
 /// Less smoothing than is likeliest for the heights: what is asked for in the end is a length, over
 /// which noise averages out but the flattening of bends adds up.
 constexpr double kAllowance = 4.0;
@@ -64,18 +63,9 @@ double misfit_of(const HeightKriging& kriging, const HeightKriging::Solution& so
 
 /// The roughness of the highest likelihood and of a prior round the usual one.
 double likeliest_roughness(const HeightKriging& kriging, double usual) {
-  const KrigingLikelihood likelihood(kriging);
-  double best = std::numeric_limits<double>::infinity();
-  double chosen = 1.0;
-  for (double factor = kRoughest; factor >= kSmoothest; factor /= kRoughnessStep) {
-    const double misfit = likelihood.misfit(kriging.level(), factor * usual) +
-                          std::pow(std::log(factor) / kRoughnessSpread, 2);
-    if (misfit < best) {
-      best = misfit;
-      chosen = factor;
-    }
-  }
-  return chosen * usual;
+  return KrigingLikelihood(kriging).likeliest(kriging.level(), kRoughest * usual,
+                                              kSmoothest * usual, kRoughnessStep,
+                                              KrigingLikelihood::Prior{usual, kRoughnessSpread});
 }
 
 }  // namespace

@@ -43,9 +43,6 @@ class HeightPatch {
   /// Of the heights at `positions` times `shares`. O(samples^2).
   Sum sum(const std::vector<Eigen::Vector3d>& positions, const Eigen::VectorXd& shares) const;
 
-  /// Across the middle of the patch, out of the body.
-  Eigen::Vector3d outward() const { return axes_.row(2); }
-
   /// The likeliest; for exact points the given one.
   double roughness() const { return roughness_; }
 

@@ -51,6 +51,20 @@ double KrigingLikelihood::misfit(double variance, double roughness) const {
          reading.excess / roughness;
 }
 
+double KrigingLikelihood::likeliest(double variance, double roughest, double smoothest, double step,
+                                    const std::optional<Prior>& prior) const {
+  double least = std::numeric_limits<double>::infinity();
+  double chosen = roughest;
+  for (double trial = roughest; trial >= smoothest; trial *= step) {
+    double misfit = this->misfit(variance, trial);
+    if (prior) misfit += std::pow(std::log(trial / prior->usual) / prior->spread, 2);
+    if (!(misfit < least)) continue;
+    least = misfit;
+    chosen = trial;
+  }
+  return chosen;
+}
+
 KrigingLikelihood::Profile KrigingLikelihood::profile(double ratio) const {
   const Reading reading = at(ratio);
   const auto count = static_cast<double>(free_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "core/surface/height_kriging.h"
 
@@ -16,6 +17,16 @@ class KrigingLikelihood {
   /// Twice the negative log likelihood, up to what depends on neither. `variance` and
   /// `roughness` > 0, their ratio well above the rounding of the kernel.
   double misfit(double variance, double roughness) const;
+
+  /// What is thought of the roughness beforehand: a normal distribution of its logarithm.
+  struct Prior {
+    double usual = 0.0;
+    double spread = 0.0;
+  };
+  /// Of the roughnesses from `roughest` down to `smoothest`, each `step` (below 1) of the last, the
+  /// likeliest at that noise; `roughest` if none is likely at all.
+  double likeliest(double variance, double roughest, double smoothest, double step,
+                   const std::optional<Prior>& prior) const;
 
   /// The roughness that fits best for a noise of `ratio` times it, and the misfit then.
   struct Profile {

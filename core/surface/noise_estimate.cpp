@@ -107,17 +107,11 @@ double likely_roughness(const Neighbourhood& here, double variance, std::optiona
   const double level = std::max(
       here.likelihood.profile(kMostRatio * here.likelihood.mean_diagonal()).roughness * kMostRatio,
       1e-300);
-  double best = std::numeric_limits<double>::infinity();
-  double roughness = level;
-  for (double trial = kRoughest * level; trial > kSmoothest * level; trial *= kRoughnessStep) {
-    double misfit = here.likelihood.misfit(noise, trial);
-    if (usual) misfit += std::pow(std::log(trial / here.radius / *usual) / kRoughnessSpread, 2);
-    if (misfit < best) {
-      best = misfit;
-      roughness = trial;
-    }
-  }
-  return roughness / here.radius;
+  std::optional<KrigingLikelihood::Prior> prior;
+  if (usual) prior = KrigingLikelihood::Prior{*usual * here.radius, kRoughnessSpread};
+  return here.likelihood.likeliest(noise, kRoughest * level, kSmoothest * level, kRoughnessStep,
+                                   prior) /
+         here.radius;
 }
 
 }  // namespace

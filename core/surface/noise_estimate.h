@@ -22,7 +22,7 @@ struct NoiseEstimate {
   std::vector<LocalRoughness> roughness;
 };
 
-/// Estimates both from the neighbourhoods of some of the points (`places`, at most some 40 of them
+/// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
 /// are used), each taken as heights over its own tangent plane: restricted maximum likelihood with
 /// the kernel r^3, which tells white noise from wandering shape by its scale. The noise is the
 /// middle one over the neighbourhoods, so that creases and a few stray ones do not count. If

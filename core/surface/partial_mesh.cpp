@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/plane_vectors.h"
+
 namespace instep {
 namespace {
 
@@ -21,10 +23,6 @@ double turn_of(const Eigen::Vector2d& direction) {
 /// The turn from one to the other, counter-clockwise.
 double turn_between(double from, double to) {
   return to >= from ? to - from : to - from + 4.0;
-}
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Coordinates in a plane, and above it.

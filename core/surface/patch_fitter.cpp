@@ -269,13 +269,13 @@ FieldValue SurfacePatch::at(const Eigen::Vector3d& place) const {
 
 SurfacePatch::Sheet SurfacePatch::sheet_at(const Eigen::Vector3d& place) const {
   if (const auto* smooth = std::get_if<HeightPatch>(&field)) {
-    return {this, smooth, nullptr, variance};
+    return {this, smooth, nullptr};
   }
   if (const auto* creased = std::get_if<CreasedPatch>(&field)) {
     const auto& sheet = creased->sheet_at(place);
-    return {this, &sheet.patch, &sheet.members, variance};
+    return {this, &sheet.patch, &sheet.members};
   }
-  return {this, nullptr, nullptr, variance};
+  return {this, nullptr, nullptr};
 }
 
 }  // namespace instep

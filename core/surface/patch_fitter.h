@@ -31,7 +31,6 @@ struct SurfacePatch {
     const SurfacePatch* owner = nullptr;
     const HeightPatch* patch = nullptr;                ///< null in space
     const std::vector<std::size_t>* chosen = nullptr;  ///< of the owner's members; null for all
-    double variance = 0.0;
 
     bool is_same(const Sheet& other) const { return owner == other.owner && patch == other.patch; }
     std::size_t size() const { return chosen ? chosen->size() : owner->members.size(); }

@@ -176,7 +176,7 @@ TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
 
     const auto sheet = patch->sheet_at(place);
     EXPECT_EQ(sheet.patch, nullptr);
-    EXPECT_EQ(sheet.variance, patch->variance);
+    EXPECT_EQ(sheet.owner->variance, patch->variance);
     const auto members = members_of(sheet);
     EXPECT_EQ(members, std::set<std::size_t>(patch->members.begin(), patch->members.end()));
     for (const double facing : {-1.0, 1.0}) {
