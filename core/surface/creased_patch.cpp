@@ -8,15 +8,19 @@
 #include <limits>
 #include <utility>
 
+#include "core/geometry/moments.h"
+
 namespace instep {
 namespace {
 
-/// Sheets whose middles turn less (radians) are not worth a closer look.
-constexpr double kLeastTurn = 0.35;
+/// Sheets whose planes turn less (radians) are not worth a closer look.
+constexpr double kLeastTurn = 0.5;
 constexpr std::size_t kFewestOnASheet = 6;
 constexpr int kRounds = 6;
-/// Points nearest to both sheets, round which the crease is looked for.
+/// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
+/// which they are.
 constexpr std::size_t kPointsAtCrease = 6;
+constexpr std::size_t kCandidatesAtCrease = 48;
 
 /// Which of the two sheets each point lies on.
 using Sides = std::vector<bool>;
@@ -30,26 +34,25 @@ struct SheetPlane {
   double height(const Eigen::Vector3d& place) const { return normal.dot(place - middle); }
 };
 
-SheetPlane plane_of(const std::vector<OrientedPoint>& points, const Sides& sides, bool side) {
-  SheetPlane sheet;
-  Eigen::Vector3d facing = Eigen::Vector3d::Zero();
+/// The planes of the points on either side. One with too few points has no normal.
+std::array<SheetPlane, 2> planes_of(const std::vector<OrientedPoint>& points, const Sides& sides) {
+  const Eigen::Vector3d& origin = points.front().position;
+  std::array<Moments, 2> moments;
+  std::array<Eigen::Vector3d, 2> facing = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (sides[i] != side) continue;
-    sheet.middle += points[i].position;
-    facing += points[i].normal;
-    ++sheet.count;
+    moments[sides[i]].add(points[i].position - origin);
+    facing[sides[i]] += points[i].normal;
   }
-  if (sheet.count < kFewestOnASheet) return sheet;
-  sheet.middle /= static_cast<double>(sheet.count);
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (sides[i] != side) continue;
-    const Eigen::Vector3d arm = points[i].position - sheet.middle;
-    spread += arm * arm.transpose();
+  std::array<SheetPlane, 2> planes;
+  for (std::size_t side = 0; side < planes.size(); ++side) {
+    SheetPlane& plane = planes[side];
+    plane.count = static_cast<std::size_t>(moments[side].count);
+    if (plane.count < kFewestOnASheet) continue;
+    plane.middle = origin + moments[side].middle();
+    plane.normal = moments[side].flattest();
+    if (plane.normal.dot(facing[side]) < 0.0) plane.normal *= -1.0;
   }
-  sheet.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
-  if (sheet.normal.dot(facing) < 0.0) sheet.normal *= -1.0;
-  return sheet;
+  return planes;
 }
 
 /// The direction in which the normals differ most.
@@ -88,10 +91,13 @@ Sides split_by_normals(const std::vector<OrientedPoint>& points) {
 }
 
 struct TwoSheets {
-  SheetPlane first;
-  SheetPlane second;
+  std::array<SheetPlane, 2> planes;
   Sides sides;
   bool convex = true;
+
+  double turn() const {
+    return std::acos(std::clamp(planes[0].normal.dot(planes[1].normal), -1.0, 1.0));
+  }
 };
 
 /// Gives each point to the sheet that bounds the body there, until nothing changes.
@@ -99,15 +105,14 @@ std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
   for (int round = 0; round < kRounds; ++round) {
-    sheets.first = plane_of(points, sheets.sides, false);
-    sheets.second = plane_of(points, sheets.sides, true);
-    if (std::min(sheets.first.count, sheets.second.count) < kFewestOnASheet) return std::nullopt;
-    sheets.convex =
-        sheets.second.height(sheets.first.middle) + sheets.first.height(sheets.second.middle) < 0.0;
+    sheets.planes = planes_of(points, sheets.sides);
+    const auto& [first, second] = sheets.planes;
+    if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
+    sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
     const Sides before = sheets.sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const double over_first = sheets.first.height(points[i].position);
-      const double over_second = sheets.second.height(points[i].position);
+      const double over_first = first.height(points[i].position);
+      const double over_second = second.height(points[i].position);
       sheets.sides[i] = sheets.convex ? over_second > over_first : over_second < over_first;
     }
     if (sheets.sides == before) return sheets;
@@ -118,19 +123,35 @@ std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
   return sheets;
 }
 
-/// The middle of the points that lie nearest to both patches.
-Eigen::Vector3d near_crease(const std::vector<OrientedPoint>& points, const HeightPatch& first,
-                            const HeightPatch& second) {
-  std::vector<std::pair<double, std::size_t>> off;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d& place = points[i].position;
-    off.emplace_back(std::abs(first.at(place).value) + std::abs(second.at(place).value), i);
-  }
-  std::sort(off.begin(), off.end());
-  off.resize(std::min(kPointsAtCrease, off.size()));
+/// The places with the least of some height over both sheets.
+template <class HeightOverBoth>
+std::vector<Eigen::Vector3d> least_high(const std::vector<Eigen::Vector3d>& places,
+                                        std::size_t count, const HeightOverBoth& height) {
+  std::vector<std::pair<double, std::size_t>> heights;
+  for (std::size_t i = 0; i < places.size(); ++i) heights.emplace_back(height(places[i]), i);
+  count = std::min(count, heights.size());
+  std::partial_sort(heights.begin(), heights.begin() + static_cast<std::ptrdiff_t>(count),
+                    heights.end());
+  std::vector<Eigen::Vector3d> least;
+  for (std::size_t i = 0; i < count; ++i) least.push_back(places[heights[i].second]);
+  return least;
+}
+
+/// The points that lie nearest to both patches, of those that lie near both planes; their middle.
+Eigen::Vector3d near_crease(const std::vector<OrientedPoint>& points, const TwoSheets& sheets,
+                            const HeightPatch& first, const HeightPatch& second) {
+  std::vector<Eigen::Vector3d> places;
+  places.reserve(points.size());
+  for (const auto& point : points) places.push_back(point.position);
+  places = least_high(places, kCandidatesAtCrease, [&](const Eigen::Vector3d& place) {
+    return std::abs(sheets.planes[0].height(place)) + std::abs(sheets.planes[1].height(place));
+  });
+  places = least_high(places, kPointsAtCrease, [&](const Eigen::Vector3d& place) {
+    return std::abs(first.at(place).value) + std::abs(second.at(place).value);
+  });
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& [distance, index] : off) middle += points[index].position;
-  return middle / static_cast<double>(off.size());
+  for (const auto& place : places) middle += place;
+  return middle / static_cast<double>(places.size());
 }
 
 struct Crease {
@@ -173,19 +194,18 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
                                               double roughness) {
   if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
   const auto sheets = two_sheets(points);
-  if (!sheets) return std::nullopt;
-  const double cosine = sheets->first.normal.dot(sheets->second.normal);
-  if (!(cosine < std::cos(kLeastTurn))) return std::nullopt;
+  if (!sheets || sheets->turn() < kLeastTurn) return std::nullopt;
   std::array<std::vector<OrientedPoint>, 2> parts;
   std::array<std::vector<std::size_t>, 2> members;
   for (std::size_t i = 0; i < points.size(); ++i) {
     parts[sheets->sides[i]].push_back(points[i]);
     members[sheets->sides[i]].push_back(i);
   }
-  auto first = HeightPatch::fit(parts[0], centre, sheets->first.normal, radius, roughness);
-  auto second = HeightPatch::fit(parts[1], centre, sheets->second.normal, radius, roughness);
-  if (!first || !second) return std::nullopt;
-  const Crease crease = crease_near(near_crease(points, *first, *second), *first, *second);
+  auto first = HeightPatch::fit(parts[0], centre, sheets->planes[0].normal, radius, roughness);
+  if (!first) return std::nullopt;
+  auto second = HeightPatch::fit(parts[1], centre, sheets->planes[1].normal, radius, roughness);
+  if (!second) return std::nullopt;
+  const Crease crease = crease_near(near_crease(points, *sheets, *first, *second), *first, *second);
   CreasedPatch patch({std::move(*first), std::move(members[0])},
                      {std::move(*second), std::move(members[1])}, sheets->convex);
   patch.turn_ = crease.turn;

@@ -35,10 +35,11 @@ constexpr int kAveragedInSpace = 6;
 constexpr double kTwin = 0.02;
 /// A patch is at least this part of the body wide.
 constexpr double kLeastReach = 0.033;
-/// Cosine to the outward direction of normals that tell of no crease, and how many must tell of
-/// one.
+/// Cosine to the outward direction of normals that tell of no crease, and how many, and which part
+/// of all, must tell of one.
 constexpr double kHardlyBent = 0.96;
 constexpr std::ptrdiff_t kFewestBent = 6;
+constexpr double kLeastBent = 0.05;
 /// The shape between the estimates of roughness may be rougher than they are.
 constexpr double kAllowanceInSpace = 4.0;
 /// Heights this many median deviations off, and this part of the radius, are those of strays.
@@ -225,7 +226,8 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   const auto bent = std::count_if(members.all.begin(), members.all.end(), [&](std::size_t i) {
     return points_[i].normal.dot(members.outward) < kHardlyBent;
   });
-  if (bent < kFewestBent) return std::nullopt;
+  const auto least_bent = kLeastBent * static_cast<double>(members.all.size());
+  if (bent < kFewestBent || static_cast<double>(bent) < least_bent) return std::nullopt;
   const auto points = points_at(members.all);
   auto creased = CreasedPatch::fit(points, place, members.radius, roughness);
   if (!creased || creased->turn() <= kLeastTurn) return std::nullopt;

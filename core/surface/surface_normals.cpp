@@ -1,10 +1,11 @@
 #include "core/surface/surface_normals.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <queue>
 #include <utility>
+
+#include "core/geometry/moments.h"
 
 namespace instep {
 namespace {
@@ -27,31 +28,6 @@ struct Bend {
 
   bool operator<(const Bend& other) const {
     return std::pair(size, to) > std::pair(other.size, other.to);
-  }
-};
-
-/// Sums over some points, from which their principal axes follow.
-struct Moments {
-  double count = 0.0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-
-  void add(const Eigen::Vector3d& arm) {
-    count += 1.0;
-    sum += arm;
-    squares += arm * arm.transpose();
-  }
-
-  void add(const Moments& other, const Eigen::Vector3d& shift) {
-    count += other.count;
-    squares += other.squares + shift * other.sum.transpose() + other.sum * shift.transpose() +
-               other.count * shift * shift.transpose();
-    sum += other.sum + other.count * shift;
-  }
-
-  Eigen::Vector3d normal() const {
-    const Eigen::Matrix3d spread = squares - sum * sum.transpose() / count;
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
   }
 };
 
@@ -81,7 +57,7 @@ CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const Point
         round.add(points[nearest.index] - middles_[cell]);
       }
     }
-    normals_.push_back(round.normal());
+    normals_.push_back(round.flattest());
   }
   middle_index_ = PointIndex(middles_);
 }
