@@ -14,7 +14,7 @@ namespace instep {
 namespace {
 
 /// Sheets whose planes turn less (radians) are not worth a closer look.
-constexpr double kLeastTurn = 0.5;
+constexpr double kLeastTurn = 0.6;
 constexpr std::size_t kFewestOnASheet = 6;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
