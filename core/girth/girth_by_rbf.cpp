@@ -189,10 +189,10 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   }
 
   Girth girth;
-  girth.contact_mm = band->unit_mm * length;
+  girth.contact_mm = band->unit_mm * (length + doubt.waves);
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
-  girth.stretched_mm = perimeter(convex_hull(girth.contour));
+  girth.stretched_mm = perimeter(convex_hull(girth.contour)) + band->unit_mm * doubt.waves;
   girth.contact_u95_mm = band->unit_mm * doubt.contact_u95;
   girth.stretched_u95_mm = band->unit_mm * doubt.stretched_u95;
   girth.points = cloud.size();

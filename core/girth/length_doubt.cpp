@@ -14,11 +14,15 @@ namespace {
 
 /// How much each part counts against that of the noise, so that intervals hold.
 constexpr double kWandering = 1.4;
-constexpr double kUnseenWaves = 2.0;
+constexpr double kUnseenWaves = 1.5;
 constexpr double kDeviations = 1.96;
 /// A surface through points wanders no further between them, against the radius of a patch, however
 /// rough a crease within it seems.
 constexpr double kWidestWandering = 0.06;
+/// Part of the expected noise waves that is left where several patches are blended.
+constexpr double kBlendedNoise = 0.5;
+/// More than this part of a length is no correction but a guess.
+constexpr double kMostWaves = 0.001;
 /// Variance of a direction (square radians) beyond which waves would be folds.
 constexpr double kSteepestWaves = 0.01;
 /// What first order leaves out, against the length.
@@ -45,6 +49,7 @@ struct Sums {
   double stretched_wandering = 0.0;
   double noise_waves = 0.0;  ///< length
   double unseen_waves = 0.0;
+  double likely_waves = 0.0;  ///< of the unseen ones, those that the points hint at
 };
 
 std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& surface) {
@@ -122,7 +127,10 @@ void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points,
     noise += influence * influence * points[stretch.sheet.member(i)].variance;
   }
   sums.noise_waves += 0.5 * stretch.length * std::min(noise, kSteepestWaves);
-  sums.unseen_waves += 0.5 * stretch.length * std::min(tilt.variance, kSteepestWaves);
+  const double unseen = 0.5 * stretch.length * std::min(tilt.variance, kSteepestWaves);
+  const double bending = stretch.sheet.patch->fine_bending();
+  sums.unseen_waves += unseen;
+  sums.likely_waves += bending * bending * unseen;
 }
 
 /// A patch in space knows no sums: all of its stretch may be off by as much as its middle.
@@ -162,7 +170,9 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
     add_waves(stretch, points, sums);
   }
   const double length = contour.length();
-  return {half_width(sums.contact, sums.contact_wandering, sums, points, length),
+  const double most = kMostWaves * length;
+  return {std::clamp(sums.likely_waves - kBlendedNoise * sums.noise_waves, -most, most),
+          half_width(sums.contact, sums.contact_wandering, sums, points, length),
           half_width(sums.stretched, sums.stretched_wandering, sums, points, length)};
 }
 

@@ -5,26 +5,30 @@
 
 namespace instep {
 
-/// How far the lengths of a contour on the plane z = 0, read off a fitted surface, may be from the
-/// true ones: half-widths of 95 % intervals in the unit of the surface.
+/// What is not seen of the lengths of a contour on the plane z = 0, read off a fitted surface; in
+/// the unit of the surface.
 ///
 /// To first order a length changes by what each corner moves outwards times what the line turns
 /// there (ContourTurns). Each height of a patch is a sum over the heights of points, so their
 /// noise goes through to the length (HeightPatch::sum()); for a corner the patch that counts most
-/// there stands for the blend. The
-/// same sums tell how far the surface may wander between the points (kriging), holes and the reach
-/// beyond the last points of a crease included. To second order waves lengthen a line: by those
-/// that noise put into the contour it is too long, by those that the true one has between the
-/// points it is too short; neither is known to be there, so both count as doubt.
+/// there stands for the blend. The same sums tell how far the surface may wander between the points
+/// (kriging), holes and the reach beyond the last points of a crease included.
+///
+/// To second order waves lengthen a line: by those that noise put into the contour it is too long,
+/// by those that the true one has between the points it is too short. Both are expected from the
+/// same sums, the latter where the points show that the surface bends at their own scale
+/// (HeightPatch::fine_bending()). What they make together is to be added, within limits; neither is
+/// known to be there, so both count as doubt too.
 ///
 /// The parts are weighed so that over thousands of drawn shapes, feet and lasts of any density,
 /// noise and sampling about 95 % of the intervals hold (tests/bench/accuracy).
 struct LengthDoubt {
-  double contact_u95 = 0.0;
+  double waves = 0.0;        ///< to be added to both lengths
+  double contact_u95 = 0.0;  ///< half-widths of 95 % intervals
   double stretched_u95 = 0.0;
 };
 
-/// `contour` as traced on `surface`. O(patches x samples^2).
+/// `contour` as traced on `surface`. O(patches x samples^3).
 LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface);
 
 }  // namespace instep

@@ -120,6 +120,19 @@ Quadratic HeightKriging::polynomial(const Solution& solution) const {
   return polynomial;
 }
 
+double HeightKriging::left_out(const Solution& solution) const {
+  const Eigen::Index count = places_.cols();
+  const Eigen::MatrixXd root =
+      solution.cholesky.matrixL().solve(Eigen::MatrixXd::Identity(count, count));
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    // The inverse system without the ones that stand on the polynomials.
+    const double own = root.col(i).squaredNorm() - basis_.row(i).squaredNorm();
+    if (own > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own;
+  }
+  return sum / static_cast<double>(count);
+}
+
 Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::Matrix2Xd& places,
                                          const Eigen::VectorXd& shares) const {
   const Eigen::Index rank = basis_.cols();

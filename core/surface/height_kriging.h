@@ -53,6 +53,11 @@ class HeightKriging {
   Eigen::VectorXd weights(const Solution& solution) const;
   Quadratic polynomial(const Solution& solution) const;
 
+  /// How far each sample is off what the others predict, against what is expected of that for a
+  /// roughness of one: mean square (leave-one-out). Like the roughness itself where that is the
+  /// same at all scales; less where the surface is smoother than the kernel takes it to be. O(n^3).
+  double left_out(const Solution& solution) const;
+
   /// By how much each sample's height moves the sum of the solution's heights at `places` times
   /// `shares`. O(n^2).
   Eigen::VectorXd influence(const Solution& solution, const Eigen::Matrix2Xd& places,

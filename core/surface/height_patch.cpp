@@ -132,6 +132,11 @@ HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
   return sum;
 }
 
+double HeightPatch::fine_bending() const {
+  if (!is_exact(*kriging_) || !(wander_ > 0.0)) return 1.0;
+  return kriging_->left_out(solution_) / wander_;
+}
+
 FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const Eigen::Vector3d local = axes_ * (position - centre_) / radius_;
   const double x = local.x();

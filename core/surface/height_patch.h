@@ -43,6 +43,12 @@ class HeightPatch {
   /// Of the heights at `positions` times `shares`. O(samples^2).
   Sum sum(const std::vector<Eigen::Vector3d>& positions, const Eigen::VectorXd& shares) const;
 
+  /// How far exact points are off what the others predict, against what the patch expects of that
+  /// from all of them: mean square. About one where the surface bends at the smallest scale as at
+  /// larger ones, as facets and creases do; some 0.4 where it is smooth. One where there is noise,
+  /// which hides it. O(samples^3).
+  double fine_bending() const;
+
   /// The likeliest; for exact points the given one.
   double roughness() const { return roughness_; }
 

@@ -191,6 +191,42 @@ TEST(HeightKriging, InfluenceIsWhatMovingASampleDoesToTheSum) {
 }
 
 /// The variance of universal kriging, k - [k p] M^-1 [k p]' with M of eq. 7, less its noise.
+HeightSamples without(const HeightSamples& samples, Index gone) {
+  const Index count = samples.size() - 1;
+  HeightSamples rest{Eigen::Matrix2Xd(2, count), VectorXd(count), VectorXd(count)};
+  for (Index i = 0, kept = 0; i < samples.size(); ++i) {
+    if (i == gone) continue;
+    rest.places.col(kept) = samples.places.col(i);
+    rest.heights[kept] = samples.heights[i];
+    rest.variances[kept++] = samples.variances[i];
+  }
+  return rest;
+}
+
+TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
+  constexpr Index kTerms = 6;
+  for (const double ratio : {1e-7, 1e-3}) {
+    auto samples = wavy_samples(25, 6);
+    samples.variances.setConstant(1e-4);
+    double mean = 0.0;
+    for (Index i = 0; i < samples.size(); ++i) {
+      const auto rest = without(samples, i);
+      VectorXd to_rest(rest.size() + kTerms);
+      for (Index j = 0; j < rest.size(); ++j) {
+        to_rest[j] = cubed(samples.places.col(i), rest.places.col(j));
+      }
+      to_rest.tail(kTerms) = terms_at(samples.places.col(i), kTerms).transpose();
+      const VectorXd shares = full_system(rest, ratio, kTerms).fullPivLu().solve(to_rest);
+      const double off = samples.heights[i] - shares.head(rest.size()).dot(rest.heights);
+      const double expected = ratio - shares.dot(to_rest);
+      mean += off * off / expected / static_cast<double>(samples.size());
+    }
+    const auto kriging = HeightKriging::of(samples, kTerms).value();
+    const auto solution = kriging.solve(ratio).value();
+    EXPECT_NEAR(kriging.left_out(solution) / mean, 1.0, 1e-4) << ratio;
+  }
+}
+
 TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
   const Sought sought;
   for (const Index terms : {3, 6}) {

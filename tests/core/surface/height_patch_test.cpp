@@ -218,6 +218,39 @@ TEST(HeightPatch, AveragingOverCellsDoesNotBendACurvedSurface) {
   }
 }
 
+/// Over the unit disc under a cap of the sphere, on square facets whose corners lie on it.
+OrientedPoints faceted_points(std::size_t count, double side, std::uint64_t seed) {
+  OrientedPoints points;
+  for (auto point : test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, count, 0.0, seed)) {
+    Vector3d& at = point.position;
+    const double left = side * std::floor(at.x() / side);
+    const double low = side * std::floor(at.y() / side);
+    const double u = (at.x() - left) / side;
+    const double v = (at.y() - low) / side;
+    at.z() = (1 - u) * (1 - v) * near_cap(left, low).z() +
+             u * (1 - v) * near_cap(left + side, low).z() +
+             (1 - u) * v * near_cap(left, low + side).z() +
+             u * v * near_cap(left + side, low + side).z();
+    points.push_back(point);
+  }
+  return points;
+}
+
+TEST(HeightPatch, BendsAtTheSmallestScaleOnFacetsAndHardlyOnASphere) {
+  double smooth = 0.0;
+  double faceted = 0.0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    smooth += cap_patch(test::cap_points(kSphere, 1.0, 60, 0.0, seed)).fine_bending() / 10.0;
+    faceted += cap_patch(faceted_points(60, 0.22, seed)).fine_bending() / 10.0;
+  }
+  EXPECT_LT(smooth, 0.6);
+  EXPECT_GT(faceted, 0.8);
+}
+
+TEST(HeightPatch, CannotTellFineBendingFromNoise) {
+  EXPECT_DOUBLE_EQ(cap_patch(test::cap_points(kSphere, 1.0, 60, 0.01, 1)).fine_bending(), 1.0);
+}
+
 TEST(HeightPatch, SpansAHole) {
   OrientedPoints rim;
   for (const auto& point : test::cap_points(kSphere, 1.0, 80, 0.0, 11)) {
