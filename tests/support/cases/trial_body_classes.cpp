@@ -56,18 +56,22 @@ std::set<std::string> files_of(const std::vector<KnownSection>& sections) {
 }
 
 /// Some of a last's own vertices.
-Cases last_cases(const Wanted& wanted) {
+Cases last_cases(const Wanted& wanted, Pattern pattern) {
   Cases cases;
   const auto sections = known_sections("lasts");
   for (const auto& file : files_of(sections)) {
     const auto vertices = read_shape(trial_data() / "lasts" / file).cloud;
     const bool all_alike = wanted.count >= vertices.size() && wanted.noise == Noise::kNone;
     for (std::uint64_t seed = 1; seed <= (all_alike ? 1 : wanted.seeds); ++seed) {
-      const auto cloud =
-          made(chosen(vertices, wanted.count, Pattern::kRandom, seed), wanted, seed + 1000);
+      // An even choice takes one point after the other: all but one in a random order.
+      const auto crowd = pattern == Pattern::kEven
+                             ? chosen(vertices, vertices.size() - 1, Pattern::kRandom, seed)
+                             : vertices;
+      const auto cloud = made(chosen(crowd, wanted.count, pattern, seed), wanted, seed + 1000);
       for (const auto& section : sections) {
         if (section.file != file) continue;
-        cases.push_back(case_of(section, "last", seed, cloud, "as given", wanted));
+        const char* sampling = all_alike ? "as given" : name_of(pattern);
+        cases.push_back(case_of(section, "last", seed, cloud, sampling, wanted));
       }
     }
   }
@@ -96,8 +100,9 @@ Cases foot_cases(const Wanted& wanted, Pattern pattern) {
   return cases;
 }
 
-CaseClass last_class(const std::string& name, const Bar& bar, const Wanted& wanted) {
-  return {"lasts", fmt::format("lasts{}", name), bar, [=] { return last_cases(wanted); }};
+CaseClass last_class(const std::string& name, const Bar& bar, const Wanted& wanted,
+                     Pattern pattern = Pattern::kRandom) {
+  return {"lasts", fmt::format("lasts{}", name), bar, [=] { return last_cases(wanted, pattern); }};
 }
 
 CaseClass foot_class(const std::string& name, const Bar& bar, const Wanted& wanted,
@@ -120,6 +125,10 @@ std::vector<CaseClass> last_classes() {
     for (const auto& [count, limit] : exact) {
       classes.push_back(last_class(fmt::format(", {} points{}", count, normals), limit,
                                    {.count = count, .normals_told = told}));
+    }
+    for (const auto& [count, limit] : {exact[1], exact[2]}) {
+      classes.push_back(last_class(fmt::format(", {} even points{}", count, normals), limit,
+                                   {.count = count, .normals_told = told}, Pattern::kEven));
     }
     for (const auto& [count, limit] :
          {std::pair{14240U, bar(0.35)}, {3560U, Bar{}}, {902U, Bar{}}}) {
