@@ -1,0 +1,105 @@
+#include "drivers/openni2/child/sensor_search.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "drivers/files/descriptor.h"
+
+namespace instep {
+namespace {
+
+std::string with_serials(const std::vector<std::string>& serials) {
+  if (serials.empty()) return "there is none";
+  std::string text;
+  for (const auto& serial : serials) {
+    text += (text.empty() ? "" : ", ") + (serial.empty() ? "one without a number" : serial);
+  }
+  return "there is " + text;
+}
+
+/// The number of a sensor on its bus grows with each plugging in: the last one that came is most
+/// likely the one that is missed, and to try those in use takes seconds.
+void sort_newest_first(std::vector<OpenniDevice>& places) {
+  const auto number = [](const OpenniDevice& place) {
+    const auto digits = place.uri.find_last_not_of("0123456789") + 1;
+    return std::atol(place.uri.substr(digits, 9).c_str());
+  };
+  std::stable_sort(places.begin(), places.end(),
+                   [&](const auto& a, const auto& b) { return number(a) > number(b); });
+}
+
+}  // namespace
+
+Result<SearchTurn> SearchTurn::wait() {
+  using std::chrono::steady_clock;
+  constexpr std::chrono::seconds kLimit{8};
+  constexpr std::chrono::milliseconds kPause{10};
+  const auto deadline = steady_clock::now() + kLimit;
+  // The program's own file is there wherever it runs, and the kernel unlocks it when it ends.
+  auto lock = std::make_unique<Descriptor>(::open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
+  while (::flock(lock->number(), LOCK_EX | LOCK_NB) != 0) {
+    if (steady_clock::now() > deadline) {
+      return fail(ErrorCode::kTimeout, "another instep-openni hangs at opening a sensor",
+                  "unplug the sensors and plug them in again");
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+  return SearchTurn(std::move(lock));
+}
+
+Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial) {
+  auto places = plugged_in_sensors();
+  if (serial.empty() && places.size() > 1) {
+    return fail(ErrorCode::kInvalidInput,
+                fmt::format("there are {} OpenNI2 sensors, and it is not said which one is meant",
+                            places.size()),
+                "give the serial number that instep-openni --list shows");
+  }
+  sort_newest_first(places);
+  std::unique_ptr<DepthSensor> found;
+  std::vector<std::string> others;
+  std::optional<Error> first_trouble;
+  for (const OpenniDevice& place : places) {
+    auto sensor = DepthSensor::open(place);
+    if (!sensor) {
+      if (!first_trouble) first_trouble = sensor.error();
+      continue;
+    }
+    if (!serial.empty() && (*sensor)->device().serial != serial) {
+      others.push_back((*sensor)->device().serial);
+    } else if (found) {
+      return fail(ErrorCode::kInvalidInput, "two OpenNI2 sensors have the serial number " + serial,
+                  "leave only one of them plugged in");
+    } else {
+      found = std::move(*sensor);
+    }
+  }
+  if (found) return found;
+  if (first_trouble) return tl::make_unexpected(*first_trouble);
+  const std::string wanted =
+      serial.empty() ? "no OpenNI2 sensor is" : "the OpenNI2 sensor " + serial + " is not";
+  return fail(ErrorCode::kNotFound, Remedy::kReopen,
+              fmt::format("{} plugged in ({})", wanted, with_serials(others)),
+              "plug it in, or correct its serial number in the settings");
+}
+
+std::vector<OpenniDevice> list_sensors() {
+  std::vector<OpenniDevice> sensors = plugged_in_sensors();
+  for (OpenniDevice& sensor : sensors) {
+    const auto opened = DepthSensor::open(sensor);
+    if (opened) {
+      sensor = (*opened)->device();
+    } else {
+      sensor.trouble = opened.error().line();
+    }
+  }
+  return sensors;
+}
+
+}  // namespace instep
