@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/openni_settings.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
@@ -43,11 +44,12 @@ struct PedalSettings {
 };
 
 /// Where depth frames come from. One source may bring several cameras.
-enum class CameraKind { kSimulated, kRecording };
+enum class CameraKind { kSimulated, kRecording, kOpenni };
 
 struct CameraSettings {
   CameraKind kind = CameraKind::kSimulated;
   std::filesystem::path path;  ///< of a recording: its folder
+  OpenniSettings openni;       ///< of kOpenni
 };
 
 enum class SimulatedNoise { kNone, kTypical, kPessimistic };

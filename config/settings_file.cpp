@@ -57,8 +57,11 @@ CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& ba
                            SettingsFaults& faults) {
   CameraSettings camera;
   table.choose("kind", camera.kind,
-               {{"simulated", CameraKind::kSimulated}, {"recording", CameraKind::kRecording}});
+               {{"simulated", CameraKind::kSimulated},
+                {"recording", CameraKind::kRecording},
+                {"openni2", CameraKind::kOpenni}});
   table.read("path", camera.path, base);
+  if (camera.kind == CameraKind::kOpenni) camera.openni = read_openni_settings(table, base, faults);
   if (camera.kind == CameraKind::kRecording && camera.path.empty()) {
     faults.add(table.line(), "camera.path is missing: name the folder of the recording");
   }

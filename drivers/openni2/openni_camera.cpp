@@ -51,7 +51,7 @@ Result<std::unique_ptr<OpenniCamera>> OpenniCamera::open(Settings settings) {
     return fail(ErrorCode::kIo, Remedy::kRetry, "there are no descriptors left for a camera",
                 "restart instepd");
   }
-  const auto deadline = steady_clock::now() + OpenniChild::kOpeningLimit;
+  const auto deadline = steady_clock::now() + camera->settings_.opening_limit;
   auto done = camera->launch()
                   .and_then([&] {
                     return camera->child_->wait_for(Phase::kOpen, deadline, camera->interrupt_);
@@ -62,8 +62,9 @@ Result<std::unique_ptr<OpenniCamera>> OpenniCamera::open(Settings settings) {
 }
 
 Result<void> OpenniCamera::launch() {
-  auto launched =
-      OpenniChild::launch(settings_.program, {settings_.serial, size_of(settings_.intrinsics)});
+  auto launched = OpenniChild::launch(
+      settings_.program,
+      {settings_.serial, size_of(settings_.intrinsics), settings_.opening_limit});
   if (!launched) return tl::make_unexpected(launched.error());
   child_ = std::move(*launched);
   return {};

@@ -40,9 +40,10 @@ class OpenniCamera final : public DepthCamera {
     /// right to some pixels, for a start.
     std::optional<CameraIntrinsics> intrinsics;
     OpenniProgram program;
+    std::chrono::milliseconds opening_limit = SensorChoice().opening_limit;
   };
 
-  /// Opens the sensor, within 10 s. Fails with kNotFound if it is not there, kBusy or
+  /// Opens the sensor, within the opening limit. Fails with kNotFound if it is not there, kBusy or
   /// kPermissionDenied if it cannot be had, kUnsupported if it cannot be set as above or has no
   /// field of view and no intrinsics were given, kDeviceGone if it was lost or its driver crashed.
   static Result<std::unique_ptr<OpenniCamera>> open(Settings settings);

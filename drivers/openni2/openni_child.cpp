@@ -69,8 +69,8 @@ Result<std::unique_ptr<OpenniChild>> OpenniChild::launch(const OpenniProgram& pr
     ::close(ours);
     return tl::make_unexpected(process.error());
   }
-  return std::unique_ptr<OpenniChild>(
-      new OpenniChild(std::move(*ring), ours, std::move(*process), std::move(arrival)));
+  return std::unique_ptr<OpenniChild>(new OpenniChild(std::move(*ring), ours, std::move(*process),
+                                                      std::move(arrival), choice.opening_limit));
 }
 
 OpenniChild::~OpenniChild() {
@@ -167,7 +167,7 @@ Result<void> OpenniChild::check_life() {
   bool hangs = false;
   switch (phase_) {
     case Phase::kOpening:
-      hangs = now > phase_since_ + kOpeningLimit;
+      hangs = now > phase_since_ + opening_limit_;
       break;
     case Phase::kStarting:
     case Phase::kStopping:

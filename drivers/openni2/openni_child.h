@@ -19,6 +19,8 @@ namespace instep {
 struct SensorChoice {
   std::string serial;             ///< empty = the only sensor there is
   std::optional<ImageSize> size;  ///< of the image; see choose_mode()
+  /// Opening a sensor, with its firmware and those before it in the search, takes seconds.
+  std::chrono::milliseconds opening_limit{10000};
 };
 
 /// One instep-openni, seen from the daemon: it lives as long as its sensor is open. Everything that
@@ -29,8 +31,6 @@ class OpenniChild {
   enum class Phase { kOpening, kOpen, kStarting, kStreaming, kStopping };
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Opening a sensor, with its firmware, takes seconds.
-  static constexpr std::chrono::milliseconds kOpeningLimit{10000};
   static constexpr std::chrono::milliseconds kChangeLimit{3000};  ///< for starting and stopping
   /// A child that gave no sign of life for this long hangs.
   static constexpr std::chrono::milliseconds kSilenceLimit{800};
@@ -56,8 +56,10 @@ class OpenniChild {
   Result<void> look();
 
  private:
-  OpenniChild(FrameRing ring, int socket, ChildProcess process, std::unique_ptr<WakeUp> arrival)
-      : ring_(std::move(ring)),
+  OpenniChild(FrameRing ring, int socket, ChildProcess process, std::unique_ptr<WakeUp> arrival,
+              std::chrono::milliseconds opening_limit)
+      : opening_limit_(opening_limit),
+        ring_(std::move(ring)),
         arrival_(std::move(arrival)),
         socket_(socket),
         process_(std::move(process)),
@@ -70,6 +72,7 @@ class OpenniChild {
   void tell(std::string_view command);
   void enter(Phase phase);
 
+  std::chrono::milliseconds opening_limit_;
   FrameRing ring_;
   std::unique_ptr<WakeUp> arrival_;
   Descriptor socket_;

@@ -69,6 +69,7 @@ void OpenniBus::set_faults(const std::string& serial, const std::set<std::string
 
 void OpenniBus::write(const BusSensor& sensor, const std::string& uri) const {
   std::ostringstream text;
+  text.precision(17);
   text << "serial " << sensor.serial << "\nuri " << uri << "\nframes "
        << (folder() / (sensor.serial + ".raw")).string() << "\nwidth " << sensor.width
        << "\nheight " << sensor.height << "\nunit_um " << sensor.unit_um << "\nhfov_rad "

@@ -19,9 +19,9 @@ struct BusSensor {
   int unit_um = 100;
   double hfov_rad = 1.0;
   double vfov_rad = 0.8;
-  std::set<std::string> faults;  ///< sim/openni2_module/module.cpp
+  std::set<std::string> faults = {};  ///< sim/openni2_module/module.cpp
   /// Repeated, in unit_um; each of width * height values. None = test_images().
-  std::vector<std::vector<std::uint16_t>> images;
+  std::vector<std::vector<std::uint16_t>> images = {};
 };
 
 /// The stock OpenNI2 library with our driver module and a bus of its own, in a temporary folder.
