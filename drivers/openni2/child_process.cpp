@@ -120,8 +120,9 @@ std::optional<std::string> ChildProcess::wait(std::chrono::milliseconds limit) {
   if (id_ <= 0) return "has ended";
   pollfd waited{descriptor_, POLLIN, 0};
   while (::poll(&waited, 1, static_cast<int>(limit.count())) < 0 && errno == EINTR) continue;
+  // Readable, it has ended, and waiting for it does not block but for the kernel's last touch.
   int status = 0;
-  if (::waitpid(id_, &status, WNOHANG) != id_) return std::nullopt;
+  if (::waitpid(id_, &status, waited.revents != 0 ? 0 : WNOHANG) != id_) return std::nullopt;
   id_ = -1;
   return WIFSIGNALED(status) ? fmt::format("was ended by signal {} ({})", WTERMSIG(status),
                                            ::strsignal(WTERMSIG(status)))

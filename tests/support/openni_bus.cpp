@@ -1,9 +1,8 @@
 #include "tests/support/openni_bus.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,6 +13,27 @@ namespace {
 
 std::filesystem::path bus_file(const std::filesystem::path& root, const std::string& serial) {
   return root / "bus" / (serial + ".device");
+}
+
+struct ProcessState {
+  std::string program;
+  char letter = ' ';
+  pid_t parent = 0;
+};
+
+std::optional<ProcessState> state_of(const std::string& process) {
+  std::ifstream stream("/proc/" + process + "/stat");
+  std::string text;
+  std::getline(stream, text);
+  // After the name, in parentheses and with anything in it, come the state and the parent.
+  const auto begin = text.find('(');
+  const auto end = text.rfind(')');
+  if (begin == std::string::npos || end == std::string::npos) return std::nullopt;
+  ProcessState state;
+  state.program = text.substr(begin + 1, end - begin - 1);
+  std::istringstream rest(text.substr(end + 1));
+  rest >> state.letter >> state.parent;
+  return state;
 }
 
 void write_images(const std::filesystem::path& file, const BusSensor& sensor) {
@@ -115,21 +135,20 @@ std::vector<std::vector<std::uint16_t>> test_images(int width, int height) {
   return images;
 }
 
-std::vector<pid_t> child_processes() {
+std::vector<pid_t> child_processes(pid_t parent) {
   std::vector<pid_t> children;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const std::string name = entry.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream stream(entry.path() / "stat");
-    std::string stat;
-    std::getline(stream, stat);
-    // After the name, which may hold anything, come the state and the parent.
-    std::istringstream rest(stat.substr(std::min(stat.rfind(')') + 1, stat.size())));
-    char state = ' ';
-    pid_t parent = 0;
-    if (rest >> state >> parent && parent == ::getpid()) children.push_back(std::stoi(name));
+    const auto state = state_of(name);
+    if (state && state->parent == parent) children.push_back(std::stoi(name));
   }
   return children;
+}
+
+bool runs(pid_t process, const std::string& program) {
+  const auto state = state_of(std::to_string(process));
+  return state && state->program == program && state->letter != 'Z';
 }
 
 }  // namespace instep::test

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdint>
 #include <set>
@@ -59,7 +61,9 @@ class OpenniBus {
 /// 100 mm and 6500 mm at 0.1 mm.
 std::vector<std::vector<std::uint16_t>> test_images(int width, int height);
 
-/// The processes that this one has started and not reaped, by /proc.
-std::vector<pid_t> child_processes();
+/// The processes that this one, or `parent`, has started and not reaped, by /proc.
+std::vector<pid_t> child_processes(pid_t parent = ::getpid());
+/// True if such a process runs a program of that name and has not ended.
+bool runs(pid_t process, const std::string& program);
 
 }  // namespace instep::test
