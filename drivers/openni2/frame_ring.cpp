@@ -38,12 +38,17 @@ struct FrameRing::Memory {
   std::uint64_t arrived = 0;  ///< of the writer alone
   std::array<Place, kPlaces> places;
 
-  /// The full place that was filled first.
-  std::optional<std::size_t> oldest() const {
-    std::optional<std::size_t> found;
+  struct Full {
+    std::size_t place = 0;
+    std::uint64_t order = 0;
+  };
+  /// The place that was filled first, as it is at a glance: the other side goes on meanwhile.
+  std::optional<Full> oldest() const {
+    std::optional<Full> found;
     for (std::size_t i = 0; i < kPlaces; ++i) {
       if (places[i].state != kFull) continue;
-      if (!found || places[i].order < places[*found].order) found = i;
+      const Full full{i, places[i].order};
+      if (!found || full.order < found->order) found = full;
     }
     return found;
   }
@@ -60,7 +65,7 @@ struct FrameRing::Memory {
         if (change(i, kEmpty, kWriting)) return i;
       }
       const auto full = oldest();
-      if (full && change(*full, kFull, kWriting)) return *full;
+      if (full && change(full->place, kFull, kWriting)) return full->place;
     }
   }
 };
@@ -134,15 +139,21 @@ bool FrameRing::put(const RingRecord& record, const std::uint16_t* rows, std::si
 
 std::optional<RingFrame> FrameRing::take() {
   for (std::size_t tries = 0; tries < 2 * kPlaces; ++tries) {
-    const auto at = memory_->oldest();
-    if (!at) return std::nullopt;
-    if (!memory_->change(*at, kFull, kReading)) continue;
+    const auto full = memory_->oldest();
+    if (!full) return std::nullopt;
+    if (!memory_->change(full->place, kFull, kReading)) continue;
+    Memory::Place& place = memory_->places[full->place];
+    if (place.order != full->order) {
+      // The writer was quicker, and this is a young frame by now: others come before it.
+      place.state = kFull;
+      continue;
+    }
     RingFrame frame;
-    frame.record = memory_->places[*at].record;
+    frame.record = place.record;
     const std::size_t pixels = std::min<std::size_t>(frame.record.pixels, kMostPixels);
-    const std::uint16_t* from = pixels_of(*at);
+    const std::uint16_t* from = pixels_of(full->place);
     frame.raw.assign(from, from + pixels);
-    memory_->places[*at].state = kEmpty;
+    place.state = kEmpty;
     return frame;
   }
   return std::nullopt;
@@ -158,7 +169,8 @@ void FrameRing::beat() {
 }
 
 std::chrono::steady_clock::time_point FrameRing::last_beat() const {
-  return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(memory_->beat_ns.load()));
+  const std::chrono::steady_clock::time_point told(std::chrono::nanoseconds(memory_->beat_ns));
+  return std::min(told, std::chrono::steady_clock::now());
 }
 
 }  // namespace instep

@@ -141,6 +141,24 @@ TEST(OpenniStation, TakesTheSetOnceMoreWhenAProcessDiesInMidScan) {
   EXPECT_TRUE(newest_result(station).is_object());
 }
 
+TEST(OpenniStation, EndsAtOnceWhileASensorHangs) {
+  OpenniBus bus;
+  OpenniStation sensors(bus, small_station(), 3);
+  bus.set_faults(sensors.serial(0), {"hang-open"});
+  StationProcess station;
+  station.write_settings(sensors.camera_tables() + kSmallCapture);
+  station.start();
+  ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
+  const auto deadline = steady_clock::now() + 10s;
+  std::vector<pid_t> children;
+  while (children.empty() && steady_clock::now() < deadline) {
+    children = child_processes(station.process());
+  }
+  ASSERT_FALSE(children.empty());
+  station.signal(SIGTERM);
+  EXPECT_EQ(station.wait_for_exit(2s), 0) << station.log();
+}
+
 TEST(OpenniStation, LeavesNoProcessBehindWhenItIsKilled) {
   OpenniBus bus;
   const OpenniStation sensors(bus, small_station(), 3);

@@ -1,10 +1,14 @@
 #include "drivers/openni2/child/capture_service.h"
 
 #include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <string>
 #include <thread>
 
@@ -16,8 +20,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Between two signs of life; OpenniChild::kSilenceLimit allows for many times that.
+/// Between two signs of life, with and without a stream; OpenniChild::kSilenceLimit allows for
+/// more.
 constexpr milliseconds kBeat{50};
+constexpr milliseconds kIdleBeat{200};
 
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
@@ -71,7 +77,7 @@ class CaptureService {
   /// Does what it is told; while nothing streams, it waits for that.
   Result<void> obey(DepthSensor& sensor) {
     pollfd waited{connection_.number(), POLLIN, 0};
-    ::poll(&waited, 1, streaming_ ? 0 : static_cast<int>(kBeat.count()));
+    ::poll(&waited, 1, streaming_ ? 0 : static_cast<int>(kIdleBeat.count()));
     if (waited.revents == 0) return {};
     std::array<char, 64> text;
     const ssize_t got = ::recv(connection_.number(), text.data(), text.size(), MSG_DONTWAIT);
@@ -117,6 +123,13 @@ void follow_to_the_end(int connection) {
 
 int serve_captures(const SensorChoice& choice, FrameRing& ring, const WakeUp& arrival,
                    const Descriptor& connection) {
+  // Those who end the daemon mean all its processes; this one ends after it, and closes its sensor.
+  ::signal(SIGINT, SIG_IGN);
+  ::signal(SIGTERM, SIG_IGN);
+  // OpenNI2 keeps one frame of a sensor and drops it for the next one, 33 ms later: being late
+  // costs frames. Where this is not allowed, it goes without.
+  constexpr int kAheadOfOthers = -10;
+  ::setpriority(PRIO_PROCESS, 0, kAheadOfOthers);
   std::thread(follow_to_the_end, connection.number()).detach();
   CaptureService service(ring, arrival, connection);
   auto done = load_openni().and_then([&] { return service.run(choice); });

@@ -5,11 +5,11 @@
 #include <sys/file.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <optional>
 #include <thread>
-
-#include "drivers/files/descriptor.h"
 
 namespace instep {
 namespace {
@@ -43,7 +43,8 @@ Result<SearchTurn> SearchTurn::wait() {
   const auto deadline = steady_clock::now() + kLimit;
   // The program's own file is there wherever it runs, and the kernel unlocks it when it ends.
   auto lock = std::make_unique<Descriptor>(::open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
-  while (::flock(lock->number(), LOCK_EX | LOCK_NB) != 0) {
+  // Where there is no locking (a network's file system), nobody waits.
+  while (::flock(lock->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     if (steady_clock::now() > deadline) {
       return fail(ErrorCode::kTimeout, "another instep-openni hangs at opening a sensor",
                   "unplug the sensors and plug them in again");

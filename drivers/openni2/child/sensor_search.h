@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "drivers/files/descriptor.h"
 #include "drivers/openni2/child/depth_sensor.h"
 
 namespace instep {
