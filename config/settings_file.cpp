@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include "config/settings_table.h"
@@ -157,12 +158,24 @@ void read_log(SettingsTable& table, LogSettings& log) {
                 {"error", LogLevel::kError}});
 }
 
+/// Two processes cannot have one sensor, and two that take the only one would.
+void check_openni_serials(const std::vector<CameraSettings>& cameras, SettingsFaults& faults) {
+  std::set<std::string> serials;
+  for (const CameraSettings& camera : cameras) {
+    if (camera.kind != CameraKind::kOpenni || serials.insert(camera.openni.serial).second) continue;
+    faults.add(1, camera.openni.serial.empty()
+                      ? "two [[camera]] of kind \"openni2\" have no serial: give each its own"
+                      : "two [[camera]] have the serial " + camera.openni.serial);
+  }
+}
+
 void read_cameras(SettingsTable& root, std::vector<CameraSettings>& cameras,
                   const std::filesystem::path& base, SettingsFaults& faults) {
   for (const toml::table* camera : root.tables("camera")) {
     SettingsTable table(*camera, "camera", faults);
     cameras.push_back(read_camera(table, base, faults));
   }
+  check_openni_serials(cameras, faults);
   if (cameras.empty()) {
     faults.add(1, "there is no [[camera]]: add one, such as kind = \"simulated\"");
   }

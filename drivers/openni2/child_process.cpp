@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <system_error>
 
 #include "drivers/files/descriptor.h"
 
@@ -42,20 +43,65 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
   return pointers;
 }
 
-/// The program begins with no signal blocked or ignored, whatever this thread does.
-int set_plain_signals(posix_spawnattr_t& attributes) {
-  sigset_t none;
-  sigset_t all;
-  ::sigemptyset(&none);
-  ::sigfillset(&all);
-  ::posix_spawnattr_setsigmask(&attributes, &none);
-  ::posix_spawnattr_setsigdefault(&attributes, &all);
-  return ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-}
+/// What the program finds: its descriptors, and no signal blocked or ignored, whatever this thread
+/// does.
+class Surroundings {
+ public:
+  explicit Surroundings(const ChildProgram& program) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawnattr_init(&attributes_);
+    open_null(STDIN_FILENO, O_RDONLY);
+    if (program.output) {
+      ::posix_spawn_file_actions_adddup2(&actions_, *program.output, STDOUT_FILENO);
+    } else {
+      open_null(STDOUT_FILENO, O_WRONLY);
+    }
+    int next = kFirstInherited;
+    for (const int descriptor : program.descriptors) inherit(descriptor, next++);
+    ::posix_spawn_file_actions_addclosefrom_np(&actions_, next);
+    set_plain_signals();
+  }
+  ~Surroundings() {
+    ::posix_spawnattr_destroy(&attributes_);
+    ::posix_spawn_file_actions_destroy(&actions_);
+  }
+  Surroundings(const Surroundings&) = delete;
+  Surroundings& operator=(const Surroundings&) = delete;
+
+  const posix_spawn_file_actions_t* actions() const { return &actions_; }
+  const posix_spawnattr_t* attributes() const { return &attributes_; }
+
+ private:
+  void open_null(int as, int how) {
+    ::posix_spawn_file_actions_addopen(&actions_, as, "/dev/null", how, 0);
+  }
+
+  /// By way of a copy above all the numbers that are given, so that none is overwritten before its
+  /// turn.
+  void inherit(int descriptor, int as) {
+    constexpr int kAbove = 64;
+    copies_.push_back(std::make_unique<Descriptor>(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove)));
+    ::posix_spawn_file_actions_adddup2(&actions_, copies_.back()->number(), as);
+  }
+
+  void set_plain_signals() {
+    sigset_t none;
+    sigset_t all;
+    ::sigemptyset(&none);
+    ::sigfillset(&all);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setsigdefault(&attributes_, &all);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+  std::vector<std::unique_ptr<Descriptor>> copies_;
+};
 
 Error start_error(int number, const ChildProgram& program) {
-  const std::string what =
-      fmt::format("{} cannot be started ({})", program.file.string(), std::strerror(number));
+  const std::string what = fmt::format("{} cannot be started ({})", program.file.string(),
+                                       std::generic_category().message(number));
   switch (number) {
     case ENOENT:
       return fail(ErrorCode::kNotFound, what, "install it beside instepd").value();
@@ -69,39 +115,19 @@ Error start_error(int number, const ChildProgram& program) {
 }  // namespace
 
 Result<ChildProcess> ChildProcess::start(const ChildProgram& program) {
-  // Copies above all the numbers that they get, so that none is overwritten before its turn.
-  constexpr int kAbove = 64;
-  std::vector<std::unique_ptr<Descriptor>> copies;
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  if (program.output) {
-    ::posix_spawn_file_actions_adddup2(&actions, *program.output, STDOUT_FILENO);
-  } else {
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  }
-  int next = kFirstInherited;
-  for (const int descriptor : program.descriptors) {
-    copies.push_back(std::make_unique<Descriptor>(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove)));
-    ::posix_spawn_file_actions_adddup2(&actions, copies.back()->number(), next++);
-  }
-  ::posix_spawn_file_actions_addclosefrom_np(&actions, next);
-  posix_spawnattr_t attributes;
-  ::posix_spawnattr_init(&attributes);
-  set_plain_signals(attributes);
-
+  const Surroundings surroundings(program);
   std::vector<std::string> words = program.arguments;
   words.insert(words.begin(), program.file.filename().string());
   std::vector<std::string> variables = environment_of(program);
   pid_t id = -1;
-  const int failure = ::posix_spawn(&id, program.file.c_str(), &actions, &attributes,
-                                    pointers_to(words).data(), pointers_to(variables).data());
-  ::posix_spawnattr_destroy(&attributes);
-  ::posix_spawn_file_actions_destroy(&actions);
+  const int failure =
+      ::posix_spawn(&id, program.file.c_str(), surroundings.actions(), surroundings.attributes(),
+                    pointers_to(words).data(), pointers_to(variables).data());
   if (failure != 0) return tl::make_unexpected(start_error(failure, program));
   const int descriptor = static_cast<int>(::syscall(SYS_pidfd_open, id, 0));
+  const int why_not = errno;
   ChildProcess child(id, descriptor);
-  if (descriptor < 0) return tl::make_unexpected(start_error(errno, program));
+  if (descriptor < 0) return tl::make_unexpected(start_error(why_not, program));
   return child;
 }
 
@@ -122,11 +148,14 @@ std::optional<std::string> ChildProcess::wait(std::chrono::milliseconds limit) {
   while (::poll(&waited, 1, static_cast<int>(limit.count())) < 0 && errno == EINTR) continue;
   // Readable, it has ended, and waiting for it does not block but for the kernel's last touch.
   int status = 0;
-  if (::waitpid(id_, &status, waited.revents != 0 ? 0 : WNOHANG) != id_) return std::nullopt;
+  const pid_t reaped = ::waitpid(id_, &status, waited.revents != 0 ? 0 : WNOHANG);
+  if (reaped == 0) return std::nullopt;
   id_ = -1;
-  return WIFSIGNALED(status) ? fmt::format("was ended by signal {} ({})", WTERMSIG(status),
-                                           ::strsignal(WTERMSIG(status)))
-                             : fmt::format("ended with code {}", WEXITSTATUS(status));
+  if (reaped < 0) return "has ended";  // where this process is set to have no zombies
+  if (WIFEXITED(status)) return fmt::format("ended with code {}", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  const char* name = ::sigdescr_np(signal);
+  return fmt::format("was ended by signal {} ({})", signal, name != nullptr ? name : "unknown");
 }
 
 }  // namespace instep

@@ -143,8 +143,10 @@ std::optional<RingFrame> FrameRing::take() {
     if (!full) return std::nullopt;
     if (!memory_->change(full->place, kFull, kReading)) continue;
     Memory::Place& place = memory_->places[full->place];
-    if (place.order != full->order) {
-      // The writer was quicker, and this is a young frame by now: others come before it.
+    // While this thread looked, the writer may have gone round. All that came before the frame in
+    // hand is there by now, so that a second look is exact.
+    const auto earlier = memory_->oldest();
+    if (earlier && earlier->order < place.order) {
       place.state = kFull;
       continue;
     }

@@ -28,9 +28,8 @@ int wrong_usage() {
 /// What was found goes to stdout, an error as an object of its own.
 int list() {
   using namespace instep;
-  std::string text;
-  auto turn = load_openni().and_then([] { return SearchTurn::wait(); });
-  text = turn ? to_text(list_sensors()) : to_text(ChildMessage(turn.error()));
+  const auto turn = load_openni().and_then([] { return SearchTurn::wait(); });
+  const std::string text = turn ? to_text(list_sensors()) : to_text(ChildMessage(turn.error()));
   const bool written = std::puts(text.c_str()) >= 0 && std::fflush(stdout) == 0;
   return turn && written ? 0 : 1;
 }

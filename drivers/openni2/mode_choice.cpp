@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <tuple>
+
+#include "drivers/openni2/frame_ring.h"
 
 namespace instep {
 namespace {
@@ -13,6 +16,12 @@ constexpr int kUsualRate = 30;
 
 bool has_size(const DepthMode& mode, const ImageSize& size) {
   return mode.width == size.width && mode.height == size.height;
+}
+
+bool is_usable(const DepthMode& mode) {
+  const auto pixels = static_cast<std::int64_t>(mode.width) * mode.height;
+  return mode.depth_unit_mm > 0.0 && pixels > 0 &&
+         pixels <= static_cast<std::int64_t>(FrameRing::kMostPixels);
 }
 
 /// Smaller is better.
@@ -36,10 +45,9 @@ std::string listed(const std::vector<DepthMode>& modes) {
 Result<DepthMode> choose_mode(const std::vector<DepthMode>& offered,
                               const std::optional<ImageSize>& size) {
   std::vector<DepthMode> suitable;
-  std::copy_if(offered.begin(), offered.end(), std::back_inserter(suitable),
-               [&](const DepthMode& mode) {
-                 return mode.depth_unit_mm > 0.0 && (!size || has_size(mode, *size));
-               });
+  std::copy_if(
+      offered.begin(), offered.end(), std::back_inserter(suitable),
+      [&](const DepthMode& mode) { return is_usable(mode) && (!size || has_size(mode, *size)); });
   const auto best =
       std::min_element(suitable.begin(), suitable.end(),
                        [](const DepthMode& a, const DepthMode& b) { return rank(a) < rank(b); });

@@ -19,8 +19,8 @@ struct ImageSize {
 
 /// Of the modes that a sensor offers the best one of this size: the finest depth unit, since whole
 /// millimetres are truncated and so half a millimetre too near on average, then 30 frames a second
-/// or what is next to it. With no size, kUsualWidth x kUsualHeight or else the most pixels.
-/// Fails with kUnsupported, naming what there is.
+/// or what is next to it. With no size, kUsualWidth x kUsualHeight or else the most pixels, but
+/// never more than FrameRing::kMostPixels. Fails with kUnsupported, naming what there is.
 Result<DepthMode> choose_mode(const std::vector<DepthMode>& offered,
                               const std::optional<ImageSize>& size);
 

@@ -51,7 +51,8 @@ Result<std::unique_ptr<OpenniCamera>> OpenniCamera::open(Settings settings) {
     return fail(ErrorCode::kIo, Remedy::kRetry, "there are no descriptors left for a camera",
                 "restart instepd");
   }
-  const auto deadline = steady_clock::now() + camera->settings_.opening_limit;
+  // Past the limit it is the child that is said to hang.
+  const auto deadline = steady_clock::now() + camera->settings_.opening_limit + kStartLimit;
   auto done = camera->launch()
                   .and_then([&] {
                     return camera->child_->wait_for(Phase::kOpen, deadline, camera->interrupt_);

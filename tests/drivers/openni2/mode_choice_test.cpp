@@ -31,6 +31,12 @@ TEST(ModeChoice, TakesTheMostPixelsWhereTheUsualSizeIsMissing) {
             (DepthMode{512, 424, 30, 1.0}));
 }
 
+TEST(ModeChoice, PassesOverImagesThatAreTooLarge) {
+  EXPECT_EQ(choose_mode({{1920, 1080, 30, 0.1}, {512, 424, 30, 1.0}}, std::nullopt).value(),
+            (DepthMode{512, 424, 30, 1.0}));
+  EXPECT_FALSE(choose_mode({{1920, 1080, 30, 0.1}}, ImageSize{1920, 1080}));
+}
+
 TEST(ModeChoice, IsRefusedWithWhatThereIs) {
   const auto none = choose_mode({{320, 240, 30, 1.0}}, ImageSize{640, 480});
   ASSERT_FALSE(none);
