@@ -152,7 +152,11 @@ std::optional<std::string> ChildProcess::wait(std::chrono::milliseconds limit) {
   if (reaped == 0) return std::nullopt;
   id_ = -1;
   if (reaped < 0) return "has ended";  // where this process is set to have no zombies
-  if (WIFEXITED(status)) return fmt::format("ended with code {}", WEXITSTATUS(status));
+  constexpr int kNotLoaded = 127;      // said by the dynamic linker
+  if (WIFEXITED(status)) {
+    return fmt::format("ended with code {}{}", WEXITSTATUS(status),
+                       WEXITSTATUS(status) == kNotLoaded ? ", for a library of it is missing" : "");
+  }
   const int signal = WTERMSIG(status);
   const char* name = ::sigdescr_np(signal);
   return fmt::format("was ended by signal {} ({})", signal, name != nullptr ? name : "unknown");

@@ -47,6 +47,13 @@ tl::unexpected<Error> no_descriptors() {
 
 Result<std::unique_ptr<OpenniChild>> OpenniChild::launch(const OpenniProgram& program,
                                                          const SensorChoice& choice) {
+  std::vector<std::string> arguments = {"--capture", "--serial", choice.serial};
+  if (choice.size) {
+    arguments.insert(arguments.end(),
+                     {"--size", fmt::format("{}x{}", choice.size->width, choice.size->height)});
+  }
+  auto child = program.with(std::move(arguments));
+  if (!child) return tl::make_unexpected(child.error());
   auto ring = FrameRing::create();
   if (!ring) return tl::make_unexpected(ring.error());
   auto arrival = std::make_unique<WakeUp>();
@@ -55,22 +62,14 @@ Result<std::unique_ptr<OpenniChild>> OpenniChild::launch(const OpenniProgram& pr
       ::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends.data()) != 0) {
     return no_descriptors();
   }
-  const int ours = ends[0];
+  Descriptor ours(ends[0]);
   const Descriptor theirs(ends[1]);
-  std::vector<std::string> arguments = {"--capture", "--serial", choice.serial};
-  if (choice.size) {
-    arguments.insert(arguments.end(),
-                     {"--size", fmt::format("{}x{}", choice.size->width, choice.size->height)});
-  }
-  ChildProgram child = program.with(std::move(arguments));
-  child.descriptors = {ring->descriptor(), theirs.number(), arrival->descriptor()};
-  auto process = ChildProcess::start(child);
-  if (!process) {
-    ::close(ours);
-    return tl::make_unexpected(process.error());
-  }
-  return std::unique_ptr<OpenniChild>(new OpenniChild(std::move(*ring), ours, std::move(*process),
-                                                      std::move(arrival), choice.opening_limit));
+  child->descriptors = {ring->descriptor(), theirs.number(), arrival->descriptor()};
+  auto process = ChildProcess::start(*child);
+  if (!process) return tl::make_unexpected(process.error());
+  return std::unique_ptr<OpenniChild>(new OpenniChild(std::move(*ring), ours.release(),
+                                                      std::move(*process), std::move(arrival),
+                                                      choice.opening_limit));
 }
 
 OpenniChild::~OpenniChild() {

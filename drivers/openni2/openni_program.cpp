@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <system_error>
 
 #include "drivers/files/descriptor.h"
 
@@ -13,13 +15,30 @@ namespace instep {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-ChildProgram OpenniProgram::with(std::vector<std::string> arguments) const {
+namespace {
+
+constexpr const char* kSearchPath = "LD_LIBRARY_PATH";
+
+/// The folder, before those that are searched already.
+std::string searched_first(const std::filesystem::path& folder) {
+  const char* others = std::getenv(kSearchPath);
+  return others == nullptr ? folder.string() : folder.string() + ":" + others;
+}
+
+}  // namespace
+
+Result<ChildProgram> OpenniProgram::with(std::vector<std::string> arguments) const {
   ChildProgram program;
   program.file = file;
   program.arguments = std::move(arguments);
-  if (!library_folder.empty()) {
-    program.environment.emplace_back("LD_LIBRARY_PATH", library_folder.string());
+  if (library_folder.empty()) return program;
+  std::error_code missing;
+  if (!std::filesystem::exists(library_folder / "libOpenNI2.so.0", missing)) {
+    return fail(
+        ErrorCode::kNotFound, "there is no libOpenNI2.so.0 in " + library_folder.string(),
+        "correct library_folder; if the maker calls it libOpenNI2.so, link it to that name");
   }
+  program.environment.emplace_back(kSearchPath, searched_first(library_folder));
   return program;
 }
 
@@ -34,9 +53,10 @@ Result<std::vector<OpenniDevice>> list_openni_devices(const OpenniProgram& progr
   }
   const Descriptor from(ends[0]);
   Descriptor to(ends[1]);
-  ChildProgram child = program.with({"--list"});
-  child.output = to.number();
-  auto process = ChildProcess::start(child);
+  auto child = program.with({"--list"});
+  if (!child) return tl::make_unexpected(child.error());
+  child->output = to.number();
+  auto process = ChildProcess::start(*child);
   if (!process) return tl::make_unexpected(process.error());
   to.close();
 

@@ -18,8 +18,9 @@ struct OpenniProgram {
   /// system's.
   std::filesystem::path library_folder;
 
-  /// It with these arguments, ready to be started.
-  ChildProgram with(std::vector<std::string> arguments) const;
+  /// It with these arguments, ready to be started. Fails with kNotFound if the folder is given but
+  /// has no library in it: the system's would be used instead, and find nothing.
+  Result<ChildProgram> with(std::vector<std::string> arguments) const;
 };
 
 /// The sensors that OpenNI2 sees, each opened for a moment to read its serial number. Those that

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 
 #include "config/settings_file.h"
@@ -50,6 +51,10 @@ struct CameraFault {
   std::string toml;
   const char* text;
 };
+
+void PrintTo(const CameraFault& fault, std::ostream* out) {
+  *out << fault.text;
+}
 
 class CameraSettingsFault : public testing::TestWithParam<CameraFault> {};
 

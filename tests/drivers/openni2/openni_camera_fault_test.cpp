@@ -206,6 +206,20 @@ TEST_F(OpenniFault, HungStartIsATimeoutAndThenANewProcess) {
   EXPECT_TRUE(camera->next_frame(kLong));
 }
 
+TEST_F(OpenniFault, AnInterruptEndsAStart) {
+  bus_.plug_in({.faults = {"hang-start"}});
+  const auto camera = bus_.camera();
+  std::thread other([&] {
+    std::this_thread::sleep_for(100ms);
+    camera->interrupt();
+  });
+  Result<void> started;
+  EXPECT_LT(time_of([&] { started = camera->start(); }), 800ms);
+  other.join();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kCancelled);
+}
+
 TEST_F(OpenniFault, HungOpeningEndsAtItsLimit) {
   bus_.plug_in({.faults = {"hang-open"}});
   auto settings = bus_.settings();

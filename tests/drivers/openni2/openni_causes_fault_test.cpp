@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <functional>
+#include <ostream>
 
 #include "tests/support/openni_bus.h"
 
@@ -18,6 +19,10 @@ struct Cause {
   ErrorCode code;
   const char* said;
 };
+
+void PrintTo(const Cause& cause, std::ostream* out) {
+  *out << cause.name;
+}
 
 class OpenniCause : public testing::TestWithParam<Cause> {};
 
@@ -46,6 +51,15 @@ INSTANTIATE_TEST_SUITE_P(
                 std::filesystem::remove(bus.folder() / "OpenNI2/Drivers/libinstepsim.so.0");
               },
               ErrorCode::kUnsupported, "finds no driver"},
+        Cause{"NoLibrary",
+              [](auto& bus, auto&) { std::filesystem::remove(bus.folder() / "libOpenNI2.so.0"); },
+              ErrorCode::kNotFound, "there is no libOpenNI2.so.0 in"},
+        Cause{"NoLoadableLibrary",
+              [](auto& bus, auto&) {
+                std::filesystem::remove(bus.folder() / "libOpenNI2.so.0");
+                std::ofstream(bus.folder() / "libOpenNI2.so.0") << "no library";
+              },
+              ErrorCode::kDeviceGone, "a library of it is missing"},
         Cause{"NoProgram", [](auto&, auto& settings) { settings.program.file = "/none/at/all"; },
               ErrorCode::kNotFound, "cannot be started"},
         Cause{"OtherProgram", [](auto&, auto& settings) { settings.program.file = "/bin/true"; },
