@@ -11,8 +11,8 @@
 
 namespace instep {
 
-/// A sensor that OpenNI2 drives (Carmine, Xtion, Astra ...), read by a process of its own:
-/// instep-openni, which alone links that library.
+/// A sensor that OpenNI2 drives (Carmine, Xtion, or what a maker's own driver knows), read by a
+/// process of its own: instep-openni, which alone links that library.
 ///
 /// The library can block for ever, crash and deadlock, and keeps state for all sensors of a
 /// process. Therefore each sensor has a process: what goes wrong with one takes no other along, it

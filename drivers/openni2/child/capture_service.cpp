@@ -20,8 +20,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Between two signs of life, with and without a stream; OpenniChild::kSilenceLimit allows for
-/// more.
+/// Between two signs of life, with a stream and without; see OpenniChild::kSilenceLimit.
 constexpr milliseconds kBeat{50};
 constexpr milliseconds kIdleBeat{200};
 
@@ -41,9 +40,7 @@ class CaptureService {
       auto step = streaming_ ? read_frame(**sensor) : (*sensor)->look();
       if (step) step = obey(**sensor);
       if (!step) {
-        // To close a sensor that has gone or hangs may crash or hang; the end of the process does
-        // it.
-        static_cast<void>(sensor->release());
+        leave_open(*sensor);
         return step;
       }
     }
@@ -63,9 +60,17 @@ class CaptureService {
     auto sensor = find_sensor(choice.serial);
     if (!sensor) return sensor;
     auto opened = (*sensor)->set_up(choice.size);
-    if (!opened) return tl::make_unexpected(opened.error());
+    if (!opened) {
+      leave_open(*sensor);
+      return tl::make_unexpected(opened.error());
+    }
     say(*opened);
     return sensor;
+  }
+
+  /// To close a sensor that has gone or is ill may crash or hang; the end of the process does it.
+  static void leave_open(std::unique_ptr<DepthSensor>& sensor) {
+    static_cast<void>(sensor.release());
   }
 
   Result<void> read_frame(DepthSensor& sensor) {
