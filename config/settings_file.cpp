@@ -43,6 +43,7 @@ void read_capture(SettingsTable& table, CaptureSettings& capture) {
   table.read("warmup_frames", capture.warmup_frames, 0, 120);
   table.read("deadline_ms", capture.deadline, 200, 60000);
   table.read("frame_limit_ms", capture.frame_limit, 50, 10000);
+  table.read("one_at_a_time", capture.one_at_a_time);
   table.read("check_every_s", capture.check_every, 1, 3600);
 }
 

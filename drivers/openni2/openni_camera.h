@@ -24,7 +24,7 @@ namespace instep {
 /// The image is set to 640x480, or the size of the intrinsics, in the finest depth unit, not
 /// mirrored, its holes not filled, not projected into the colour camera, for close range where the
 /// sensor has one; all but the last are read back, and a sensor that does otherwise is refused.
-/// Projectors are not switched in turn: sensors whose patterns overlap have to be kept apart.
+/// The projector is on while the stream runs, and for some 50 ms after stop().
 ///
 /// A frame is kCorrupt if its size or format is not that of the mode or a value is larger than the
 /// sensor says it can be, and kIncomplete if it has too little data. DepthFrame::sequence is the
