@@ -1,12 +1,15 @@
 #include "drivers/openni2/child/sensor_search.h"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
+#include <climits>
 #include <cstdlib>
 #include <optional>
 #include <thread>
@@ -21,6 +24,17 @@ std::string with_serials(const std::vector<std::string>& serials) {
     text += (text.empty() ? "" : ", ") + (serial.empty() ? "one without a number" : serial);
   }
   return "there is " + text;
+}
+
+/// Where OpenNI2 was loaded from: those who load the same one see the same sensors. This program's
+/// own file where that cannot be told.
+std::string library_folder() {
+  std::array<char, PATH_MAX> folder{};
+  void* library = ::dlopen("libOpenNI2.so.0", RTLD_NOLOAD | RTLD_LAZY);
+  if (library == nullptr) return "/proc/self/exe";
+  const bool known = ::dlinfo(library, RTLD_DI_ORIGIN, folder.data()) == 0;
+  ::dlclose(library);
+  return known ? folder.data() : "/proc/self/exe";
 }
 
 /// The number of a sensor on its bus grows with each plugging in: the last one that came is most
@@ -41,8 +55,8 @@ Result<SearchTurn> SearchTurn::wait() {
   constexpr std::chrono::seconds kLimit{8};
   constexpr std::chrono::milliseconds kPause{10};
   const auto deadline = steady_clock::now() + kLimit;
-  // The program's own file is there wherever it runs, and the kernel unlocks it when it ends.
-  auto lock = std::make_unique<Descriptor>(::open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
+  // It needs no file of its own, and the kernel unlocks it when the process ends.
+  auto lock = std::make_unique<Descriptor>(::open(library_folder().c_str(), O_RDONLY | O_CLOEXEC));
   // Where there is no locking (a network's file system), nobody waits.
   while (::flock(lock->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     if (steady_clock::now() > deadline) {

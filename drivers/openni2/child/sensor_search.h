@@ -10,8 +10,8 @@
 
 namespace instep {
 
-/// Only one process at a time opens sensors to see which they are: two that look for theirs would
-/// find each other's busy. Held while the object lives.
+/// Only one process at a time opens sensors of one OpenNI2 library to see which they are: two that
+/// look for theirs would find each other's busy. Held while the object lives.
 class SearchTurn {
  public:
   /// Waits for it; fails with kTimeout after 8 s, when somebody hangs.
