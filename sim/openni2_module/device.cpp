@@ -1,4 +1,7 @@
 #include <Driver/OniDriverAPI.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cstring>
@@ -11,12 +14,14 @@ namespace {
 
 class Device final : public oni::driver::DeviceBase {
  public:
-  explicit Device(std::shared_ptr<const Plug> plug)
-      : plug_(std::move(plug)), modes_(sensor_modes(plug_->device())) {
+  Device(std::shared_ptr<const Plug> plug, int hold)
+      : plug_(std::move(plug)), hold_(hold), modes_(sensor_modes(plug_->device())) {
     sensor_.sensorType = ONI_SENSOR_DEPTH;
     sensor_.numSupportedVideoModes = static_cast<int>(modes_.size());
     sensor_.pSupportedVideoModes = modes_.data();
   }
+
+  ~Device() override { ::close(hold_); }
 
   OniStatus getSensorInfoList(OniSensorInfo** sensors, int* count) override {
     *sensors = &sensor_;
@@ -67,6 +72,7 @@ class Device final : public oni::driver::DeviceBase {
 
  private:
   const std::shared_ptr<const Plug> plug_;
+  const int hold_;
   std::vector<OniVideoMode> modes_;
   OniSensorInfo sensor_{};
   std::atomic<bool> registered_ = true;
@@ -75,7 +81,14 @@ class Device final : public oni::driver::DeviceBase {
 }  // namespace
 
 std::unique_ptr<oni::driver::DeviceBase> make_device(std::shared_ptr<const Plug> plug) {
-  return std::make_unique<Device>(std::move(plug));
+  // The kernel lets go of it when the process ends, as it does of a sensor.
+  const auto hold = plug->device().frames.string() + ".in-use";
+  const int descriptor = ::open(hold.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    ::close(descriptor);
+    return nullptr;
+  }
+  return std::make_unique<Device>(std::move(plug), descriptor);
 }
 
 }  // namespace instep

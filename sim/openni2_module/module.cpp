@@ -6,6 +6,7 @@
 //     corrupt         values beyond the sensor's      short     a third of the data is missing
 //     wrong-size      half the width                  overheat  the device says that it is too hot
 //     crash           ends the process (abort)        busy      cannot be opened
+//     slow-open       takes 50 ms to open
 //     hang-open, hang-start, hang-stop                never come back
 //     keep-mirror, keep-holes, keep-mode, keep-registration
 //                     takes the setting, but does not do it
@@ -82,11 +83,10 @@ class Module final : public oni::driver::DriverBase {
     if (plug->has("hang-open")) {
       while (true) std::this_thread::sleep_for(std::chrono::hours(1));
     }
-    if (plug->has("busy")) {
-      getServices().errorLoggerAppend("the simulated sensor is held by somebody else");
-      return nullptr;
-    }
-    return make_device(plug).release();
+    auto device = plug->has("busy") ? nullptr : make_device(plug);
+    if (plug->has("slow-open")) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (!device) getServices().errorLoggerAppend("the simulated sensor is held by somebody else");
+    return device.release();
   }
 
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }

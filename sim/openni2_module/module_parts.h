@@ -14,7 +14,8 @@ namespace instep {
 
 /// The parts of the driver module, each behind the base class that the OpenNI2 library calls.
 
-/// An opened sensor; made and deleted as the library asks.
+/// An opened sensor; made and deleted as the library asks. Nothing while another process has it, or
+/// this one has it open already, as with a real one.
 std::unique_ptr<oni::driver::DeviceBase> make_device(std::shared_ptr<const Plug> plug);
 
 /// Its depth stream, which sends 30 images a second. As out of the box of a PrimeSense sensor it

@@ -23,6 +23,7 @@ std::string extended_error() {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   text.erase(text.find_last_not_of(" .") + 1);
+  text.erase(0, text.find_first_not_of(' '));
   return text.empty() ? "OpenNI2 does not say why" : text;
 }
 

@@ -18,12 +18,22 @@ namespace instep {
 namespace {
 
 std::string with_serials(const std::vector<std::string>& serials) {
-  if (serials.empty()) return "there is none";
+  if (serials.empty()) return "there is no other";
   std::string text;
   for (const auto& serial : serials) {
     text += (text.empty() ? "" : ", ") + (serial.empty() ? "one without a number" : serial);
   }
   return "there is " + text;
+}
+
+tl::unexpected<Error> not_found(const std::string& serial, const std::vector<std::string>& others,
+                                const std::optional<Error>& trouble) {
+  const std::string wanted =
+      serial.empty() ? "no OpenNI2 sensor is" : "the OpenNI2 sensor " + serial + " is not";
+  return fail(ErrorCode::kNotFound, Remedy::kReopen,
+              fmt::format("{} plugged in ({}{})", wanted, with_serials(others),
+                          trouble ? ", and " + trouble->message : ""),
+              "plug it in, or correct its serial number in the settings");
 }
 
 /// Where OpenNI2 was loaded from: those who load the same one see the same sensors. This program's
@@ -96,12 +106,12 @@ Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial) {
     }
   }
   if (found) return found;
-  if (first_trouble) return tl::make_unexpected(*first_trouble);
-  const std::string wanted =
-      serial.empty() ? "no OpenNI2 sensor is" : "the OpenNI2 sensor " + serial + " is not";
-  return fail(ErrorCode::kNotFound, Remedy::kReopen,
-              fmt::format("{} plugged in ({})", wanted, with_serials(others)),
-              "plug it in, or correct its serial number in the settings");
+  // Of one that cannot be opened it is not known whether it is the one.
+  const bool said_all = places.size() == 1 || serial.empty();
+  if (first_trouble && (said_all || first_trouble->code == ErrorCode::kPermissionDenied)) {
+    return tl::make_unexpected(*first_trouble);
+  }
+  return not_found(serial, others, first_trouble);
 }
 
 std::vector<OpenniDevice> list_sensors() {

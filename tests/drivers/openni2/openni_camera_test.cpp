@@ -139,6 +139,24 @@ TEST(OpenniCamera, TakesTheOnlySensorIfNoneIsNamed) {
   EXPECT_THAT(unclear.error().line(), HasSubstr("instep-openni --list"));
 }
 
+TEST(OpenniCamera, OpensBesideOthersThatLookForTheirsAtTheSameTime) {
+  // A sensor tells its number only once it is open, and is open for one process only.
+  OpenniBus bus;
+  const std::vector<std::string> serials = {"A1", "B2", "C3", "D4"};
+  for (const auto& serial : serials) bus.plug_in({.serial = serial, .faults = {"slow-open"}});
+  std::vector<Result<std::unique_ptr<OpenniCamera>>> cameras(serials.size());
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < serials.size(); ++i) {
+    threads.emplace_back([&, i] { cameras[i] = OpenniCamera::open(bus.settings(serials[i])); });
+  }
+  for (auto& thread : threads) thread.join();
+  for (std::size_t i = 0; i < serials.size(); ++i) {
+    ASSERT_TRUE(cameras[i]) << cameras[i].error().line();
+    EXPECT_EQ((*cameras[i])->description().serial, serials[i]);
+  }
+  EXPECT_FALSE(OpenniCamera::open(bus.settings("A1")));
+}
+
 TEST(OpenniCamera, IsKnownToBeSimulated) {
   OpenniBus bus;
   bus.plug_in({});

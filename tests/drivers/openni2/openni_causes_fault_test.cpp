@@ -41,9 +41,17 @@ TEST_P(OpenniCause, IsNamed) {  // D15
 INSTANTIATE_TEST_SUITE_P(
     All, OpenniCause,
     testing::Values(
-        Cause{"NoSensor", [](auto&, auto&) {}, ErrorCode::kNotFound, "there is none"},
+        Cause{"NoSensor", [](auto&, auto&) {}, ErrorCode::kNotFound,
+              "A1 is not plugged in (there is no other)"},
         Cause{"OtherSensor", [](auto& bus, auto&) { bus.plug_in({.serial = "B2"}); },
               ErrorCode::kNotFound, "A1 is not plugged in (there is B2)"},
+        Cause{"OneOfThoseInUse",
+              [](auto& bus, auto&) {
+                bus.plug_in({.serial = "B2"});
+                bus.plug_in({.serial = "C3", .faults = {"busy"}});
+              },
+              ErrorCode::kNotFound,
+              "A1 is not plugged in (there is B2, and the sensor at sim://1/2"},
         Cause{"Busy", [](auto& bus, auto&) { bus.plug_in({.faults = {"busy"}}); }, ErrorCode::kBusy,
               "held by somebody else"},
         Cause{"NoDriver",
@@ -75,9 +83,12 @@ INSTANTIATE_TEST_SUITE_P(
         Cause{"TwoOfOneSerial",  // D21
               [](auto& bus, auto&) {
                 bus.plug_in({.serial = "A1"});
+                const auto images = bus.folder() / "twin.raw";
+                std::filesystem::copy_file(bus.folder() / "A1.raw", images);
                 const auto file = bus.folder() / "bus/twin.device";
                 std::filesystem::copy_file(bus.folder() / "bus/A1.device", file);
-                std::ofstream(file, std::ios::app) << "uri sim://2/1\n";
+                std::ofstream(file, std::ios::app)
+                    << "uri sim://2/1\nframes " << images.string() << '\n';
               },
               ErrorCode::kInvalidInput, "two OpenNI2 sensors have the serial number A1"}),
     [](const auto& cause) { return std::string(cause.param.name); });
