@@ -8,6 +8,7 @@ namespace {
 std::string describe_camera(const CameraSettings& camera,
                             const SimulatedStationSettings& simulation) {
   if (camera.kind == CameraKind::kRecording) return "the recording " + camera.path.string();
+  if (camera.kind == CameraKind::kOpenni) return describe(camera.openni);
   return fmt::format("{} simulated", simulation.cameras);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/openni_settings.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
@@ -30,6 +31,8 @@ struct CaptureSettings {
   int warmup_frames = 3;                        ///< dropped before the first one counts, 0 to 120
   std::chrono::milliseconds deadline{5000};     ///< for the whole capture, 200 to 60000
   std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 10000
+  /// The cameras take turns, for those whose projectors disturb each other.
+  bool one_at_a_time = false;
   std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
 };
 
@@ -43,11 +46,12 @@ struct PedalSettings {
 };
 
 /// Where depth frames come from. One source may bring several cameras.
-enum class CameraKind { kSimulated, kRecording };
+enum class CameraKind { kSimulated, kRecording, kOpenni };
 
 struct CameraSettings {
   CameraKind kind = CameraKind::kSimulated;
   std::filesystem::path path;  ///< of a recording: its folder
+  OpenniSettings openni;       ///< of kOpenni
 };
 
 enum class SimulatedNoise { kNone, kTypical, kPessimistic };

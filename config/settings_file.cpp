@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include "config/settings_table.h"
@@ -42,6 +43,7 @@ void read_capture(SettingsTable& table, CaptureSettings& capture) {
   table.read("warmup_frames", capture.warmup_frames, 0, 120);
   table.read("deadline_ms", capture.deadline, 200, 60000);
   table.read("frame_limit_ms", capture.frame_limit, 50, 10000);
+  table.read("one_at_a_time", capture.one_at_a_time);
   table.read("check_every_s", capture.check_every, 1, 3600);
 }
 
@@ -57,8 +59,11 @@ CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& ba
                            SettingsFaults& faults) {
   CameraSettings camera;
   table.choose("kind", camera.kind,
-               {{"simulated", CameraKind::kSimulated}, {"recording", CameraKind::kRecording}});
+               {{"simulated", CameraKind::kSimulated},
+                {"recording", CameraKind::kRecording},
+                {"openni2", CameraKind::kOpenni}});
   table.read("path", camera.path, base);
+  if (camera.kind == CameraKind::kOpenni) camera.openni = read_openni_settings(table, base, faults);
   if (camera.kind == CameraKind::kRecording && camera.path.empty()) {
     faults.add(table.line(), "camera.path is missing: name the folder of the recording");
   }
@@ -154,12 +159,24 @@ void read_log(SettingsTable& table, LogSettings& log) {
                 {"error", LogLevel::kError}});
 }
 
+/// Two processes cannot have one sensor, and two that take the only one would.
+void check_openni_serials(const std::vector<CameraSettings>& cameras, SettingsFaults& faults) {
+  std::set<std::string> serials;
+  for (const CameraSettings& camera : cameras) {
+    if (camera.kind != CameraKind::kOpenni || serials.insert(camera.openni.serial).second) continue;
+    faults.add(1, camera.openni.serial.empty()
+                      ? "two [[camera]] of kind \"openni2\" have no serial: give each its own"
+                      : "two [[camera]] have the serial " + camera.openni.serial);
+  }
+}
+
 void read_cameras(SettingsTable& root, std::vector<CameraSettings>& cameras,
                   const std::filesystem::path& base, SettingsFaults& faults) {
   for (const toml::table* camera : root.tables("camera")) {
     SettingsTable table(*camera, "camera", faults);
     cameras.push_back(read_camera(table, base, faults));
   }
+  check_openni_serials(cameras, faults);
   if (cameras.empty()) {
     faults.add(1, "there is no [[camera]]: add one, such as kind = \"simulated\"");
   }

@@ -8,6 +8,7 @@ packages=(
   libeigen3-dev libnanoflann-dev libexpected-dev
   libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   libpng-dev libassimp-dev libsystemd-dev
+  libopenni2-dev
   libgtest-dev libgmock-dev
   librsvg2-bin  # a program, not a library: prints a report as PDF
 )

@@ -82,6 +82,17 @@ struct CameraSet::Gathering {
   std::condition_variable changed;
   std::vector<std::optional<Result<Frames>>> brought;
 
+  /// Returns when the camera before this one has brought its frames; false if they are no longer
+  /// wanted.
+  bool wait_for_turn(std::size_t camera, TaskProgress& progress) {
+    std::unique_lock lock(mutex);
+    while (!cancelled && camera > 0 && !brought[camera - 1]) {
+      changed.wait_for(lock, milliseconds(20));
+      progress.step();
+    }
+    return !cancelled;
+  }
+
   void bring(std::size_t camera, Result<Frames> frames) {
     const std::lock_guard lock(mutex);
     brought[camera] = std::move(frames);
@@ -138,6 +149,9 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     workers_[i]->thread->post(
         [gathering, i, settings, camera = workers_[i]->camera](TaskProgress& progress) {
+          if (settings.one_at_a_time && !gathering->wait_for_turn(i, progress)) {
+            return gathering->bring(i, cancelled());
+          }
           Result<Frames> frames = camera->start().and_then(
               [&] { return take_frames(*camera, settings, gathering->cancelled, progress); });
           camera->stop();

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "config/settings_search.h"
+#include "drivers/openni2/openni_camera.h"
 #include "drivers/recording/recording_camera.h"
 #include "drivers/recording/recording_reader.h"
 #include "sim/fault_script.h"
@@ -99,6 +101,25 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
   return {};
 }
 
+Result<void> add_openni(const OpenniSettings& chosen, Devices& devices) {
+  OpenniCamera::Settings settings;
+  settings.name = chosen.placement.name;
+  settings.serial = chosen.serial;
+  settings.station_from_camera = chosen.placement.station_from_camera;
+  settings.intrinsics = chosen.placement.intrinsics;
+  settings.program = {running_program_folder() / "instep-openni", chosen.library_folder};
+  auto camera = OpenniCamera::open(std::move(settings));
+  if (!camera) {
+    Error error = camera.error();
+    error.message = "camera " + chosen.placement.name + ": " + error.message;
+    return tl::make_unexpected(error);
+  }
+  devices.simulated = devices.simulated || (*camera)->description().simulated;
+  devices.calibration = "as the settings say";
+  devices.cameras.push_back(std::move(*camera));
+  return {};
+}
+
 /// Frames are told apart by their camera's name.
 Result<void> check_names(const Devices& devices) {
   std::set<std::string> names;
@@ -133,6 +154,9 @@ Result<Devices> open_devices(const Settings& settings) {
         break;
       case CameraKind::kRecording:
         added = add_recording(camera.path, devices);
+        break;
+      case CameraKind::kOpenni:
+        added = add_openni(camera.openni, devices);
         break;
     }
     if (!added) return tl::make_unexpected(added.error());

@@ -20,6 +20,9 @@ class Descriptor {
   int number() const { return number_; }
   bool is_open() const { return number_ >= 0; }
 
+  /// Hands it to somebody else, who has to close it.
+  int release() { return std::exchange(number_, -1); }
+
   /// Closes now, since that may report an error of an earlier write.
   bool close() { return ::close(std::exchange(number_, -1)) == 0; }
 

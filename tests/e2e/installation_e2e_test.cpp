@@ -65,9 +65,9 @@ class Installation : public testing::Test {
 };
 
 TEST_F(Installation, PutsEverythingBelowItsPrefix) {
-  for (const auto* file :
-       {"bin/instepd", "bin/instep", "etc/instep/instep.toml", "lib/systemd/system/instepd.service",
-        "lib/sysusers.d/instep.conf", "lib/tmpfiles.d/instep.conf"}) {
+  for (const auto* file : {"bin/instepd", "bin/instep", "bin/instep-openni",
+                           "etc/instep/instep.toml", "lib/systemd/system/instepd.service",
+                           "lib/sysusers.d/instep.conf", "lib/tmpfiles.d/instep.conf"}) {
     EXPECT_TRUE(fs::is_regular_file(prefix() / file)) << file;
   }
   EXPECT_THAT(bytes_of(unit()),

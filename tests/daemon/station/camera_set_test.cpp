@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -149,6 +150,72 @@ TEST(CameraSet, StopsWithinASecondWhenCancelled) {
   EXPECT_LT(steady_clock::now() - begun, 1s);
   ASSERT_FALSE(frames);
   EXPECT_EQ(frames.error().code, ErrorCode::kCancelled);
+}
+
+/// Notes the most cameras that stream at a time. Each gives the others some time to join in.
+class CountedCamera : public ScriptedCamera {
+ public:
+  struct Count {
+    std::mutex mutex;
+    std::condition_variable changed;
+    int streaming = 0;
+    int most = 0;
+  };
+
+  CountedCamera(const std::string& id, std::deque<Step> script, std::shared_ptr<Count> count)
+      : ScriptedCamera(id, std::move(script)), count_(std::move(count)) {}
+
+  Result<void> start() override {
+    const std::lock_guard lock(count_->mutex);
+    count_->most = std::max(count_->most, ++count_->streaming);
+    count_->changed.notify_all();
+    return ScriptedCamera::start();
+  }
+  Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
+    std::unique_lock lock(count_->mutex);
+    count_->changed.wait_for(lock, 10ms, [this] { return count_->most > 1; });
+    lock.unlock();
+    return ScriptedCamera::next_frame(limit);
+  }
+  void stop() override {
+    const std::lock_guard lock(count_->mutex);
+    --count_->streaming;
+  }
+
+ private:
+  std::shared_ptr<Count> count_;
+};
+
+TEST(CameraSet, SequentialCaptureMode) {
+  const auto count = std::make_shared<CountedCamera::Count>();
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  for (const auto* id : {"front", "left", "back", "right"}) {
+    all.push_back(std::make_unique<CountedCamera>(
+        id, std::deque<Step>{Step::kGood, Step::kGood, Step::kCorrupt}, count));
+  }
+  CameraSet set(std::move(all));
+  auto in_turn = settings();
+  in_turn.deadline = 5s;
+  in_turn.one_at_a_time = true;
+  const auto frames = set.capture(in_turn, go_on);
+  ASSERT_TRUE(frames) << frames.error().line();
+  EXPECT_EQ(frames->size(), 20U);
+  EXPECT_EQ(count->most, 1);
+}
+
+TEST(CameraSet, EndsTurnsWhenACameraFailsOrTheScanIsStopped) {
+  const auto set = cameras(std::deque<Step>(20, Step::kTimeout), {});
+  auto in_turn = settings();
+  in_turn.one_at_a_time = true;
+  const auto frames = set->capture(in_turn, go_on);
+  ASSERT_FALSE(frames);
+  EXPECT_THAT(frames.error().message, testing::HasSubstr("camera left"));
+  EXPECT_EQ(frames.error().message.find("right"), std::string::npos);
+  in_turn.frame_limit = 10s;
+  in_turn.deadline = 60s;
+  const auto begun = steady_clock::now();
+  EXPECT_FALSE(set->capture(in_turn, [] { return false; }));
+  EXPECT_LT(steady_clock::now() - begun, 1s);
 }
 
 TEST(CameraSet, ReportsEachCameraWhenChecked) {

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "drivers/files/descriptor.h"
+#include "drivers/openni2/child/depth_sensor.h"
+
+namespace instep {
+
+/// Only one process at a time opens sensors of one OpenNI2 library to see which they are: two that
+/// look for theirs would find each other's busy. Held while the object lives.
+class SearchTurn {
+ public:
+  /// Waits for it; fails with kTimeout after 8 s, when somebody hangs.
+  static Result<SearchTurn> wait();
+
+ private:
+  explicit SearchTurn(std::unique_ptr<Descriptor> lock) : lock_(std::move(lock)) {}
+  std::unique_ptr<Descriptor> lock_;
+};
+
+/// Opens the sensor of this serial number; with none, the only one there is. Fails with kNotFound
+/// if it is not there, naming those that are, kInvalidInput if several have the number, or with
+/// what kept it from being opened if it may be one of those.
+Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial);
+
+/// All sensors, each opened for a moment.
+std::vector<OpenniDevice> list_sensors();
+
+}  // namespace instep

@@ -1,0 +1,165 @@
+#include "drivers/openni2/child_process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+#include "drivers/files/descriptor.h"
+
+namespace instep {
+namespace {
+
+constexpr int kFirstInherited = 3;
+constexpr std::chrono::milliseconds kReapingLimit{500};
+
+std::vector<std::string> environment_of(const ChildProgram& program) {
+  std::vector<std::string> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string text = *variable;
+    const bool replaced =
+        std::any_of(program.environment.begin(), program.environment.end(),
+                    [&](const auto& other) { return text.rfind(other.first + "=", 0) == 0; });
+    if (!replaced) variables.push_back(text);
+  }
+  for (const auto& [name, value] : program.environment) variables.push_back(name + "=" + value);
+  return variables;
+}
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (auto& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// What the program finds: its descriptors, and no signal blocked or ignored, whatever this thread
+/// does.
+class Surroundings {
+ public:
+  explicit Surroundings(const ChildProgram& program) {
+    ::posix_spawn_file_actions_init(&actions_);
+    ::posix_spawnattr_init(&attributes_);
+    open_null(STDIN_FILENO, O_RDONLY);
+    if (program.output) {
+      ::posix_spawn_file_actions_adddup2(&actions_, *program.output, STDOUT_FILENO);
+    } else {
+      open_null(STDOUT_FILENO, O_WRONLY);
+    }
+    int next = kFirstInherited;
+    for (const int descriptor : program.descriptors) inherit(descriptor, next++);
+    ::posix_spawn_file_actions_addclosefrom_np(&actions_, next);
+    set_plain_signals();
+  }
+  ~Surroundings() {
+    ::posix_spawnattr_destroy(&attributes_);
+    ::posix_spawn_file_actions_destroy(&actions_);
+  }
+  Surroundings(const Surroundings&) = delete;
+  Surroundings& operator=(const Surroundings&) = delete;
+
+  const posix_spawn_file_actions_t* actions() const { return &actions_; }
+  const posix_spawnattr_t* attributes() const { return &attributes_; }
+
+ private:
+  void open_null(int as, int how) {
+    ::posix_spawn_file_actions_addopen(&actions_, as, "/dev/null", how, 0);
+  }
+
+  /// By way of a copy above all the numbers that are given, so that none is overwritten before its
+  /// turn.
+  void inherit(int descriptor, int as) {
+    constexpr int kAbove = 64;
+    copies_.push_back(std::make_unique<Descriptor>(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove)));
+    ::posix_spawn_file_actions_adddup2(&actions_, copies_.back()->number(), as);
+  }
+
+  void set_plain_signals() {
+    sigset_t none;
+    sigset_t all;
+    ::sigemptyset(&none);
+    ::sigfillset(&all);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setsigdefault(&attributes_, &all);
+    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+
+  posix_spawn_file_actions_t actions_{};
+  posix_spawnattr_t attributes_{};
+  std::vector<std::unique_ptr<Descriptor>> copies_;
+};
+
+Error start_error(int number, const ChildProgram& program) {
+  const std::string what = fmt::format("{} cannot be started ({})", program.file.string(),
+                                       std::generic_category().message(number));
+  switch (number) {
+    case ENOENT:
+      return fail(ErrorCode::kNotFound, what, "install it beside instepd").value();
+    case EACCES:
+      return fail(ErrorCode::kPermissionDenied, what, "let the user of the station run it").value();
+    default:
+      return fail(ErrorCode::kIo, Remedy::kRetry, what, "free some memory or processes").value();
+  }
+}
+
+}  // namespace
+
+Result<ChildProcess> ChildProcess::start(const ChildProgram& program) {
+  const Surroundings surroundings(program);
+  std::vector<std::string> words = program.arguments;
+  words.insert(words.begin(), program.file.filename().string());
+  std::vector<std::string> variables = environment_of(program);
+  pid_t id = -1;
+  const int failure =
+      ::posix_spawn(&id, program.file.c_str(), surroundings.actions(), surroundings.attributes(),
+                    pointers_to(words).data(), pointers_to(variables).data());
+  if (failure != 0) return tl::make_unexpected(start_error(failure, program));
+  const int descriptor = static_cast<int>(::syscall(SYS_pidfd_open, id, 0));
+  const int why_not = errno;
+  ChildProcess child(id, descriptor);
+  if (descriptor < 0) return tl::make_unexpected(start_error(why_not, program));
+  return child;
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept
+    : id_(std::exchange(other.id_, -1)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+ChildProcess::~ChildProcess() {
+  if (id_ > 0) {
+    ::kill(id_, SIGKILL);
+    wait(kReapingLimit);
+  }
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+std::optional<std::string> ChildProcess::wait(std::chrono::milliseconds limit) {
+  if (id_ <= 0) return "has ended";
+  pollfd waited{descriptor_, POLLIN, 0};
+  while (::poll(&waited, 1, static_cast<int>(limit.count())) < 0 && errno == EINTR) continue;
+  // Readable, it has ended, and waiting for it does not block but for the kernel's last touch.
+  int status = 0;
+  const pid_t reaped = ::waitpid(id_, &status, waited.revents != 0 ? 0 : WNOHANG);
+  if (reaped == 0) return std::nullopt;
+  id_ = -1;
+  if (reaped < 0) return "has ended";  // where this process is set to have no zombies
+  constexpr int kNotLoaded = 127;      // said by the dynamic linker
+  if (WIFEXITED(status)) {
+    return fmt::format("ended with code {}{}", WEXITSTATUS(status),
+                       WEXITSTATUS(status) == kNotLoaded ? ", for a library of it is missing" : "");
+  }
+  const int signal = WTERMSIG(status);
+  const char* name = ::sigdescr_np(signal);
+  return fmt::format("was ended by signal {} ({})", signal, name != nullptr ? name : "unknown");
+}
+
+}  // namespace instep

@@ -1,0 +1,388 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <functional>
+#include <thread>
+
+#include "tests/support/openni_bus.h"
+
+/// What goes wrong with real sensors and their driver, made to go wrong behind the stock library.
+namespace instep::test {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::steady_clock;
+using testing::HasSubstr;
+
+constexpr auto kLong = 20000ms;
+/// What a call may take beyond its own limit on a busy machine.
+constexpr auto kSlack = 700ms;
+
+steady_clock::duration time_of(const std::function<void()>& work) {
+  const auto begin = steady_clock::now();
+  work();
+  return steady_clock::now() - begin;
+}
+
+/// The next failure of a streaming camera.
+Error next_failure(DepthCamera& camera, std::chrono::milliseconds limit = kLong) {
+  while (true) {
+    const auto frame = camera.next_frame(limit);
+    if (!frame) return frame.error();
+  }
+}
+
+/// Starts as often as it takes, as the daemon does; the last failure if it never works.
+Result<void> start_at_last(DepthCamera& camera) {
+  Result<void> started = camera.start();
+  const auto deadline = steady_clock::now() + kLong;
+  while (!started && steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(10ms);
+    started = camera.start();
+  }
+  return started;
+}
+
+/// The same until a frame has come: a camera may have started before it learns that it is gone.
+Result<DepthFrame> frame_at_last(DepthCamera& camera) {
+  Result<DepthFrame> frame;
+  for (int tries = 0; tries < 10; ++tries) {
+    frame = start_at_last(camera).and_then([&] { return camera.next_frame(kLong); });
+    if (frame) break;
+  }
+  return frame;
+}
+
+class OpenniFault : public testing::Test {
+ protected:
+  std::unique_ptr<OpenniCamera> streaming_camera() {
+    bus_.plug_in({});
+    auto camera = bus_.camera();
+    EXPECT_TRUE(camera->start());
+    EXPECT_TRUE(camera->next_frame(kLong));
+    return camera;
+  }
+  void fail_with(const std::string& fault) { bus_.set_faults("A1", {fault}); }
+
+  OpenniBus bus_;
+};
+
+TEST_F(OpenniFault, ReopensAfterReplug) {  // D1
+  auto camera = streaming_camera();
+  for (int round = 0; round < 20; ++round) {
+    bus_.unplug("A1");
+    EXPECT_EQ(next_failure(*camera).code, ErrorCode::kDeviceGone);
+    bus_.plug_in({});
+    const auto took = time_of([&] { ASSERT_TRUE(start_at_last(*camera)); });
+    EXPECT_LT(took, 3s);
+    ASSERT_TRUE(camera->next_frame(kLong));
+  }
+  EXPECT_EQ(child_processes().size(), 1U);
+}
+
+TEST_F(OpenniFault, UnplugAtEveryCallBoundary) {  // D2
+  const std::vector<std::function<void(DepthCamera&)>> calls = {
+      [](DepthCamera& camera) { camera.start(); },
+      [](DepthCamera& camera) { camera.start(); },
+      [](DepthCamera& camera) { camera.next_frame(kLong); },
+      [](DepthCamera& camera) { camera.next_frame(0ms); },
+      [](DepthCamera& camera) { camera.stop(); },
+      [](DepthCamera& camera) { camera.stop(); },
+      [](DepthCamera& camera) { camera.start(); },
+      [](DepthCamera& camera) { camera.interrupt(); }};
+  for (std::size_t boundary = 0; boundary <= calls.size(); ++boundary) {
+    bus_.plug_in({});
+    const auto camera = bus_.camera();
+    for (std::size_t i = 0; i < calls.size(); ++i) {
+      if (i == boundary) bus_.unplug("A1");
+      EXPECT_LT(time_of([&] { calls[i](*camera); }), 1s + kSlack) << boundary << " " << i;
+    }
+    bus_.plug_in({});
+    EXPECT_TRUE(frame_at_last(*camera)) << boundary;
+  }
+  EXPECT_TRUE(child_processes().empty());
+}
+
+TEST_F(OpenniFault, UnplugEndsAWaitAtOnce) {  // D3: the library itself only lets it time out
+  auto camera = streaming_camera();
+  fail_with("stall");
+  while (camera->next_frame(100ms)) continue;
+  std::thread other([&] {
+    std::this_thread::sleep_for(100ms);
+    bus_.unplug("A1");
+  });
+  const auto took = time_of([&] {
+    const auto frame = camera->next_frame(kLong);
+    ASSERT_FALSE(frame);
+    EXPECT_EQ(frame.error().code, ErrorCode::kDeviceGone);
+    EXPECT_EQ(frame.error().remedy, Remedy::kReopen);
+  });
+  other.join();
+  EXPECT_LT(took, 1s);
+}
+
+TEST_F(OpenniFault, NeverBlocksLongerThanDeadline) {  // D4
+  for (const auto* fault : {"stall", "slow"}) {
+    auto camera = streaming_camera();
+    fail_with(fault);
+    for (const int limit_ms : {0, 1, 20, 100, 250}) {
+      const auto limit = std::chrono::milliseconds(limit_ms);
+      EXPECT_LT(time_of([&] { camera->next_frame(limit); }), limit + kSlack) << fault;
+    }
+    camera.reset();
+    bus_.unplug("A1");
+  }
+}
+
+TEST_F(OpenniFault, StopWhileWaitingReturnsWithin1s) {  // D5
+  auto camera = streaming_camera();
+  fail_with("stall");
+  while (camera->next_frame(100ms)) continue;
+  steady_clock::time_point asked;
+  std::thread other([&] {
+    std::this_thread::sleep_for(50ms);
+    asked = steady_clock::now();
+    camera->interrupt();
+  });
+  EXPECT_EQ(next_failure(*camera).code, ErrorCode::kCancelled);
+  camera->stop();
+  const auto done = steady_clock::now();
+  other.join();
+  EXPECT_LT(done - asked, 1s);
+}
+
+TEST_F(OpenniFault, StallIsATimeoutThatEnds) {  // D6, from the driver's side
+  auto camera = streaming_camera();
+  fail_with("stall");
+  EXPECT_EQ(next_failure(*camera, 200ms).code, ErrorCode::kTimeout);
+  EXPECT_EQ(next_failure(*camera, 200ms).remedy, Remedy::kRetry);
+  bus_.set_faults("A1", {});
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
+TEST_F(OpenniFault, HungStopIsAbandoned) {  // D7
+  auto camera = streaming_camera();
+  fail_with("hang-stop");
+  std::this_thread::sleep_for(50ms);
+  EXPECT_LT(time_of([&] { camera->stop(); }), 1s);
+  std::this_thread::sleep_for(200ms);  // it hangs by now
+  bus_.set_faults("A1", {});
+  // Starting waits for the stop to end, in vain, and then begins with a new process.
+  const auto took = time_of([&] { ASSERT_TRUE(start_at_last(*camera)); });
+  EXPECT_LT(took, OpenniChild::kChangeLimit + 3s);
+  EXPECT_TRUE(camera->next_frame(kLong));
+  EXPECT_EQ(child_processes().size(), 1U);
+}
+
+TEST_F(OpenniFault, HungStopDoesNotHoldUpTheEnd) {  // D7, D14
+  auto camera = streaming_camera();
+  fail_with("hang-stop");
+  std::this_thread::sleep_for(50ms);
+  EXPECT_LT(time_of([&] { camera.reset(); }), 1s);
+  EXPECT_TRUE(child_processes().empty());
+}
+
+TEST_F(OpenniFault, OpensButNeverStreams) {  // D8
+  bus_.plug_in({.faults = {"stall"}});
+  const auto camera = bus_.camera();
+  ASSERT_TRUE(camera->start());
+  EXPECT_EQ(next_failure(*camera, 300ms).code, ErrorCode::kTimeout);
+}
+
+TEST_F(OpenniFault, HungStartIsATimeoutAndThenANewProcess) {
+  bus_.plug_in({.faults = {"hang-start"}});
+  const auto camera = bus_.camera();
+  Result<void> started;
+  EXPECT_LT(time_of([&] { started = camera->start(); }), 1s + kSlack);
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kTimeout);
+  const auto begin = steady_clock::now();
+  while (!started && started.error().code == ErrorCode::kTimeout) started = camera->start();
+  EXPECT_EQ(started.error().code, ErrorCode::kDeviceGone) << started.error().line();
+  EXPECT_LT(steady_clock::now() - begin, OpenniChild::kChangeLimit + kSlack);
+  bus_.set_faults("A1", {});
+  ASSERT_TRUE(start_at_last(*camera));
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
+TEST_F(OpenniFault, AnInterruptEndsAStart) {
+  bus_.plug_in({.faults = {"hang-start"}});
+  const auto camera = bus_.camera();
+  std::thread other([&] {
+    std::this_thread::sleep_for(100ms);
+    camera->interrupt();
+  });
+  Result<void> started;
+  EXPECT_LT(time_of([&] { started = camera->start(); }), 800ms);
+  other.join();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kCancelled);
+}
+
+TEST_F(OpenniFault, HungOpeningEndsAtItsLimit) {
+  bus_.plug_in({.faults = {"hang-open"}});
+  auto settings = bus_.settings();
+  settings.opening_limit = 1500ms;
+  const auto took = time_of([&] {
+    const auto camera = OpenniCamera::open(settings);
+    ASSERT_FALSE(camera);
+    EXPECT_EQ(camera.error().code, ErrorCode::kDeviceGone);
+    EXPECT_THAT(camera.error().line(), HasSubstr("hung while it was opening"));
+  });
+  EXPECT_LT(took, settings.opening_limit + 1s);
+  EXPECT_TRUE(child_processes().empty());
+}
+
+TEST_F(OpenniFault, ResetDuringCapture) {  // D11: the device leaves and is back elsewhere at once
+  auto camera = streaming_camera();
+  bus_.plug_in({});
+  EXPECT_EQ(next_failure(*camera).code, ErrorCode::kDeviceGone);
+  ASSERT_TRUE(start_at_last(*camera));
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
+TEST_F(OpenniFault, DisappearsAfterClose) {  // D12
+  auto camera = streaming_camera();
+  camera->stop();
+  bus_.unplug("A1");
+  Result<void> started;
+  for (int tries = 0; tries < 3; ++tries) {
+    started = camera->start();
+    ASSERT_FALSE(started);
+    EXPECT_THAT(started.error().code, testing::AnyOf(ErrorCode::kNotFound, ErrorCode::kDeviceGone));
+    EXPECT_EQ(started.error().remedy, Remedy::kReopen) << started.error().line();
+  }
+  EXPECT_THAT(started.error().line(), HasSubstr("A1 is not plugged in"));
+  bus_.plug_in({});
+  ASSERT_TRUE(start_at_last(*camera));
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
+TEST_F(OpenniFault, CloseReleasesAndSecondSessionWorks) {  // D13
+  for (int session = 0; session < 5; ++session) {
+    const auto camera = streaming_camera();
+    EXPECT_EQ(child_processes().size(), 1U);
+  }
+  EXPECT_TRUE(child_processes().empty());
+}
+
+TEST_F(OpenniFault, ShutdownInEveryState) {  // D14
+  const auto destroyed_within_1s = [&](std::unique_ptr<OpenniCamera> camera) {
+    EXPECT_LT(time_of([&] { camera.reset(); }), 1s);
+    EXPECT_TRUE(child_processes().empty());
+  };
+  bus_.plug_in({});
+  destroyed_within_1s(bus_.camera());
+  destroyed_within_1s(streaming_camera());
+  auto stopped = streaming_camera();
+  stopped->stop();
+  destroyed_within_1s(std::move(stopped));
+  auto interrupted = streaming_camera();
+  interrupted->interrupt();
+  destroyed_within_1s(std::move(interrupted));
+  auto unplugged = streaming_camera();
+  bus_.unplug("A1");
+  destroyed_within_1s(std::move(unplugged));
+  auto lost = streaming_camera();
+  bus_.unplug("A1");
+  next_failure(*lost);
+  destroyed_within_1s(std::move(lost));
+}
+
+TEST_F(OpenniFault, ACrashIsNoticedWithin1sAndMended) {
+  auto camera = streaming_camera();
+  fail_with("crash");
+  const auto took = time_of([&] {
+    const Error error = next_failure(*camera);
+    EXPECT_EQ(error.code, ErrorCode::kDeviceGone);
+    EXPECT_THAT(error.line(), HasSubstr("signal 6"));
+  });
+  EXPECT_LT(took, 1s);
+  EXPECT_TRUE(child_processes().empty());
+  bus_.set_faults("A1", {});
+  ASSERT_TRUE(start_at_last(*camera));
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
+TEST_F(OpenniFault, AHungProcessIsNoticedWithin1sAndEnded) {
+  auto camera = streaming_camera();
+  const auto children = child_processes();
+  ASSERT_EQ(children.size(), 1U);
+  ::kill(children[0], SIGSTOP);
+  const auto took = time_of([&] {
+    const Error error = next_failure(*camera);
+    EXPECT_EQ(error.code, ErrorCode::kDeviceGone);
+    EXPECT_THAT(error.line(), HasSubstr("hung"));
+  });
+  EXPECT_LT(took, 1s + kSlack);
+  EXPECT_TRUE(child_processes().empty());
+  ASSERT_TRUE(start_at_last(*camera));
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
+TEST_F(OpenniFault, AHungIdleProcessIsReplacedAtStart) {
+  auto camera = streaming_camera();
+  camera->stop();
+  const auto children = child_processes();
+  ASSERT_EQ(children.size(), 1U);
+  // Not before it has stopped its stream, for that has a limit of its own.
+  std::this_thread::sleep_for(200ms);
+  ASSERT_TRUE(start_at_last(*camera));
+  camera->stop();
+  std::this_thread::sleep_for(200ms);
+  ASSERT_TRUE(start_at_last(*camera));
+  ::kill(child_processes().at(0), SIGSTOP);
+  std::this_thread::sleep_for(OpenniChild::kSilenceLimit + 100ms);
+  ASSERT_TRUE(start_at_last(*camera));
+  EXPECT_TRUE(camera->next_frame(kLong));
+  ASSERT_EQ(child_processes().size(), 1U);
+  EXPECT_NE(child_processes()[0], children[0]);
+}
+
+TEST_F(OpenniFault, BadFramesAreMarked) {
+  const std::vector<std::pair<std::string, FrameStatus>> faults = {
+      {"corrupt", FrameStatus::kCorrupt},
+      {"wrong-size", FrameStatus::kCorrupt},
+      {"short", FrameStatus::kIncomplete}};
+  auto camera = streaming_camera();
+  for (const auto& [fault, status] : faults) {
+    fail_with(fault);
+    int good = 0;
+    auto frame = camera->next_frame(kLong);
+    while (frame && frame->status == FrameStatus::kGood && ++good < 30) {
+      frame = camera->next_frame(kLong);
+    }
+    ASSERT_TRUE(frame) << frame.error().line();
+    EXPECT_EQ(frame->status, status) << fault;
+    EXPECT_LE(frame->raw.size(), 64U * 48U);
+    bus_.set_faults("A1", {});
+    for (int bad = 0; bad < 30; ++bad) {
+      frame = camera->next_frame(kLong);
+      ASSERT_TRUE(frame);
+      if (frame->status == FrameStatus::kGood) break;
+    }
+    EXPECT_EQ(frame->status, FrameStatus::kGood) << fault;
+  }
+}
+
+TEST_F(OpenniFault, ASensorThatIsTooHotSaysSo) {
+  auto camera = streaming_camera();
+  fail_with("overheat");
+  const Error error = next_failure(*camera);
+  EXPECT_EQ(error.remedy, Remedy::kOperator);
+  EXPECT_THAT(error.line(), HasSubstr("let it cool down"));
+}
+
+TEST_F(OpenniFault, ASensorThatDoesOtherwiseIsRefused) {
+  for (const auto* fault : {"keep-mirror", "keep-holes", "keep-mode", "keep-registration"}) {
+    bus_.plug_in({.faults = {fault}});
+    const auto camera = OpenniCamera::open(bus_.settings());
+    ASSERT_FALSE(camera) << fault;
+    EXPECT_EQ(camera.error().code, ErrorCode::kUnsupported) << fault;
+    EXPECT_EQ(camera.error().remedy, Remedy::kOperator) << fault;
+  }
+}
+
+}  // namespace
+}  // namespace instep::test
