@@ -2,13 +2,10 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <libevdev/libevdev-uinput.h>
-#include <libevdev/libevdev.h>
-#include <poll.h>
+#include <linux/input.h>
 #include <unistd.h>
 
-#include <optional>
-
+#include "tests/kernel/devices/foot_switch.h"
 #include "tests/support/pedal_contract.h"
 #include "tests/support/temporary_folder.h"
 
@@ -16,43 +13,6 @@ namespace instep::test {
 namespace {
 
 using testing::HasSubstr;
-
-/// A foot switch in software (uinput): a keyboard with two keys.
-class FootSwitch {
- public:
-  explicit FootSwitch(int product = 0x7403) : product_(product) { plug_in(); }
-  ~FootSwitch() { unplug(); }
-  FootSwitch(const FootSwitch&) = delete;
-  FootSwitch& operator=(const FootSwitch&) = delete;
-
-  void plug_in() {
-    libevdev* description = libevdev_new();
-    libevdev_set_name(description, "Foot switch of the tests");
-    libevdev_set_id_vendor(description, 0x0c45);
-    libevdev_set_id_product(description, product_);
-    for (const unsigned key : std::initializer_list<unsigned>{KEY_B, KEY_C}) {
-      libevdev_enable_event_code(description, EV_KEY, key, nullptr);
-    }
-    if (libevdev_uinput_create_from_device(description, LIBEVDEV_UINPUT_OPEN_MANAGED, &device_) !=
-        0) {
-      device_ = nullptr;
-    }
-    libevdev_free(description);
-  }
-  void unplug() {
-    if (device_ != nullptr) libevdev_uinput_destroy(device_);
-    device_ = nullptr;
-  }
-  void send(unsigned key, int value) const {
-    libevdev_uinput_write_event(device_, EV_KEY, key, value);
-    libevdev_uinput_write_event(device_, EV_SYN, SYN_REPORT, 0);
-  }
-  std::string node() const { return libevdev_uinput_get_devnode(device_); }
-
- private:
-  int product_;
-  libevdev_uinput* device_ = nullptr;
-};
 
 EvdevPedal::Settings by_ids() {
   return {.device = "0c45:7403", .key = "KEY_B"};
