@@ -4,6 +4,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "tests/kernel/devices/gpio_chip.h"
@@ -139,6 +141,26 @@ TEST(GpioPedal, SaysThatThisUserMayNot) {
   int status = -1;
   waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
+}
+
+std::size_t open_files() {
+  return static_cast<std::size_t>(std::distance(
+      std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator()));
+}
+
+TEST(GpioPedal, LosesNoDescriptorWhileItsChipComesAndGoes) {
+  GpioChip chip("pedal", "board", kOffset, "foot");
+  const auto pedal = GpioPedal::open(by_name());
+  ASSERT_TRUE(pedal);
+  const auto before = open_files();
+  for (int round = 0; round < 100; ++round) {
+    chip.unplug();
+    ASSERT_FALSE((*pedal)->read_edges());
+    ASSERT_FALSE((*pedal)->reopen());
+    chip.plug_in();
+    ASSERT_TRUE((*pedal)->reopen());
+  }
+  EXPECT_EQ(open_files(), before);
 }
 
 // G2: what is dropped is the newest edge, so the level has the last word.
