@@ -10,7 +10,7 @@ packages=(
   libpng-dev libassimp-dev libsystemd-dev
   libgpiod-dev libevdev-dev
   libgtest-dev libgmock-dev
-  qemu-system-x86 busybox-static cpio kmod make libelf1 udev xz-utils  # of the tests against a real kernel
+  qemu-system-x86 busybox-static cpio kmod make libelf1 udev xz-utils systemd  # of the tests against a real kernel
   librsvg2-bin  # a program, not a library: prints a report as PDF
 )
 
