@@ -18,6 +18,20 @@ std::string describe_keeping(const StoreSettings& store) {
   return text.empty() ? ", kept for ever" : text;
 }
 
+std::string describe_pedal(const PedalSettings& pedal) {
+  switch (pedal.kind) {
+    case PedalKind::kNone:
+      return "none";
+    case PedalKind::kSimulated:
+      return "simulated, taps are written to " + pedal.fifo.string();
+    case PedalKind::kGpio:
+      return describe(pedal.gpio);
+    case PedalKind::kEvdev:
+      return describe(pedal.evdev);
+  }
+  return "";
+}
+
 std::string describe_sizes(const SizeRules& sizes) {
   std::string text = fmt::format("lasts {} mm longer than the foot", sizes.allowance_mm);
   for (const auto& table : sizes.shop_tables) {
@@ -38,9 +52,7 @@ std::string describe(const Settings& settings) {
   }
   text += fmt::format("capture  {} frames of each camera after {} to warm up, within {} ms\n",
                       capture.frames_per_camera, capture.warmup_frames, capture.deadline.count());
-  text += pedal.kind == PedalKind::kNone
-              ? "pedal    none\n"
-              : fmt::format("pedal    simulated, taps are written to {}\n", pedal.fifo.string());
+  text += fmt::format("pedal    {}\n", describe_pedal(pedal));
   text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
   text += fmt::format("sizes    {}\n", describe_sizes(sizes));
   text += fmt::format("control  {}\n", control.socket.string());

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/pedal_sources.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
@@ -33,13 +34,15 @@ struct CaptureSettings {
   std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
 };
 
-enum class PedalKind { kNone, kSimulated };
+enum class PedalKind { kNone, kSimulated, kGpio, kEvdev };
 
 struct PedalSettings {
   PedalKind kind = PedalKind::kSimulated;
   std::chrono::milliseconds debounce{30};            ///< 5 to 200
   std::chrono::milliseconds hold_to_cancel{2000};    ///< 500 to 10000
   std::filesystem::path fifo = "/run/instep/pedal";  ///< of the simulated pedal
+  GpioPedalSettings gpio;
+  EvdevPedalSettings evdev;
 };
 
 /// Where depth frames come from. One source may bring several cameras.

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include "drivers/evdev/evdev_pedal.h"
+#include "drivers/gpio/gpio_pedal.h"
 #include "drivers/recording/recording_camera.h"
 #include "drivers/recording/recording_reader.h"
 #include "sim/fault_script.h"
@@ -111,6 +113,44 @@ Result<void> check_names(const Devices& devices) {
   return {};
 }
 
+GpioBias bias_of(PedalBias bias) {
+  switch (bias) {
+    case PedalBias::kPullUp:
+      return GpioBias::kPullUp;
+    case PedalBias::kPullDown:
+      return GpioBias::kPullDown;
+    case PedalBias::kNone:
+      return GpioBias::kNone;
+  }
+  return GpioBias::kPullUp;
+}
+
+using OpenedPedal = Result<std::unique_ptr<Pedal>>;
+
+template <typename Kind>
+OpenedPedal as_pedal(Result<std::unique_ptr<Kind>> opened) {
+  if (!opened) return tl::make_unexpected(opened.error());
+  return std::move(*opened);
+}
+
+OpenedPedal open_gpio_pedal(const GpioPedalSettings& chosen) {
+  GpioPedal::Settings settings;
+  settings.address.line = chosen.line;
+  settings.address.chip = chosen.chip;
+  if (chosen.offset) settings.address.offset = static_cast<unsigned>(*chosen.offset);
+  settings.active_low = chosen.active_low;
+  settings.bias = bias_of(chosen.bias);
+  return as_pedal(GpioPedal::open(settings));
+}
+
+OpenedPedal open_simulated_pedal(const Settings& settings) {
+  const auto text = read_fault_script(settings.simulation.fault_script);
+  if (!text) return tl::make_unexpected(text.error());
+  const auto script = parse_fault_script(*text);
+  if (!script) return tl::make_unexpected(script.error());
+  return as_pedal(SimulatedPedal::open({.faults = script->pedal, .fifo = settings.pedal.fifo}));
+}
+
 }  // namespace
 
 std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies) {
@@ -147,14 +187,18 @@ Result<Devices> open_devices(const Settings& settings) {
 }
 
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings) {
-  if (settings.pedal.kind == PedalKind::kNone) return nullptr;
-  const auto text = read_fault_script(settings.simulation.fault_script);
-  if (!text) return tl::make_unexpected(text.error());
-  const auto script = parse_fault_script(*text);
-  if (!script) return tl::make_unexpected(script.error());
-  auto pedal = SimulatedPedal::open({.faults = script->pedal, .fifo = settings.pedal.fifo});
-  if (!pedal) return tl::make_unexpected(pedal.error());
-  return std::move(*pedal);
+  switch (settings.pedal.kind) {
+    case PedalKind::kNone:
+      return nullptr;
+    case PedalKind::kSimulated:
+      return open_simulated_pedal(settings);
+    case PedalKind::kGpio:
+      return open_gpio_pedal(settings.pedal.gpio);
+    case PedalKind::kEvdev:
+      return as_pedal(EvdevPedal::open(
+          {.device = settings.pedal.evdev.device, .key = settings.pedal.evdev.key}));
+  }
+  return nullptr;
 }
 
 }  // namespace instep

@@ -13,6 +13,11 @@ Error stuck_pedal() {
           "take the foot off it; if it stays so, check its cable"};
 }
 
+Error chattering_pedal() {
+  return {ErrorCode::kIo, Remedy::kOperator, "the pedal's contact opens and closes all the time",
+          "check its plug and its cable, or try another pedal"};
+}
+
 }  // namespace
 
 Station::Station(EventLoop& loop, Settings settings, MeasureCapture measure,
@@ -217,6 +222,9 @@ void Station::pedal_signalled(PedalSignal signal) {
       return handle(StationEvent::kCancelRequested);
     case PedalSignal::kStuck:
       pedal_trouble_ = stuck_pedal();
+      return handle(StationEvent::kPedalFault);
+    case PedalSignal::kChattering:
+      pedal_trouble_ = chattering_pedal();
       return handle(StationEvent::kPedalFault);
     case PedalSignal::kReleased:
       return pedal_returned();
