@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/pedal_sources.h"
+#include "config/v4l2_settings.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
@@ -46,11 +47,12 @@ struct PedalSettings {
 };
 
 /// Where depth frames come from. One source may bring several cameras.
-enum class CameraKind { kSimulated, kRecording };
+enum class CameraKind { kSimulated, kRecording, kV4l2 };
 
 struct CameraSettings {
   CameraKind kind = CameraKind::kSimulated;
   std::filesystem::path path;  ///< of a recording: its folder
+  V4l2Settings v4l2;           ///< of a V4L2 camera
 };
 
 enum class SimulatedNoise { kNone, kTypical, kPessimistic };

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "config/settings_table.h"
+#include "config/v4l2_settings_table.h"
 
 namespace instep {
 namespace {
@@ -66,11 +67,14 @@ CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& ba
                            SettingsFaults& faults) {
   CameraSettings camera;
   table.choose("kind", camera.kind,
-               {{"simulated", CameraKind::kSimulated}, {"recording", CameraKind::kRecording}});
+               {{"simulated", CameraKind::kSimulated},
+                {"recording", CameraKind::kRecording},
+                {"v4l2", CameraKind::kV4l2}});
   table.read("path", camera.path, base);
   if (camera.kind == CameraKind::kRecording && camera.path.empty()) {
     faults.add(table.line(), "camera.path is missing: name the folder of the recording");
   }
+  if (camera.kind == CameraKind::kV4l2) camera.v4l2 = read_v4l2_settings(table, faults);
   table.finish();
   return camera;
 }

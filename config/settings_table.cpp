@@ -105,6 +105,22 @@ void SettingsTable::read(const std::string& key, std::filesystem::path& value,
   if (!found.empty()) value = (base / found).lexically_normal();
 }
 
+std::vector<double> SettingsTable::numbers(const std::string& key, std::size_t count) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return {};
+  const toml::array* list = node->as_array();
+  std::vector<double> found;
+  if (list != nullptr) {
+    for (const auto& item : *list) {
+      const auto number = item.is_number() ? item.value<double>() : std::nullopt;
+      if (number && std::isfinite(*number)) found.push_back(*number);
+    }
+  }
+  if (list != nullptr && list->size() == count && found.size() == count) return found;
+  fault(*node, fmt::format("{} must be a list of {} numbers", full(key), count));
+  return {};
+}
+
 std::vector<const toml::table*> SettingsTable::tables(const std::string& key) {
   const toml::node* node = find(key);
   if (node == nullptr) return {};

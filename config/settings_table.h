@@ -50,6 +50,10 @@ class SettingsTable {
   void read(const std::string& key, std::filesystem::path& value,
             const std::filesystem::path& base);
 
+  /// The list of `count` finite numbers; empty if it is absent or wrong.
+  std::vector<double> numbers(const std::string& key, std::size_t count);
+  bool has(const std::string& key) const { return table_.contains(key); }
+
   template <typename Period>
   void read(const std::string& key, std::chrono::duration<std::int64_t, Period>& value, int least,
             int most) {

@@ -97,7 +97,10 @@ json to_json(const StationStatus& status) {
     cameras.push_back({{"id", camera.id},
                        {"model", camera.model},
                        {"ok", !camera.trouble.has_value()},
-                       {"trouble", camera.trouble ? camera.trouble->line() : ""}});
+                       {"trouble", camera.trouble ? camera.trouble->line() : ""},
+                       {"recovery", camera.recovery},
+                       {"link_mbps", camera.link_mbps},
+                       {"warning", camera.warning}});
   }
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},

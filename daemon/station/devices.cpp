@@ -8,6 +8,7 @@
 #include "drivers/gpio/gpio_pedal.h"
 #include "drivers/recording/recording_camera.h"
 #include "drivers/recording/recording_reader.h"
+#include "drivers/v4l2/v4l2_camera.h"
 #include "sim/fault_script.h"
 #include "sim/simulated_station.h"
 
@@ -101,6 +102,36 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
   return {};
 }
 
+DepthFormat format_of(V4l2Format format) {
+  switch (format) {
+    case V4l2Format::kZ16:
+      return DepthFormat::kZ16;
+    case V4l2Format::kY16:
+      return DepthFormat::kY16;
+    case V4l2Format::kInzi:
+      return DepthFormat::kInzi;
+  }
+  return DepthFormat::kZ16;
+}
+
+/// A camera that is away is added all the same: its status says so until it comes.
+Result<void> add_v4l2(const V4l2Settings& chosen, Devices& devices) {
+  V4l2Camera::Settings settings;
+  settings.geometry.id = chosen.placement.name;
+  settings.geometry.intrinsics = chosen.placement.intrinsics.value_or(CameraIntrinsics{});
+  settings.geometry.station_from_camera = chosen.placement.station_from_camera;
+  settings.depth_unit_mm = chosen.depth_unit_mm;
+  settings.format = format_of(chosen.format);
+  settings.address = {chosen.bus_path, chosen.serial};
+  for (const auto& [name, value] : chosen.controls) settings.controls.push_back({name, value});
+  devices.usb[chosen.placement.name] = settings.address;
+  auto camera = V4l2Camera::create(std::move(settings));
+  if (!camera) return tl::make_unexpected(camera.error());
+  devices.cameras.push_back(std::move(*camera));
+  devices.calibration = "as the settings say";
+  return {};
+}
+
 /// Frames are told apart by their camera's name.
 Result<void> check_names(const Devices& devices) {
   std::set<std::string> names;
@@ -173,6 +204,9 @@ Result<Devices> open_devices(const Settings& settings) {
         break;
       case CameraKind::kRecording:
         added = add_recording(camera.path, devices);
+        break;
+      case CameraKind::kV4l2:
+        added = add_v4l2(camera.v4l2, devices);
         break;
     }
     if (!added) return tl::make_unexpected(added.error());
