@@ -30,10 +30,10 @@ std::vector<fs::path> nodes_in(const fs::path& folder) {
 }
 
 std::optional<int> hexadecimal(std::string_view text) {
-  int value = 0;
+  unsigned value = 0;
   const auto [end, wrong] = std::from_chars(text.begin(), text.end(), value, 16);
   if (text.size() != 4 || wrong != std::errc() || end != text.end()) return std::nullopt;
-  return value;
+  return static_cast<int>(value);
 }
 
 bool is(const InputDevice& device, const UsbIds& ids) {
