@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPermissionAdvice =
-    "install the udev rules of Instep with a line for this device, and be of the group plugdev";
+    "let the udev rules of Instep name it, then: sudo usermod -aG plugdev $USER";
 
 std::vector<fs::path> nodes_in(const fs::path& folder) {
   std::vector<fs::path> nodes;
