@@ -20,6 +20,7 @@ constexpr const char* kExamples = R"(Examples:
   instep simulate --out visit && instep replay visit            the whole chain, no hardware
   instep scan                                                   measure who stands on the station
   instep repeat scans/*                                         how well repeated scans agree
+  instep devices                                                what is plugged in
   instep doctor                                                 what is wrong with this machine
   instep girth --help                                           all about one command
 

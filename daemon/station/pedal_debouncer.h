@@ -52,12 +52,11 @@ class PedalDebouncer {
   Time debounce_;
   Time hold_;
   Time now_;
-  bool raw_ = false;   ///< the contact as last seen
-  Time raw_since_{0};  ///< its last edge
-  std::optional<Time>
-      restless_since_;       ///< first edge since the contact rested for the debounce time
-  bool chattering_ = false;  ///< kChattering has been given for this unrest
-  bool pressed_ = false;     ///< the contact as believed
+  bool raw_ = false;                    ///< the contact as last seen
+  Time raw_since_{0};                   ///< its last edge
+  std::optional<Time> restless_since_;  ///< its first edge since it last kept a level
+  bool chattering_ = false;             ///< kChattering has been given for this unrest
+  bool pressed_ = false;                ///< the contact as believed
   Time pressed_since_{0};
   bool held_ = false;   ///< kHeld has been given for this press
   bool stuck_ = false;  ///< kStuck has been given for this press

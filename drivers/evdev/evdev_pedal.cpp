@@ -13,9 +13,6 @@
 namespace instep {
 namespace {
 
-/// Most edges of one call: a key that never rests must not keep its reader for ever.
-constexpr std::size_t kMostEdges = 256;
-
 PedalEdge edge_of(const input_event& event) {
   return {event.value != 0, std::chrono::seconds(event.input_event_sec) +
                                 std::chrono::microseconds(event.input_event_usec)};
@@ -87,7 +84,8 @@ Result<std::vector<PedalEdge>> EvdevPedal::read_edges() {
   if (gone_) return gone();
   std::vector<PedalEdge> edges;
   bool& catching_up = connection_->catching_up;
-  while (edges.size() < kMostEdges) {
+  // To the last: what libevdev has taken from the kernel does not make the descriptor readable.
+  while (true) {
     input_event event{};
     const int status = libevdev_next_event(
         connection_->device->get(),
