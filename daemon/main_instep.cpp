@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
     instep::add_recording_commands(app, exit_code);
     instep::add_station_commands(app, exit_code);
     instep::add_repeat_command(app, exit_code);
+    instep::add_devices_command(app, exit_code);
     instep::add_doctor_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

@@ -11,7 +11,7 @@ packages=(
   libgpiod-dev libevdev-dev
   libusb-1.0-0-dev
   libgtest-dev libgmock-dev
-  qemu-system-x86 busybox-static cpio kmod make libelf1 udev xz-utils  # of the tests against a real kernel
+  qemu-system-x86 busybox-static cpio kmod make libelf1 udev xz-utils systemd  # of the tests against a real kernel
   librsvg2-bin  # a program, not a library: prints a report as PDF
 )
 

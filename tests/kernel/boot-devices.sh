@@ -8,17 +8,5 @@ folder=$1
 shift
 rm -rf "$folder"
 mkdir -p "$folder"
-
-without() {
-  echo "$*" | tee "$folder/skipped"
-  echo "KERNEL TESTS ARE SKIPPED: nothing was proven against a real kernel." >&2
-  exit 77
-}
-[ -z "${INSTEP_SKIP_KERNEL_TESTS:-}" ] || without "INSTEP_SKIP_KERNEL_TESTS is set"
-outcome=0
-"$here/prepare.sh" 2>"$folder/preparing" >/dev/null || outcome=$?
-cat "$folder/preparing" >&2
-[ $outcome != 77 ] || without "$(tail -1 "$folder/preparing")"
-[ $outcome = 0 ] || exit $outcome
-
+"$here/can-boot.sh" "$folder"
 "$here/run-in-guest.sh" -t 420 -s "$folder" "$here/guest/run-device-tests" "$@"

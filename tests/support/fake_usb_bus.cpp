@@ -22,6 +22,8 @@ void FakeUsbBus::plug(const Camera& camera) {
   const fs::path interface = device / ("1-" + camera.port + ":1.0");
   fs::create_directories(interface);
   fs::create_directories(sysfs() / "class/video4linux");
+  fs::create_directories(sysfs() / "bus/usb/devices");
+  fs::create_directory_symlink(device, sysfs() / "bus/usb/devices" / ("1-" + camera.port));
   write_line(device / "devpath", camera.port);
   write_line(device / "product", "Depth Camera");
   write_line(device / "speed", std::to_string(camera.speed_mbps));
@@ -41,6 +43,7 @@ void FakeUsbBus::unplug(const Camera& camera) {
   for (const int number : camera.nodes) {
     fs::remove(sysfs() / "class/video4linux" / ("video" + std::to_string(number)));
   }
+  fs::remove(sysfs() / "bus/usb/devices" / ("1-" + camera.port));
   fs::remove_all(usb_folder(camera.port));
 }
 
