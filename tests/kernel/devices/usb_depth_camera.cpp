@@ -36,6 +36,8 @@ constexpr std::uint32_t kSubmitted = 3;
 constexpr std::uint32_t kUnlinked = 4;
 constexpr std::uint32_t kHighSpeed = 3;
 
+constexpr std::uint8_t kSetConfiguration = 9;
+
 constexpr std::uint8_t kLastOfFrame = 0x02;  // bits of a UVC payload header
 constexpr std::uint8_t kDamaged = 0x40;
 constexpr std::uint8_t kEndOfHeader = 0x80;
@@ -89,8 +91,8 @@ UvcDescription description_of(const UsbDepthCamera::Settings& settings) {
 /// The camera's side of one cable, and what it streams.
 class UsbDepthCamera::Device {
  public:
-  Device(const Settings& settings, Scene scene)
-      : settings_(settings), uvc_(description_of(settings)), scene_(std::move(scene)) {}
+  Device(const Settings& chosen, Scene scene)
+      : settings(chosen), uvc_(description_of(chosen)), scene_(std::move(scene)) {}
 
   /// Serves the cable until it is pulled.
   void serve(int socket) {
@@ -100,22 +102,25 @@ class UsbDepthCamera::Device {
       pollfd readable{socket, POLLIN, 0};
       ::poll(&readable, 1, milliseconds_to_next_frame());
       if (readable.revents != 0 && !answer(socket)) return;
-      const std::lock_guard lock(mutex_);
+      const std::lock_guard lock(mutex);
       stream(socket);
     }
   }
 
-  std::mutex mutex_;
-  int flagged_ = 0;
-  int shortened_ = 0;
-  int lost_ = 0;
-  int stalled_ = 0;
-  bool silent_ = false;
-  std::uint32_t frames_ = 0;
+  const Settings settings;
+  std::thread thread;
+  int cable = -1;  ///< our end of it; -1 = unplugged
 
-  const Settings settings_;
-  std::thread thread_;
-  int cable_ = -1;  ///< our end of it; -1 = unplugged
+  std::mutex mutex;  ///< guards what follows
+  struct Faults {
+    int flagged = 0;
+    int shortened = 0;
+    int lost = 0;
+    int stalled = 0;
+    bool silent = false;
+  } faults;
+  std::uint32_t frames = 0;
+  int set_ups = 0;
 
  private:
   /// A request of the host for stream data.
@@ -147,7 +152,7 @@ class UsbDepthCamera::Device {
     if (word(0) != kSubmit) return false;
     Bytes sent(to_host ? 0 : bytes);
     if (!sent.empty() && !receive(socket, sent.data(), sent.size())) return false;
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(mutex);
     if (endpoint == 0) {
       control(socket, number, setup_of(setup), bytes, sent);
     } else {
@@ -192,7 +197,8 @@ class UsbDepthCamera::Device {
     switch (setup.kind) {
       case 0x80:  // from the device: GET_STATUS, GET_DESCRIPTOR
         return setup.request == 0 ? Bytes{0, 0} : descriptor(setup.value);
-      case 0x00:  // to the device: SET_CONFIGURATION
+      case 0x00:  // to the device: SET_CONFIGURATION and others
+        if (setup.request == kSetConfiguration) ++set_ups;
         return Bytes{};
       case 0x01:  // to an interface: SET_INTERFACE
       case 0x02:  // to an endpoint: CLEAR_FEATURE, by which uvcvideo ends a bulk stream
@@ -222,8 +228,8 @@ class UsbDepthCamera::Device {
     const int selector = setup.value >> 8;
     const bool of_stream = (setup.index & 0xFF) == 1 && (selector == 1 || selector == 2);
     if (!of_stream) return std::nullopt;
-    if (stalled_ > 0) {
-      --stalled_;
+    if (faults.stalled > 0) {
+      --faults.stalled;
       return std::nullopt;
     }
     if (setup.request == kSet) {
@@ -252,22 +258,22 @@ class UsbDepthCamera::Device {
   /// Takes the next frame; false if it is not time yet.
   bool expose() {
     const auto now = steady_clock::now();
-    if (silent_ || now < due_) return false;
-    const std::chrono::microseconds interval(1'000'000 / settings_.frames_per_second);
+    if (faults.silent || now < due_) return false;
+    const std::chrono::microseconds interval(1'000'000 / settings.frames_per_second);
     due_ = std::max(due_ + interval, now);
-    const std::uint32_t number = frames_++;
-    if (lost_ > 0) {
-      --lost_;
+    const std::uint32_t number = frames++;
+    if (faults.lost > 0) {
+      --faults.lost;
       return false;
     }
     for (const std::uint16_t depth : scene_(number)) append16(frame_, depth);
-    if (shortened_ > 0) {
-      --shortened_;
+    if (faults.shortened > 0) {
+      --faults.shortened;
       frame_.resize(frame_.size() / 2);
     }
     bits_ = static_cast<std::uint8_t>((bits_ ^ 1) & 1);  // tells one frame from the next
-    if (flagged_ > 0) {
-      --flagged_;
+    if (faults.flagged > 0) {
+      --faults.flagged;
       bits_ |= kDamaged;
     }
     sent_ = 0;
@@ -310,7 +316,7 @@ void UsbDepthCamera::plug() {
     throw std::runtime_error("no socket pair");
   }
   const Descriptor theirs(ends[1]);
-  const int port = device_->settings_.port;
+  const int port = device_->settings.port;
   const std::string order = std::to_string(port) + " " + std::to_string(theirs.number()) + " " +
                             std::to_string(1 << 16 | (port + 2)) + " " + std::to_string(kHighSpeed);
   const Descriptor attach(::open("/sys/devices/platform/vhci_hcd.0/attach", O_WRONLY | O_CLOEXEC));
@@ -318,49 +324,54 @@ void UsbDepthCamera::plug() {
     ::close(ends[0]);
     throw std::runtime_error("vhci_hcd does not take the camera: " + std::string(strerror(errno)));
   }
-  device_->cable_ = ends[0];
-  device_->thread_ = std::thread([device = device_, cable = ends[0]] { device->serve(cable); });
+  device_->cable = ends[0];
+  device_->thread = std::thread([device = device_, cable = ends[0]] { device->serve(cable); });
 }
 
 void UsbDepthCamera::unplug() {
-  if (device_->cable_ < 0) return;
-  ::shutdown(device_->cable_, SHUT_RDWR);
-  device_->thread_.join();
-  ::close(std::exchange(device_->cable_, -1));
+  if (device_->cable < 0) return;
+  ::shutdown(device_->cable, SHUT_RDWR);
+  device_->thread.join();
+  ::close(std::exchange(device_->cable, -1));
 }
 
 void UsbDepthCamera::flag_frames(int count) {
-  const std::lock_guard lock(device_->mutex_);
-  device_->flagged_ = count;
+  const std::lock_guard lock(device_->mutex);
+  device_->faults.flagged = count;
 }
 
 void UsbDepthCamera::shorten_frames(int count) {
-  const std::lock_guard lock(device_->mutex_);
-  device_->shortened_ = count;
+  const std::lock_guard lock(device_->mutex);
+  device_->faults.shortened = count;
 }
 
 void UsbDepthCamera::lose_frames(int count) {
-  const std::lock_guard lock(device_->mutex_);
-  device_->lost_ = count;
+  const std::lock_guard lock(device_->mutex);
+  device_->faults.lost = count;
 }
 
 void UsbDepthCamera::fall_silent(bool silent) {
-  const std::lock_guard lock(device_->mutex_);
-  device_->silent_ = silent;
+  const std::lock_guard lock(device_->mutex);
+  device_->faults.silent = silent;
 }
 
 void UsbDepthCamera::stall_probes(int count) {
-  const std::lock_guard lock(device_->mutex_);
-  device_->stalled_ = count;
+  const std::lock_guard lock(device_->mutex);
+  device_->faults.stalled = count;
 }
 
 std::uint32_t UsbDepthCamera::frames_sent() const {
-  const std::lock_guard lock(device_->mutex_);
-  return device_->frames_;
+  const std::lock_guard lock(device_->mutex);
+  return device_->frames;
+}
+
+int UsbDepthCamera::set_ups() const {
+  const std::lock_guard lock(device_->mutex);
+  return device_->set_ups;
 }
 
 std::string UsbDepthCamera::bus_path() const {
-  return "usb-vhci_hcd.0-" + std::to_string(device_->settings_.port + 1);
+  return "usb-vhci_hcd.0-" + std::to_string(device_->settings.port + 1);
 }
 
 }  // namespace instep::test

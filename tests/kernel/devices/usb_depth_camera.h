@@ -47,6 +47,8 @@ class UsbDepthCamera {
   void stall_probes(int count);    ///< refuses as many requests of the stream's negotiation
 
   std::uint32_t frames_sent() const;
+  /// How often the host has set it up: once for each plug(), and for each reset.
+  int set_ups() const;
 
   /// The bus path of its socket, as UsbAddress has it.
   std::string bus_path() const;

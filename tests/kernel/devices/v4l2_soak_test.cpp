@@ -4,19 +4,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/kernel/devices/usb_depth_camera.h"
+#include "tests/kernel/devices/one_camera_station.h"
 #include "tests/support/station_process.h"
 
 namespace instep::test {
 namespace {
 
 using namespace std::chrono_literals;
-
-constexpr const char* kSettings =
-    "[[camera]]\nkind = \"v4l2\"\nname = \"only\"\nserial = \"0001\"\ndepth_unit_mm = 1.0\n"
-    "intrinsics = { width = 160, height = 120, fx = 140, fy = 140, cx = 79.5, cy = 59.5 }\n"
-    "station_from_camera = [ 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 500, 0, 0, 0, 1 ]\n"
-    "[capture]\ncheck_every_s = 3600\n";
 
 /// What a process holds, as /proc shows it.
 struct Holdings {

@@ -119,13 +119,21 @@ TEST_F(V4l2Station, MeasuresAFootThroughTheKernel) {
   expect_right_girths();
 }
 
-// S3, D22: the daemon is up before its cameras, and scans only when all are there.
+std::size_t count_lines(const std::string& log, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = log.find(text); at != std::string::npos; at = log.find(text, at + 1)) ++count;
+  return count;
+}
+
+// S3, D22, V2: the daemon is up before its cameras, and scans only when all are there.
 TEST_F(V4l2Station, WaitsForCamerasThatComeLater) {
   cameras_.usb[0]->plug();
   start();
   ASSERT_TRUE(station_.wait_for("STATUS=degraded", kLong)) << station_.log();
   EXPECT_THAT(trouble_of(1), HasSubstr("waits until it is plugged in"));
   EXPECT_EQ(station_.run_instep("scan").exit_code, 1);
+  std::this_thread::sleep_for(3s);
+  EXPECT_EQ(count_lines(station_.log(), "warning: camera"), 1U) << station_.log();
   cameras_.usb[2]->plug();
   cameras_.usb[1]->plug();
   expect_ready();
