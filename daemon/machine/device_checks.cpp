@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 
 #include "daemon/machine/inventory.h"
 #include "drivers/usb/sysfs.h"
@@ -43,8 +45,10 @@ std::optional<DeviceTrouble> trouble_of_camera(const V4l2Settings& camera,
   if (!nodes) return DeviceTrouble{nodes.error().message, nodes.error().advice};
   for (const auto& node : *nodes) {
     if (::access(node.path.c_str(), R_OK | W_OK) == 0) continue;
-    return DeviceTrouble{"you may not open " + node.path.string(),
-                         "sudo usermod -aG video $USER, then log in again"};
+    const bool denied = errno == EACCES;
+    return DeviceTrouble{
+        fmt::format("{} cannot be opened: {}", node.path.string(), std::strerror(errno)),
+        denied ? "sudo usermod -aG video $USER, then log in again" : "sudo udevadm trigger"};
   }
   const auto& device = nodes->front().device;
   if (device.could_be_faster) {

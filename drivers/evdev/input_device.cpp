@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPermissionAdvice =
-    "install the udev rules of Instep with a line for this device, and be of the group plugdev";
+    "let the udev rules of Instep name it, then: sudo usermod -aG plugdev $USER";
 
 std::vector<fs::path> nodes_in(const fs::path& folder) {
   std::vector<fs::path> nodes;
@@ -30,10 +30,10 @@ std::vector<fs::path> nodes_in(const fs::path& folder) {
 }
 
 std::optional<int> hexadecimal(std::string_view text) {
-  int value = 0;
+  unsigned value = 0;
   const auto [end, wrong] = std::from_chars(text.begin(), text.end(), value, 16);
   if (text.size() != 4 || wrong != std::errc() || end != text.end()) return std::nullopt;
-  return value;
+  return static_cast<int>(value);
 }
 
 bool is(const InputDevice& device, const UsbIds& ids) {

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 #include <gpiod.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -14,20 +12,6 @@ namespace instep {
 namespace {
 
 namespace fs = std::filesystem;
-
-const char* or_empty(const char* text) {
-  return text == nullptr ? "" : text;
-}
-
-std::vector<fs::path> chips_in(const fs::path& devices) {
-  std::vector<fs::path> chips;
-  std::error_code unreadable;
-  for (const auto& entry : fs::directory_iterator(devices, unreadable)) {
-    if (entry.path().filename().native().starts_with("gpiochip")) chips.push_back(entry.path());
-  }
-  std::sort(chips.begin(), chips.end());
-  return chips;
-}
 
 tl::unexpected<Error> not_found(const std::string& line, const std::vector<fs::path>& chips) {
   if (chips.empty()) {
@@ -46,12 +30,9 @@ std::string GpioLineAddress::text() const {
   return fmt::format("line {}{}", offset.value_or(0), of_chip);
 }
 
-void GpioLine::CloseChip::operator()(gpiod_chip* chip) const {
-  gpiod_chip_close(chip);
-}
-
 gpiod_line* GpioLine::line_of(gpiod_chip* chip, const GpioLineAddress& address) {
-  if (!address.chip.empty() && address.chip != or_empty(gpiod_chip_label(chip))) return nullptr;
+  if (!address.chip.empty() && address.chip != text_or_empty(gpiod_chip_label(chip)))
+    return nullptr;
   if (!address.line.empty()) return gpiod_chip_find_line(chip, address.line.c_str());
   if (!address.offset || *address.offset >= gpiod_chip_num_lines(chip)) return nullptr;
   return gpiod_chip_get_line(chip, *address.offset);
@@ -62,12 +43,12 @@ Result<GpioLine> GpioLine::find(const GpioLineAddress& address, const fs::path& 
     return fail(ErrorCode::kInvalidInput, "a GPIO line without a name",
                 "name the line, or its chip's label and its offset");
   }
-  const auto paths = chips_in(devices);
+  const auto paths = gpio_chip_nodes(devices);
   std::optional<GpioLine> found;
   std::string closed;  // the last chip that this user may not open
   for (const auto& path : paths) {
-    Chip chip(gpiod_chip_open(path.c_str()));
-    if (chip == nullptr) {
+    auto chip = open_gpio_chip(path);
+    if (!chip) {
       if (errno == EACCES || errno == EPERM) closed = path.string();
       continue;
     }
@@ -84,7 +65,7 @@ Result<GpioLine> GpioLine::find(const GpioLineAddress& address, const fs::path& 
   if (found) return std::move(*found);
   if (!closed.empty()) {
     return fail(ErrorCode::kPermissionDenied, "this user may not open " + closed,
-                "install the udev rules of Instep, and be of the group plugdev");
+                "sudo usermod -aG plugdev $USER, where the udev rules of Instep are installed");
   }
   return not_found(address.text(), paths);
 }
@@ -94,11 +75,11 @@ Error GpioLine::request_failure(int reason) const {
   if (reason == EBUSY) {
     // Who holds it is known since the line was found, unless he came just now.
     gpiod_line_update(line_);
-    const std::string holder = or_empty(gpiod_line_consumer(line_));
+    const std::string holder = text_or_empty(gpiod_line_consumer(line_));
     return {ErrorCode::kBusy, Remedy::kOperator,
             fmt::format("{} ({}) is held by {}", text_, chip,
                         holder.empty() ? "somebody without a name" : '"' + holder + '"'),
-            "end that program, or free the line in the device tree or in sysfs"};
+            "sudo lsof | grep gpio shows which program it is: end it, or free the line in sysfs"};
   }
   const auto code = reason == ENODEV                      ? ErrorCode::kDeviceGone
                     : reason == EACCES || reason == EPERM ? ErrorCode::kPermissionDenied

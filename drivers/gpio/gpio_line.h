@@ -1,13 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/result.h"
+#include "drivers/gpio/gpio_chip.h"
 
-struct gpiod_chip;
 struct gpiod_line;
 
 namespace instep {
@@ -40,16 +40,11 @@ class GpioLine {
   Error request_failure(int reason) const;
 
  private:
-  struct CloseChip {
-    void operator()(gpiod_chip* chip) const;
-  };
-  using Chip = std::unique_ptr<gpiod_chip, CloseChip>;
-
-  GpioLine(Chip chip, gpiod_line* line, std::string text)
+  GpioLine(GpioChipHandle chip, gpiod_line* line, std::string text)
       : chip_(std::move(chip)), line_(line), text_(std::move(text)) {}
   static gpiod_line* line_of(gpiod_chip* chip, const GpioLineAddress& address);
 
-  Chip chip_;
+  GpioChipHandle chip_;
   gpiod_line* line_;  ///< owned by the chip
   std::string text_;
 };

@@ -53,12 +53,12 @@ struct GpioPedal::Connection {
     return epoll_ctl(waiting.number(), EPOLL_CTL_ADD, descriptor, &interest) == 0;
   }
 
-  /// Whether a device node came or went since the last call.
-  bool nodes_changed() const {
+  /// Whether a device node went since the last call.
+  bool a_node_went() const {
     alignas(inotify_event) std::array<char, 4096> events;
-    bool changed = false;
-    while (read(nodes.number(), events.data(), events.size()) > 0) changed = true;
-    return changed;
+    bool went = false;
+    while (read(nodes.number(), events.data(), events.size()) > 0) went = true;
+    return went;
   }
 
   std::optional<bool> level() const {
@@ -93,11 +93,10 @@ Result<void> GpioPedal::connect() {
     return tl::make_unexpected(connection->line.request_failure(errno));
   }
   connection->edges = gpiod_line_event_get_fd(found);
-  const bool ready = fcntl(connection->edges, F_SETFL, O_NONBLOCK) == 0 &&
-                     inotify_add_watch(connection->nodes.number(), settings_.devices.c_str(),
-                                       IN_CREATE | IN_DELETE) >= 0 &&
-                     connection->wait_for(connection->nodes.number()) &&
-                     connection->wait_for(connection->edges);
+  const bool ready =
+      fcntl(connection->edges, F_SETFL, O_NONBLOCK) == 0 &&
+      inotify_add_watch(connection->nodes.number(), settings_.devices.c_str(), IN_DELETE) >= 0 &&
+      connection->wait_for(connection->nodes.number()) && connection->wait_for(connection->edges);
   if (!ready) {
     return fail(ErrorCode::kIo, std::string("the GPIO pedal cannot be watched: ") + strerror(errno),
                 "raise the limits of open files and of inotify instances");
@@ -116,7 +115,7 @@ tl::unexpected<Error> GpioPedal::gone() {
 
 Result<std::vector<PedalEdge>> GpioPedal::read_edges() {
   if (gone_) return gone();
-  if (connection_->nodes_changed() && !connection_->level()) return gone();
+  if (connection_->a_node_went() && !connection_->level()) return gone();
   std::vector<PedalEdge> edges;
   std::array<gpiod_line_event, 16> events;
   while (edges.size() < kMostEdges) {

@@ -16,8 +16,8 @@ enum class GpioBias { kPullUp, kPullDown, kNone };
 /// ones, so a burst may end unseen: is_pressed() asks the line itself.
 ///
 /// When a chip leaves (a USB board is pulled), Linux 6.1 does not wake those who wait for its
-/// lines. So the folder of device nodes is watched too (inotify), and whenever a node comes or goes
-/// the line is asked whether it is still there. That costs nothing at rest.
+/// lines. So the folder of device nodes is watched too (inotify), and whenever a node goes the
+/// line is asked whether it is still there. That costs nothing at rest.
 class GpioPedal final : public Pedal {
  public:
   struct Settings {

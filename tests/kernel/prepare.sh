@@ -59,7 +59,13 @@ echo "Making a guest of Debian's kernel $kernel in $folder" >&2
 # As root, apt wants to download as a user of its own, who may not write here.
 apt-get -o APT::Sandbox::User="$(id -un)" download -qq "linux-image-$kernel=$version" \
   "$headers=$version" "$common=$version" "linux-kbuild-$series=$version" \
-  "linux-source-$series=$version" >&2 || cannot "the download failed"
+  "linux-source-$series=$version" >&2 || {
+  # The lists may be older than the archive, which keeps the newest only.
+  [ "$(id -u)" = 0 ] && [ -z "${LISTS_ARE_NEW:-}" ] || cannot "the download failed"
+  apt-get update -qq >&2 || cannot "the download failed"
+  rm -rf "$work"
+  LISTS_ARE_NEW=1 exec "$here/prepare.sh"
+}
 
 # The kernel, without the drivers of machines that a guest does not have.
 mkdir tree

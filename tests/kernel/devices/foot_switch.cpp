@@ -15,6 +15,7 @@ FootSwitch::FootSwitch(int product) : product_(product) {
 void FootSwitch::plug_in() {
   libevdev* description = libevdev_new();
   libevdev_set_name(description, "Foot switch of the tests");
+  libevdev_set_id_bustype(description, BUS_USB);
   libevdev_set_id_vendor(description, 0x0c45);
   libevdev_set_id_product(description, product_);
   for (const unsigned key : std::initializer_list<unsigned>{KEY_B, KEY_C}) {
