@@ -106,8 +106,8 @@ Result<void> V4l2Camera::wait_until(steady_clock::time_point deadline) {
     return fail(ErrorCode::kCancelled, "waiting for a frame was stopped", "start again");
   }
   // Images that came before the device left are still good.
-  const bool broken = (waiting[1].revents & ~POLLIN) != 0 && (waiting[1].revents & POLLIN) == 0;
-  if (broken) return tl::make_unexpected(stream_->why_broken());
+  const short device = waiting[1].revents;
+  if (device != 0 && (device & POLLIN) == 0) return tl::make_unexpected(stream_->why_broken());
   return {};
 }
 

@@ -39,10 +39,9 @@ Holdings holdings_of(pid_t process) {
 
 // V3, V4, U5, D1: what one replug leaves behind, months of them bring the station down with.
 TEST(V4l2Soak, TheDaemonKeepsNothingOver100Replugs) {
-  UsbDepthCamera usb({},
-                     [](std::uint32_t) { return std::vector<std::uint16_t>(160U * 120U, 500); });
+  UsbDepthCamera usb({}, flat_scene());
   StationProcess station;
-  station.write_settings(kSettings);
+  station.write_settings(one_camera_settings());
   usb.plug();
   station.start();
   Holdings early;
