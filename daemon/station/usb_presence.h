@@ -20,8 +20,8 @@ class UsbPresence {
 
   void note(const UsbChange& change, Time now);
 
-  /// What has settled by now, as it is in the end: a device that was replugged has arrived, one that
-  /// came and went, and may have been opened meanwhile, has left.
+  /// What has settled by now, as it is in the end: a device that was replugged has arrived, one
+  /// that came and went, and may have been opened meanwhile, has left.
   std::vector<UsbChange> settled(Time now);
 
   /// When settled() has news next; nothing = nothing settles.

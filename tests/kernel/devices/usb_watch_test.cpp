@@ -27,7 +27,7 @@ class UsbWatchTest : public testing::Test {
       for (const auto& change : watch_->changes()) {
         if (change.device.address.serial == serial) return change;
       }
-      // Nothing but its descriptor says when there is something.
+      // U4: nothing but its descriptor says when there is something.
       pollfd readable{watch_->descriptor(), POLLIN, 0};
       const auto left =
           std::chrono::ceil<std::chrono::milliseconds>(deadline - steady_clock::now());
