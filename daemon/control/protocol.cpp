@@ -98,9 +98,9 @@ json to_json(const StationStatus& status) {
                        {"model", camera.model},
                        {"ok", !camera.trouble.has_value()},
                        {"trouble", camera.trouble ? camera.trouble->line() : ""},
-                       {"recovery", camera.recovery},
-                       {"link_mbps", camera.link_mbps},
-                       {"warning", camera.warning}});
+                       {"recovery", camera.health.recovery},
+                       {"link_mbps", camera.health.link_mbps},
+                       {"warning", camera.health.warning}});
   }
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},

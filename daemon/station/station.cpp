@@ -1,18 +1,12 @@
 #include "daemon/station/station.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
-
-#include "drivers/usb/libusb_watch.h"
 
 namespace instep {
 namespace {
 
 constexpr std::chrono::milliseconds kOpeningGrace{1000};
-/// A device that arrives this soon after its reset was not plugged in by a person.
-constexpr std::chrono::seconds kResetEcho{10};
 
 Error stuck_pedal() {
   return {ErrorCode::kBusy, Remedy::kOperator, "the pedal is held down or stuck",
@@ -99,6 +93,9 @@ StationStatus Station::status() const {
   status.stage = stage_;
   status.done = done_;
   status.cameras = camera_status_;
+  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
+    status.cameras[i].health = care_->health(i);
+  }
   status.scans = scans_;
   status.ignored_presses = machine_.ignored_presses();
   status.last_result = last_result_;
@@ -160,14 +157,10 @@ void Station::take_devices(Result<Devices> devices) {
   devices_ = std::move(*devices);
   cameras_ = std::make_shared<CameraSet>(std::exchange(devices_.cameras, {}));
   for (const auto& camera : cameras_->descriptions()) {
-    const auto& id = camera.geometry.id;
-    camera_status_.push_back({id, camera.model});
-    const auto usb = devices_.usb.find(id);
-    const bool on_usb = usb != devices_.usb.end();
-    care_.push_back({on_usb ? std::optional(usb->second) : std::nullopt, RecoveryLadder(on_usb)});
+    camera_status_.push_back({camera.geometry.id, camera.model});
   }
+  begin_care();
   work_out_truth();
-  if (!devices_.usb.empty()) watch_usb();
   check_cameras();
 }
 
@@ -185,9 +178,7 @@ void Station::work_out_truth() {
 
 void Station::check_cameras() {
   if (!cameras_ || machine_.is_busy()) return;
-  const bool checking =
-      std::any_of(unanswered_.begin(), unanswered_.end(), [](bool o) { return o; });
-  if (checking) return;
+  if (std::find(unanswered_.begin(), unanswered_.end(), true) != unanswered_.end()) return;
   const auto round = ++check_round_;
   unanswered_.assign(cameras_->size(), true);
   check_deadline_.set(settings_.capture.frame_limit + kOpeningGrace);
@@ -220,7 +211,7 @@ void Station::end_check() {
                 "camera " + camera_status_[i].id + " does not answer",
                 "unplug it and plug it in again; if that does not help, restart instepd"};
     }
-    care_for(i);
+    care_->looked_at(i, camera_status_[i].trouble);
     all = all && !camera_status_[i].trouble;
   }
   unanswered_.assign(unanswered_.size(), false);
@@ -230,60 +221,17 @@ void Station::end_check() {
   handle(all ? StationEvent::kCamerasReady : StationEvent::kCamerasLost);
 }
 
-/// Decides what is done for a camera that was just looked at.
-void Station::care_for(std::size_t camera) {
-  CameraStatus& status = camera_status_[camera];
-  RecoveryLadder& ladder = care_[camera].ladder;
-  if (!status.trouble) {
-    ladder.recovered();
-  } else if (ladder.failed(*status.trouble) == RecoveryLadder::Step::kReset) {
-    reset_camera(camera);
+void Station::begin_care() {
+  std::vector<std::optional<UsbAddress>> addresses;
+  for (const auto& camera : camera_status_) {
+    const auto usb = devices_.usb.find(camera.id);
+    addresses.push_back(usb == devices_.usb.end() ? std::nullopt : std::optional(usb->second));
   }
-  status.recovery = ladder.text();
-}
-
-void Station::reset_camera(std::size_t camera) {
-  care_[camera].last_reset = EventLoop::monotonic_now();
-  const auto address = *care_[camera].address;
-  reset_thread_.post([this, camera, address, post = loop_.poster()](TaskProgress&) {
-    const auto outcome = reset_usb_device(address);
-    if (outcome) return;  // that it arrives again is told by the bus
-    post([this, camera, text = outcome.error().line()] {
-      camera_status_[camera].recovery = text;
-      listener_.on_change();
-    });
-  });
-}
-
-void Station::watch_usb() {
-  usb_.emplace(loop_, open_libusb_watch(),
-               [this](const UsbChange& change) { usb_changed(change); });
-}
-
-/// A camera that came is opened at once instead of when the back-off ends; one that left is known
-/// to be away before somebody wants to scan.
-void Station::usb_changed(const UsbChange& change) {
-  bool look = false;
-  for (std::size_t i = 0; i < care_.size(); ++i) {
-    auto& [address, ladder, last_reset] = care_[i];
-    if (!address || !change.device.is_meant_by(*address)) continue;
-    CameraStatus& status = camera_status_[i];
-    const bool slow = change.arrived && change.device.could_be_faster;
-    status.link_mbps = change.arrived ? change.device.link_mbps : 0;
-    status.warning = slow ? fmt::format(
-                                "it is linked at {} Mbit/s, as USB 2: if it is a USB 3 "
-                                "camera, use a blue socket and a USB 3 cable",
-                                status.link_mbps)
-                          : "";
-    const auto now = EventLoop::monotonic_now();
-    const bool by_hand = !last_reset || *last_reset + kResetEcho < now;
-    if (change.arrived && by_hand) ladder.recovered();
-    look = look || change.arrived == status.trouble.has_value();
-  }
-  if (!look) return;
-  back_off_.reset();
-  check_cameras();
-  listener_.on_change();
+  const auto look = [this] {
+    back_off_.reset();
+    check_cameras();
+  };
+  care_.emplace(loop_, addresses, CameraCare::Listener{look, listener_.on_change});
 }
 
 void Station::pedal_signalled(PedalSignal signal) {

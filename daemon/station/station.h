@@ -17,13 +17,12 @@
 #include "daemon/loop/progress_watch.h"
 #include "daemon/loop/task_thread.h"
 #include "daemon/station/back_off.h"
+#include "daemon/station/camera_care.h"
 #include "daemon/station/camera_set.h"
 #include "daemon/station/devices.h"
 #include "daemon/station/pedal_watch.h"
-#include "daemon/station/recovery_ladder.h"
 #include "daemon/station/scan_session.h"
 #include "daemon/station/station_machine.h"
-#include "daemon/station/usb_monitor.h"
 
 namespace instep {
 
@@ -31,9 +30,7 @@ struct CameraStatus {
   std::string id;
   std::string model;
   std::optional<Error> trouble{};  ///< nothing = it answers
-  std::string recovery{};          ///< how far getting it back has gone; empty if nothing is wrong
-  int link_mbps = 0;               ///< of its USB link; 0 = unknown
-  std::string warning{};           ///< it serves, but not as well as it could
+  CameraHealth health{};
 };
 
 /// All that is told of a station from outside.
@@ -92,10 +89,7 @@ class Station {
   void check_cameras();
   void camera_answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome);
   void end_check();
-  void care_for(std::size_t camera);
-  void reset_camera(std::size_t camera);
-  void watch_usb();
-  void usb_changed(const UsbChange& change);
+  void begin_care();
   void pedal_signalled(PedalSignal signal);
   void pedal_lost(const Error& error);
   void pedal_returned();
@@ -122,14 +116,7 @@ class Station {
   std::shared_future<std::map<std::string, double>> truth_;
   std::shared_ptr<CameraSet> cameras_;
   std::vector<CameraStatus> camera_status_;
-  struct UsbCare {
-    std::optional<UsbAddress> address;
-    RecoveryLadder ladder;
-    std::optional<std::chrono::nanoseconds> last_reset{};
-  };
-  std::vector<UsbCare> care_;  ///< of each camera
-  std::optional<UsbMonitor> usb_;
-  TaskThread reset_thread_{"usb reset"};
+  std::optional<CameraCare> care_;  ///< there with cameras_
   std::vector<bool> unanswered_;
   std::uint64_t check_round_ = 0;
   EventLoop::Timer check_timer_;

@@ -17,9 +17,9 @@ std::vector<UsbChange> UsbPresence::settled(Time now) {
   for (auto place = places_.begin(); place != places_.end();) {
     Place& at = place->second;
     if (at.settling && at.settles <= now) {
-      const bool is_there = at.last.arrived;
-      if (is_there ? at.arrived : at.was_there) news.push_back(at.last);
-      at.was_there = is_there;
+      // Only of a device that was never there nothing is said.
+      if (at.was_there || at.arrived) news.push_back(at.last);
+      at.was_there = at.last.arrived;
       at.arrived = false;
       at.settling = false;
     }

@@ -16,12 +16,12 @@ namespace instep {
 class UsbPresence {
  public:
   using Time = std::chrono::nanoseconds;  ///< of CLOCK_MONOTONIC
-  static constexpr std::chrono::milliseconds kSettle{300};
+  static constexpr std::chrono::milliseconds kSettle{200};
 
   void note(const UsbChange& change, Time now);
 
-  /// What has settled by now. A device that went away and came back meanwhile has arrived; one that
-  /// came and went is no news.
+  /// What has settled by now, as it is in the end: a device that was replugged has arrived, one
+  /// that came and went, and may have been opened meanwhile, has left.
   std::vector<UsbChange> settled(Time now);
 
   /// When settled() has news next; nothing = nothing settles.

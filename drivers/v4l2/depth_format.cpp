@@ -28,6 +28,7 @@ std::string to_string_of_four(std::uint32_t code) {
     const auto letter = static_cast<char>((code >> shift) & 0x7f);
     text += letter >= ' ' && letter < '\x7f' ? letter : '?';
   }
+  while (text.ends_with(' ')) text.pop_back();
   return text;
 }
 

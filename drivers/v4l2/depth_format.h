@@ -20,7 +20,7 @@ enum class DepthFormat {
 
 /// The V4L2 code of four letters.
 std::uint32_t four_letters(DepthFormat format);
-/// Such a code as text, for messages.
+/// Such a code as text, without spaces at its end, for messages.
 std::string to_string_of_four(std::uint32_t code);
 
 /// What the driver says it agreed to (v4l2_pix_format).

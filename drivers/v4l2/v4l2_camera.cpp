@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <optional>
 #include <utility>
 
 #include "drivers/v4l2/video_error.h"
@@ -45,7 +46,7 @@ Result<std::unique_ptr<V4l2Camera>> V4l2Camera::create(Settings settings, VideoS
 V4l2Camera::V4l2Camera(Settings settings, VideoSystem& system, int wake_up)
     : settings_(std::move(settings)), system_(system), wake_up_(wake_up) {
   description_.geometry = settings_.geometry;
-  description_.model = "V4L2 " + to_string_of_four(four_letters(settings_.format));
+  description_.model = "V4L2 depth camera";
   description_.serial = settings_.address.serial;
   description_.depth_unit_mm = settings_.depth_unit_mm;
 }
@@ -56,19 +57,23 @@ Result<void> V4l2Camera::start() {
   if (stream_) return {};
   const auto nodes = find_video_nodes(settings_.address, settings_.folders);
   if (!nodes) return tl::make_unexpected(nodes.error());
-  const auto& lens = settings_.geometry.intrinsics;
-  const VideoStream::Wanted wanted{settings_.format, lens.width, lens.height, settings_.controls};
-  Error last;
+  std::optional<Error> refusal;
   for (const auto& node : *nodes) {
-    auto stream = VideoStream::open(system_, node.path, wanted);
-    if (stream) {
-      stream_ = std::move(*stream);
-      return {};
+    auto stream = VideoStream::open(system_, node.path, settings_.format);
+    if (stream) return begin(std::move(*stream));
+    if (stream.error().code != ErrorCode::kUnsupported) {
+      return tl::make_unexpected(stream.error());
     }
-    last = stream.error();
-    if (last.code != ErrorCode::kUnsupported) break;
+    if (!refusal) refusal = stream.error();
   }
-  return tl::make_unexpected(last);
+  return tl::make_unexpected(*refusal);
+}
+
+Result<void> V4l2Camera::begin(std::unique_ptr<VideoStream> stream) {
+  const auto& lens = settings_.geometry.intrinsics;
+  const auto begun = stream->begin(lens.width, lens.height, settings_.controls);
+  if (begun) stream_ = std::move(stream);
+  return begun;
 }
 
 Result<DepthFrame> V4l2Camera::next_frame(milliseconds limit) {
@@ -101,8 +106,8 @@ Result<void> V4l2Camera::wait_until(steady_clock::time_point deadline) {
     return fail(ErrorCode::kCancelled, "waiting for a frame was stopped", "start again");
   }
   // Images that came before the device left are still good.
-  const bool broken = (waiting[1].revents & ~POLLIN) != 0 && (waiting[1].revents & POLLIN) == 0;
-  if (broken) return tl::make_unexpected(stream_->why_broken());
+  const short device = waiting[1].revents;
+  if (device != 0 && (device & POLLIN) == 0) return tl::make_unexpected(stream_->why_broken());
   return {};
 }
 

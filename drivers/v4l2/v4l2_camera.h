@@ -55,6 +55,7 @@ class V4l2Camera final : public DepthCamera {
  private:
   V4l2Camera(Settings settings, VideoSystem& system, int wake_up);
 
+  Result<void> begin(std::unique_ptr<VideoStream> stream);
   /// Until an image may wait, the deadline at the latest. Fails with kCancelled, or with what is
   /// wrong with the device.
   Result<void> wait_until(std::chrono::steady_clock::time_point deadline);

@@ -14,8 +14,10 @@ Error video_error(int number, const std::string& doing) {
       return {ErrorCode::kDeviceGone, Remedy::kReopen, "it is unplugged (" + message + ")",
               "plug it in again"};
     case EBUSY:
-      return {ErrorCode::kBusy, Remedy::kRetry, "another program has it (" + message + ")",
-              "end that program: fuser -v /dev/video* names it"};
+      // uvcvideo also says this for a moment while the hub above wakes up or loses a device.
+      return {ErrorCode::kBusy, Remedy::kRetry,
+              "another program has it, or its bus is not ready (" + message + ")",
+              "if it stays so, end that program: fuser -v /dev/video* names it"};
     case EACCES:
     case EPERM:
       return {ErrorCode::kPermissionDenied, Remedy::kOperator, message,

@@ -27,11 +27,6 @@ std::vector<std::string> sizes_of(VideoSystem& system, int node, std::uint32_t f
   return sizes;
 }
 
-std::string without_spaces(std::string letters) {
-  letters.erase(letters.find_last_not_of(' ') + 1);
-  return letters;
-}
-
 }  // namespace
 
 Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
@@ -48,8 +43,8 @@ Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   for (; format.index < kMost; ++format.index) {
     if (system.control(node, VIDIOC_ENUM_FMT, &format) != 0) break;
-    modes.push_back({without_spaces(to_string_of_four(format.pixelformat)),
-                     sizes_of(system, node, format.pixelformat)});
+    modes.push_back(
+        {to_string_of_four(format.pixelformat), sizes_of(system, node, format.pixelformat)});
   }
   system.close(node);
   return modes;

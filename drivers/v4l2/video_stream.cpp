@@ -44,20 +44,23 @@ v4l2_buffer empty_buffer(std::uint32_t index) {
 
 Result<std::unique_ptr<VideoStream>> VideoStream::open(VideoSystem& system,
                                                        const std::filesystem::path& node,
-                                                       const Wanted& wanted) {
+                                                       DepthFormat format) {
   const int descriptor = system.open(node.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     return tl::make_unexpected(video_error(errno, "opening " + node.string()));
   }
-  std::unique_ptr<VideoStream> stream(new VideoStream(system, descriptor));
-  const auto ready =
-      stream->check_abilities(wanted.format)
-          .and_then([&] { return stream->agree_on_format(wanted); })
-          .and_then([&] { return set_controls(system, descriptor, wanted.controls); })
-          .and_then([&] { return stream->share_buffers(); })
-          .and_then([&] { return stream->switch_on(); });
-  if (!ready) return tl::make_unexpected(ready.error());
+  std::unique_ptr<VideoStream> stream(new VideoStream(system, descriptor, format));
+  if (const auto able = stream->check_abilities(); !able) {
+    return tl::make_unexpected(able.error());
+  }
   return stream;
+}
+
+Result<void> VideoStream::begin(int width, int height, const std::vector<CameraControl>& controls) {
+  return agree_on_format(width, height)
+      .and_then([&] { return set_controls(system_, descriptor_, controls); })
+      .and_then([&] { return share_buffers(); })
+      .and_then([&] { return switch_on(); });
 }
 
 VideoStream::~VideoStream() {
@@ -80,8 +83,7 @@ Result<void> VideoStream::call(unsigned long request, void* argument, const char
   return tl::make_unexpected(video_error(errno, doing));
 }
 
-/// Asks without changing anything: the node may be that of another stream that is in use.
-Result<void> VideoStream::check_abilities(DepthFormat format) {
+Result<void> VideoStream::check_abilities() {
   v4l2_capability abilities{};
   if (auto asked = call(VIDIOC_QUERYCAP, &abilities, "asking what it can do"); !asked) {
     return asked;
@@ -101,26 +103,26 @@ Result<void> VideoStream::check_abilities(DepthFormat format) {
       if (errno == EINVAL) break;  // the end of the list
       return tl::make_unexpected(video_error(errno, "listing its formats"));
     }
-    if (description.pixelformat == four_letters(format)) return {};
+    if (description.pixelformat == four_letters(format_)) return {};
     offered += (offered.empty() ? "" : ", ") + to_string_of_four(description.pixelformat);
   }
   return fail(ErrorCode::kUnsupported,
-              fmt::format("it has no format {}, only: {}", to_string_of_four(four_letters(format)),
+              fmt::format("it has no format {}, only: {}", to_string_of_four(four_letters(format_)),
                           offered.empty() ? "none" : offered),
               "set format to one that carries depth");
 }
 
-Result<void> VideoStream::agree_on_format(const Wanted& wanted) {
+Result<void> VideoStream::agree_on_format(int width, int height) {
   v4l2_format format{};
   format.type = kType;
-  format.fmt.pix.width = static_cast<std::uint32_t>(wanted.width);
-  format.fmt.pix.height = static_cast<std::uint32_t>(wanted.height);
-  format.fmt.pix.pixelformat = four_letters(wanted.format);
+  format.fmt.pix.width = static_cast<std::uint32_t>(width);
+  format.fmt.pix.height = static_cast<std::uint32_t>(height);
+  format.fmt.pix.pixelformat = four_letters(format_);
   format.fmt.pix.field = V4L2_FIELD_NONE;
   if (auto set = call(VIDIOC_S_FMT, &format, "setting its format"); !set) return set;
   const auto& agreed = format.fmt.pix;
   auto layout = depth_layout(
-      wanted.format, wanted.width, wanted.height,
+      format_, width, height,
       {agreed.pixelformat, agreed.width, agreed.height, agreed.bytesperline, agreed.sizeimage});
   if (!layout) return tl::make_unexpected(layout.error());
   layout_ = *layout;

@@ -21,22 +21,20 @@ namespace instep {
 /// only then can the node be opened again. Nothing here waits.
 class VideoStream {
  public:
-  struct Wanted {
-    DepthFormat format = DepthFormat::kZ16;
-    int width = 0;
-    int height = 0;
-    std::vector<CameraControl> controls;
-  };
-
-  /// Opens the node, agrees on the format, sets the controls and switches the stream on. Fails with
-  /// kUnsupported if the node has no such format (a camera has other nodes for its other streams),
-  /// kNoBandwidth if its USB bus is full, and as video_error.h says.
+  /// Opens a node without changing anything: it may be that of another stream, in use. Fails with
+  /// kUnsupported if it does not stream that format (a camera has a node for each of its streams),
+  /// and as video_error.h says.
   static Result<std::unique_ptr<VideoStream>> open(VideoSystem& system,
                                                    const std::filesystem::path& node,
-                                                   const Wanted& wanted);
+                                                   DepthFormat format);
   ~VideoStream();
   VideoStream(const VideoStream&) = delete;
   VideoStream& operator=(const VideoStream&) = delete;
+
+  /// Agrees on the size, sets the controls and switches the stream on; once. Fails with
+  /// kUnsupported if the driver does not agree, kInvalidInput if a control cannot be set,
+  /// kNoBandwidth if the USB bus is full, and as video_error.h says.
+  Result<void> begin(int width, int height, const std::vector<CameraControl>& controls);
 
   /// To be polled: readable when take() has something.
   int descriptor() const { return descriptor_; }
@@ -55,16 +53,18 @@ class VideoStream {
   Error why_broken();
 
  private:
-  VideoStream(VideoSystem& system, int descriptor) : system_(system), descriptor_(descriptor) {}
+  VideoStream(VideoSystem& system, int descriptor, DepthFormat format)
+      : system_(system), descriptor_(descriptor), format_(format) {}
 
-  Result<void> check_abilities(DepthFormat format);
-  Result<void> agree_on_format(const Wanted& wanted);
+  Result<void> check_abilities();
+  Result<void> agree_on_format(int width, int height);
   Result<void> share_buffers();
   Result<void> switch_on();
   Result<void> call(unsigned long request, void* argument, const char* doing);
 
   VideoSystem& system_;
   int descriptor_;
+  DepthFormat format_;
   DepthLayout layout_;
   std::vector<std::span<std::uint8_t>> buffers_;
   bool asked_for_buffers_ = false;

@@ -70,11 +70,14 @@ TEST(UsbPresence, ReportsAnArrivalWhenADeviceWasReplugged) {
   EXPECT_TRUE(news[0].arrived);
 }
 
-TEST(UsbPresence, SaysNothingOfWhatCameAndWent) {
+TEST(UsbPresence, ReportsADepartureOfWhatCameAndWent) {
   UsbPresence presence;
   presence.note(change(true), 0ms);
   presence.note(change(false), 50ms);
-  EXPECT_TRUE(presence.settled(1s).empty());
+  const auto news = presence.settled(1s);
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_FALSE(news[0].arrived);
+  EXPECT_TRUE(presence.settled(2s).empty());
 }
 
 /// Whatever the events, what was reported last of each device is what is true in the end.

@@ -17,7 +17,7 @@ TEST(DepthFormat, HasTheCodesOfTheKernelsDocumentation) {
   EXPECT_EQ(four_letters(DepthFormat::kZ16), code("Z16 "));
   EXPECT_EQ(four_letters(DepthFormat::kY16), code("Y16 "));
   EXPECT_EQ(four_letters(DepthFormat::kInzi), code("INZI"));
-  EXPECT_EQ(to_string_of_four(code("Z16 ")), "Z16 ");
+  EXPECT_EQ(to_string_of_four(code("Z16 ")), "Z16");
   EXPECT_EQ(to_string_of_four(0x80000001), "????") << "big-endian flag and unprintables";
 }
 

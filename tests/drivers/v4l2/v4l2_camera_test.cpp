@@ -204,6 +204,19 @@ TEST_F(V4l2CameraTest, FindsTheNodeThatStreamsDepthAmongThoseOfItsDevice) {
   EXPECT_EQ(next(*camera).status, FrameStatus::kGood);
 }
 
+// What is wrong with the node that streams depth is told, not that the others do not stream it.
+TEST_F(V4l2CameraTest, SaysWhatIsWrongWithTheNodeThatStreamsDepth) {
+  bench_.unplug();
+  bench_.bus().plug({.port = "3", .serial = "A1", .nodes = {4, 5, 6}});
+  const auto path = [&](const char* name) { return (bench_.bus().dev() / name).string(); };
+  bench_.kernel().add(path("video4"), {.formats = {V4L2_PIX_FMT_YUYV}});
+  bench_.kernel().add(path("video5"), {.other_width = 320});
+  bench_.kernel().add(path("video6"), {.capabilities = V4L2_CAP_META_CAPTURE});
+  const auto begun = bench_.camera()->start();
+  ASSERT_FALSE(begun);
+  EXPECT_THAT(begun.error().message, HasSubstr("it sends Z16 320x48, not Z16 64x48"));
+}
+
 TEST_F(V4l2CameraTest, SetsControlsByNameInTheirOrder) {
   bench_.replace(
       {.controls = {
