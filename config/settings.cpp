@@ -5,10 +5,18 @@
 namespace instep {
 namespace {
 
+std::string describe_v4l2(const V4l2Settings& camera) {
+  std::string text = camera.placement.name + ", a V4L2 camera";
+  if (!camera.serial.empty()) text += ", serial " + camera.serial;
+  if (!camera.bus_path.empty()) text += ", at " + camera.bus_path;
+  return text + fmt::format(", depth in {} mm", camera.depth_unit_mm);
+}
+
 std::string describe_camera(const CameraSettings& camera,
                             const SimulatedStationSettings& simulation) {
   if (camera.kind == CameraKind::kRecording) return "the recording " + camera.path.string();
   if (camera.kind == CameraKind::kOpenni) return describe(camera.openni);
+  if (camera.kind == CameraKind::kV4l2) return describe_v4l2(camera.v4l2);
   return fmt::format("{} simulated", simulation.cameras);
 }
 
@@ -17,6 +25,20 @@ std::string describe_keeping(const StoreSettings& store) {
   if (store.keep_days > 0) text += fmt::format(", kept for {} days", store.keep_days);
   if (store.keep_count > 0) text += fmt::format(", at most {}", store.keep_count);
   return text.empty() ? ", kept for ever" : text;
+}
+
+std::string describe_pedal(const PedalSettings& pedal) {
+  switch (pedal.kind) {
+    case PedalKind::kNone:
+      return "none";
+    case PedalKind::kSimulated:
+      return "simulated, taps are written to " + pedal.fifo.string();
+    case PedalKind::kGpio:
+      return describe(pedal.gpio);
+    case PedalKind::kEvdev:
+      return describe(pedal.evdev);
+  }
+  return "";
 }
 
 std::string describe_sizes(const SizeRules& sizes) {
@@ -39,9 +61,7 @@ std::string describe(const Settings& settings) {
   }
   text += fmt::format("capture  {} frames of each camera after {} to warm up, within {} ms\n",
                       capture.frames_per_camera, capture.warmup_frames, capture.deadline.count());
-  text += pedal.kind == PedalKind::kNone
-              ? "pedal    none\n"
-              : fmt::format("pedal    simulated, taps are written to {}\n", pedal.fifo.string());
+  text += fmt::format("pedal    {}\n", describe_pedal(pedal));
   text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
   text += fmt::format("sizes    {}\n", describe_sizes(sizes));
   text += fmt::format("control  {}\n", control.socket.string());

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "config/openni_settings.h"
+#include "config/pedal_sources.h"
+#include "config/v4l2_settings.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
@@ -36,22 +38,25 @@ struct CaptureSettings {
   std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
 };
 
-enum class PedalKind { kNone, kSimulated };
+enum class PedalKind { kNone, kSimulated, kGpio, kEvdev };
 
 struct PedalSettings {
   PedalKind kind = PedalKind::kSimulated;
   std::chrono::milliseconds debounce{30};            ///< 5 to 200
   std::chrono::milliseconds hold_to_cancel{2000};    ///< 500 to 10000
   std::filesystem::path fifo = "/run/instep/pedal";  ///< of the simulated pedal
+  GpioPedalSettings gpio;
+  EvdevPedalSettings evdev;
 };
 
 /// Where depth frames come from. One source may bring several cameras.
-enum class CameraKind { kSimulated, kRecording, kOpenni };
+enum class CameraKind { kSimulated, kRecording, kOpenni, kV4l2 };
 
 struct CameraSettings {
   CameraKind kind = CameraKind::kSimulated;
   std::filesystem::path path;  ///< of a recording: its folder
   OpenniSettings openni;       ///< of kOpenni
+  V4l2Settings v4l2;           ///< of a V4L2 camera
 };
 
 enum class SimulatedNoise { kNone, kTypical, kPessimistic };

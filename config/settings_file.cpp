@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "config/settings_table.h"
+#include "config/v4l2_settings_table.h"
 
 namespace instep {
 namespace {
@@ -24,7 +25,7 @@ void section(SettingsTable& root, const std::string& name, SettingsFaults& fault
              ReadFields read_fields) {
   const toml::table* found = root.table(name);
   if (found == nullptr) return;
-  SettingsTable table(*found, name, faults);
+  SettingsTable table(*found, root.full(name), faults);
   read_fields(table);
   table.finish();
 }
@@ -47,12 +48,21 @@ void read_capture(SettingsTable& table, CaptureSettings& capture) {
   table.read("check_every_s", capture.check_every, 1, 3600);
 }
 
-void read_pedal(SettingsTable& table, PedalSettings& pedal, const std::filesystem::path& base) {
+void read_pedal(SettingsTable& table, PedalSettings& pedal, const std::filesystem::path& base,
+                SettingsFaults& faults) {
   table.choose("kind", pedal.kind,
-               {{"simulated", PedalKind::kSimulated}, {"none", PedalKind::kNone}});
+               {{"simulated", PedalKind::kSimulated},
+                {"none", PedalKind::kNone},
+                {"gpio", PedalKind::kGpio},
+                {"evdev", PedalKind::kEvdev}});
   table.read("debounce_ms", pedal.debounce, 5, 200);
   table.read("hold_to_cancel_ms", pedal.hold_to_cancel, 500, 10000);
   table.read("fifo", pedal.fifo, base);
+  section(table, "gpio", faults, [&](SettingsTable& gpio) { read_gpio_pedal(gpio, pedal.gpio); });
+  section(table, "evdev", faults,
+          [&](SettingsTable& evdev) { read_evdev_pedal(evdev, pedal.evdev); });
+  if (pedal.kind == PedalKind::kGpio) check_gpio_pedal(pedal.gpio, table.line(), faults);
+  if (pedal.kind == PedalKind::kEvdev) check_evdev_pedal(pedal.evdev, table.line(), faults);
 }
 
 CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& base,
@@ -61,12 +71,14 @@ CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& ba
   table.choose("kind", camera.kind,
                {{"simulated", CameraKind::kSimulated},
                 {"recording", CameraKind::kRecording},
-                {"openni2", CameraKind::kOpenni}});
+                {"openni2", CameraKind::kOpenni},
+                {"v4l2", CameraKind::kV4l2}});
   table.read("path", camera.path, base);
   if (camera.kind == CameraKind::kOpenni) camera.openni = read_openni_settings(table, base, faults);
   if (camera.kind == CameraKind::kRecording && camera.path.empty()) {
     faults.add(table.line(), "camera.path is missing: name the folder of the recording");
   }
+  if (camera.kind == CameraKind::kV4l2) camera.v4l2 = read_v4l2_settings(table, faults);
   table.finish();
   return camera;
 }
@@ -201,7 +213,8 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   Table root(toml, "", faults);
   section(root, "station", faults, [&](Table& table) { read_station(table, settings.station); });
   section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
-  section(root, "pedal", faults, [&](Table& table) { read_pedal(table, settings.pedal, base); });
+  section(root, "pedal", faults,
+          [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });
   section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });

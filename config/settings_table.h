@@ -87,12 +87,13 @@ class SettingsTable {
   void finish();
 
   void fault(const toml::node& node, const std::string& text);
+  /// The key with the tables it stands in: "pedal.gpio".
+  std::string full(const std::string& key) const;
   unsigned line() const { return table_.source().begin.line; }
 
  private:
   const toml::node* find(const std::string& key);
   const toml::node* text(const std::string& key, std::string& value);
-  std::string full(const std::string& key) const;
   void wrong_type(const toml::node& node, const std::string& key, const std::string& wanted);
   void not_a_choice(const toml::node& node, const std::string& key, const std::string& word,
                     const std::vector<std::string>& names);

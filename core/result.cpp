@@ -17,6 +17,7 @@ Remedy usual_remedy(ErrorCode code) {
     case ErrorCode::kCorruptData:
     case ErrorCode::kUnsupported:
     case ErrorCode::kNoSpace:
+    case ErrorCode::kNoBandwidth:
     case ErrorCode::kIo:
       return Remedy::kOperator;
     case ErrorCode::kInternal:
@@ -41,6 +42,8 @@ const char* to_string(ErrorCode code) {
       return "insufficient_data";
     case ErrorCode::kNoSpace:
       return "no_space";
+    case ErrorCode::kNoBandwidth:
+      return "no_bandwidth";
     case ErrorCode::kBusy:
       return "busy";
     case ErrorCode::kTimeout:

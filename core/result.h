@@ -16,6 +16,7 @@ enum class ErrorCode {
   kUnsupported,       ///< sound, but not something this program handles
   kInsufficientData,  ///< too few points or frames to measure honestly
   kNoSpace,           ///< the disk is full
+  kNoBandwidth,       ///< the bus of the device is full
   kBusy,              ///< somebody else holds it
   kTimeout,           ///< nothing came within the limit
   kDeviceGone,        ///< the device left the bus

@@ -20,6 +20,7 @@ constexpr const char* kExamples = R"(Examples:
   instep simulate --out visit && instep replay visit            the whole chain, no hardware
   instep scan                                                   measure who stands on the station
   instep repeat scans/*                                         how well repeated scans agree
+  instep devices                                                what is plugged in
   instep doctor                                                 what is wrong with this machine
   instep girth --help                                           all about one command
 
@@ -63,6 +64,7 @@ int main(int argc, char** argv) {
     instep::add_recording_commands(app, exit_code);
     instep::add_station_commands(app, exit_code);
     instep::add_repeat_command(app, exit_code);
+    instep::add_devices_command(app, exit_code);
     instep::add_doctor_command(app, exit_code);
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

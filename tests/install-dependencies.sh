@@ -9,7 +9,10 @@ packages=(
   libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   libpng-dev libassimp-dev libsystemd-dev
   libopenni2-dev
+  libgpiod-dev libevdev-dev
+  libusb-1.0-0-dev
   libgtest-dev libgmock-dev
+  qemu-system-x86 busybox-static cpio kmod make libelf1 udev xz-utils systemd  # of the tests against a real kernel
   librsvg2-bin  # a program, not a library: prints a report as PDF
 )
 

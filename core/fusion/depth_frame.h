@@ -41,6 +41,7 @@ enum class FrameStatus {
   kGood,
   kCorrupt,     ///< flagged by the driver, or its content contradicts its format
   kIncomplete,  ///< fewer pixels than the format says
+  kStale,       ///< from before the stream began, or seen already
 };
 
 /// One depth image as it left the camera. Depth is kept in the camera's own integers.

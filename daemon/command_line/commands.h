@@ -22,6 +22,9 @@ void add_station_commands(CLI::App& app, int& exit_code);
 /// repeat: results on disk, no daemon.
 void add_repeat_command(CLI::App& app, int& exit_code);
 
+/// devices: what is plugged in.
+void add_devices_command(CLI::App& app, int& exit_code);
+
 /// doctor: what is wrong with this machine and what to do.
 void add_doctor_command(CLI::App& app, int& exit_code);
 

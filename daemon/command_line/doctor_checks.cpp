@@ -14,6 +14,7 @@
 #include "daemon/build_facts.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
+#include "daemon/machine/device_checks.h"
 #include "daemon/station/devices.h"
 
 namespace instep {
@@ -101,6 +102,32 @@ DoctorCheck check_cameras(const Result<json>& status, const Settings& settings) 
   return good("cameras", fmt::format("{} can be opened", devices->cameras.size()));
 }
 
+/// What a camera that does not answer lacks, as the kernel's folders show it.
+void check_video_cameras(const Settings& settings, std::vector<DoctorCheck>& checks) {
+  for (const auto& camera : settings.cameras) {
+    if (camera.kind != CameraKind::kV4l2) continue;
+    const auto trouble = trouble_of_camera(camera.v4l2, {});
+    const std::string& name = camera.v4l2.placement.name;
+    checks.push_back(trouble ? bad("camera", name + ": " + trouble->finding, trouble->remedy)
+                             : good("camera", name + " is plugged in and may be opened"));
+  }
+}
+
+void check_usb_memory(std::vector<DoctorCheck>& checks) {
+  if (const auto trouble = trouble_of_usb_memory({})) {
+    checks.push_back(bad("usb", trouble->finding, trouble->remedy));
+  }
+}
+
+/// Opens a pedal that is a device, unless a daemon has it.
+void check_pedal(bool daemon_runs, const Settings& settings, std::vector<DoctorCheck>& checks) {
+  const auto kind = settings.pedal.kind;
+  if (daemon_runs || (kind != PedalKind::kGpio && kind != PedalKind::kEvdev)) return;
+  const auto pedal = open_pedal(settings);
+  checks.push_back(pedal ? good("pedal", "can be opened")
+                         : bad("pedal", pedal.error().message, pedal.error().advice));
+}
+
 DoctorCheck library_versions() {
   return good("software",
               fmt::format("instep {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
@@ -129,6 +156,9 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(check_free_space(settings.store.root));
   checks.push_back(check_daemon(status, settings.control.socket));
   if (found) checks.push_back(check_cameras(status, settings));
+  check_video_cameras(settings, checks);
+  check_usb_memory(checks);
+  check_pedal(status.has_value(), settings, checks);
   return checks;
 }
 

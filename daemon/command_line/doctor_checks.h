@@ -13,7 +13,7 @@ struct DoctorCheck {
   std::string remedy;  ///< empty if good
 };
 
-/// Looks at this machine: settings, results' folder, daemon, cameras, libraries. Changes nothing.
+/// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes nothing.
 /// Takes up to some seconds: if no daemon runs, the cameras are opened.
 std::vector<DoctorCheck> examine_machine();
 

@@ -73,11 +73,17 @@ std::string status_line(const json& status) {
   return line;
 }
 
+std::string camera_text(const json& camera) {
+  const std::string warning = text(camera, "warning");
+  if (camera.value("ok", false)) return warning.empty() ? "ok" : "ok, but " + warning;
+  const std::string recovery = text(camera, "recovery");
+  return text(camera, "trouble") + (recovery.empty() ? "" : " (" + recovery + ")");
+}
+
 std::string status_text(const json& status) {
   std::string lines = status_line(status) + "\n";
   for (const auto& camera : status.value("cameras", json::array())) {
-    lines += fmt::format("  camera {:<12} {}\n", text(camera, "id"),
-                         camera.value("ok", false) ? "ok" : text(camera, "trouble"));
+    lines += fmt::format("  camera {:<12} {}\n", text(camera, "id"), camera_text(camera));
   }
   return lines + fmt::format("  scans {}, ignored presses {}\n", status.value("scans", 0),
                              status.value("ignored_presses", 0));

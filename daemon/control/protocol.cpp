@@ -97,7 +97,10 @@ json to_json(const StationStatus& status) {
     cameras.push_back({{"id", camera.id},
                        {"model", camera.model},
                        {"ok", !camera.trouble.has_value()},
-                       {"trouble", camera.trouble ? camera.trouble->line() : ""}});
+                       {"trouble", camera.trouble ? camera.trouble->line() : ""},
+                       {"recovery", camera.health.recovery},
+                       {"link_mbps", camera.health.link_mbps},
+                       {"warning", camera.health.warning}});
   }
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},

@@ -167,7 +167,8 @@ void StationService::reload() {
     settings_.store.keep_days = settings->store.keep_days;
     settings_.store.keep_count = settings->store.keep_count;
     log_info(
-        "read the settings again; cameras, kind of pedal, simulation, store and socket change "
+        "read the settings again; cameras, the pedal's kind and place, simulation, store and "
+        "socket change "
         "with a restart");
     sweep_store();
   }

@@ -183,7 +183,10 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
   std::optional<Error> first_fault;
   std::string at_fault;
   const auto blame = [&](const std::string& id, const Error& error) {
-    if (!first_fault) first_fault = error;
+    // One that left shakes its whole bus, and with it the others.
+    const bool explains = error.code == ErrorCode::kDeviceGone && first_fault &&
+                          first_fault->code != ErrorCode::kDeviceGone;
+    if (!first_fault || explains) first_fault = error;
     at_fault += (at_fault.empty() ? "" : ", ") + id;
   };
   const bool faults = std::any_of(

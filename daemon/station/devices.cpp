@@ -5,9 +5,12 @@
 #include <utility>
 
 #include "config/settings_search.h"
+#include "drivers/evdev/evdev_pedal.h"
+#include "drivers/gpio/gpio_pedal.h"
 #include "drivers/openni2/openni_camera.h"
 #include "drivers/recording/recording_camera.h"
 #include "drivers/recording/recording_reader.h"
+#include "drivers/v4l2/v4l2_camera.h"
 #include "sim/fault_script.h"
 #include "sim/simulated_station.h"
 
@@ -120,6 +123,36 @@ Result<void> add_openni(const OpenniSettings& chosen, Devices& devices) {
   return {};
 }
 
+DepthFormat format_of(V4l2Format format) {
+  switch (format) {
+    case V4l2Format::kZ16:
+      return DepthFormat::kZ16;
+    case V4l2Format::kY16:
+      return DepthFormat::kY16;
+    case V4l2Format::kInzi:
+      return DepthFormat::kInzi;
+  }
+  return DepthFormat::kZ16;
+}
+
+/// A camera that is away is added all the same: its status says so until it comes.
+Result<void> add_v4l2(const V4l2Settings& chosen, Devices& devices) {
+  V4l2Camera::Settings settings;
+  settings.geometry.id = chosen.placement.name;
+  settings.geometry.intrinsics = chosen.placement.intrinsics.value_or(CameraIntrinsics{});
+  settings.geometry.station_from_camera = chosen.placement.station_from_camera;
+  settings.depth_unit_mm = chosen.depth_unit_mm;
+  settings.format = format_of(chosen.format);
+  settings.address = {chosen.bus_path, chosen.serial};
+  for (const auto& [name, value] : chosen.controls) settings.controls.push_back({name, value});
+  devices.usb[chosen.placement.name] = settings.address;
+  auto camera = V4l2Camera::create(std::move(settings));
+  if (!camera) return tl::make_unexpected(camera.error());
+  devices.cameras.push_back(std::move(*camera));
+  devices.calibration = "as the settings say";
+  return {};
+}
+
 /// Frames are told apart by their camera's name.
 Result<void> check_names(const Devices& devices) {
   std::set<std::string> names;
@@ -130,6 +163,44 @@ Result<void> check_names(const Devices& devices) {
                 "name each source once among the [[camera]] tables");
   }
   return {};
+}
+
+GpioBias bias_of(PedalBias bias) {
+  switch (bias) {
+    case PedalBias::kPullUp:
+      return GpioBias::kPullUp;
+    case PedalBias::kPullDown:
+      return GpioBias::kPullDown;
+    case PedalBias::kNone:
+      return GpioBias::kNone;
+  }
+  return GpioBias::kPullUp;
+}
+
+using OpenedPedal = Result<std::unique_ptr<Pedal>>;
+
+template <typename Kind>
+OpenedPedal as_pedal(Result<std::unique_ptr<Kind>> opened) {
+  if (!opened) return tl::make_unexpected(opened.error());
+  return std::move(*opened);
+}
+
+OpenedPedal open_gpio_pedal(const GpioPedalSettings& chosen) {
+  GpioPedal::Settings settings;
+  settings.address.line = chosen.line;
+  settings.address.chip = chosen.chip;
+  if (chosen.offset) settings.address.offset = static_cast<unsigned>(*chosen.offset);
+  settings.active_low = chosen.active_low;
+  settings.bias = bias_of(chosen.bias);
+  return as_pedal(GpioPedal::open(settings));
+}
+
+OpenedPedal open_simulated_pedal(const Settings& settings) {
+  const auto text = read_fault_script(settings.simulation.fault_script);
+  if (!text) return tl::make_unexpected(text.error());
+  const auto script = parse_fault_script(*text);
+  if (!script) return tl::make_unexpected(script.error());
+  return as_pedal(SimulatedPedal::open({.faults = script->pedal, .fifo = settings.pedal.fifo}));
 }
 
 }  // namespace
@@ -158,6 +229,9 @@ Result<Devices> open_devices(const Settings& settings) {
       case CameraKind::kOpenni:
         added = add_openni(camera.openni, devices);
         break;
+      case CameraKind::kV4l2:
+        added = add_v4l2(camera.v4l2, devices);
+        break;
     }
     if (!added) return tl::make_unexpected(added.error());
   }
@@ -171,14 +245,18 @@ Result<Devices> open_devices(const Settings& settings) {
 }
 
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings) {
-  if (settings.pedal.kind == PedalKind::kNone) return nullptr;
-  const auto text = read_fault_script(settings.simulation.fault_script);
-  if (!text) return tl::make_unexpected(text.error());
-  const auto script = parse_fault_script(*text);
-  if (!script) return tl::make_unexpected(script.error());
-  auto pedal = SimulatedPedal::open({.faults = script->pedal, .fifo = settings.pedal.fifo});
-  if (!pedal) return tl::make_unexpected(pedal.error());
-  return std::move(*pedal);
+  switch (settings.pedal.kind) {
+    case PedalKind::kNone:
+      return nullptr;
+    case PedalKind::kSimulated:
+      return open_simulated_pedal(settings);
+    case PedalKind::kGpio:
+      return open_gpio_pedal(settings.pedal.gpio);
+    case PedalKind::kEvdev:
+      return as_pedal(EvdevPedal::open(
+          {.device = settings.pedal.evdev.device, .key = settings.pedal.evdev.key}));
+  }
+  return nullptr;
 }
 
 }  // namespace instep

@@ -11,6 +11,7 @@
 #include "core/result.h"
 #include "drivers/depth_camera.h"
 #include "drivers/pedal.h"
+#include "drivers/usb/usb_device.h"
 #include "sim/simulated_station.h"
 
 namespace instep {
@@ -21,6 +22,7 @@ struct Devices {
   std::optional<double> platform_height_mm;  ///< as the cameras' source says it
   std::string calibration;                   ///< where the cameras' poses come from
   bool simulated = false;
+  std::map<std::string, UsbAddress> usb;  ///< of the cameras on the USB bus, by their name
   /// Gives what Capture::truth holds; empty if nothing is known. May take seconds, so call it where
   /// nobody waits. Needs nothing of these devices, which may be gone by then.
   std::function<Result<std::map<std::string, double>>()> work_out_truth;

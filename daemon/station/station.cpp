@@ -13,6 +13,11 @@ Error stuck_pedal() {
           "take the foot off it; if it stays so, check its cable"};
 }
 
+Error chattering_pedal() {
+  return {ErrorCode::kIo, Remedy::kOperator, "the pedal's contact opens and closes all the time",
+          "check its plug and its cable, or try another pedal"};
+}
+
 }  // namespace
 
 Station::Station(EventLoop& loop, Settings settings, MeasureCapture measure,
@@ -88,6 +93,9 @@ StationStatus Station::status() const {
   status.stage = stage_;
   status.done = done_;
   status.cameras = camera_status_;
+  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
+    status.cameras[i].health = care_->health(i);
+  }
   status.scans = scans_;
   status.ignored_presses = machine_.ignored_presses();
   status.last_result = last_result_;
@@ -149,8 +157,9 @@ void Station::take_devices(Result<Devices> devices) {
   devices_ = std::move(*devices);
   cameras_ = std::make_shared<CameraSet>(std::exchange(devices_.cameras, {}));
   for (const auto& camera : cameras_->descriptions()) {
-    camera_status_.push_back({camera.geometry.id, camera.model, std::nullopt});
+    camera_status_.push_back({camera.geometry.id, camera.model});
   }
+  begin_care();
   work_out_truth();
   check_cameras();
 }
@@ -169,6 +178,7 @@ void Station::work_out_truth() {
 
 void Station::check_cameras() {
   if (!cameras_ || machine_.is_busy()) return;
+  if (std::find(unanswered_.begin(), unanswered_.end(), true) != unanswered_.end()) return;
   const auto round = ++check_round_;
   unanswered_.assign(cameras_->size(), true);
   check_deadline_.set(settings_.capture.frame_limit + kOpeningGrace);
@@ -201,12 +211,27 @@ void Station::end_check() {
                 "camera " + camera_status_[i].id + " does not answer",
                 "unplug it and plug it in again; if that does not help, restart instepd"};
     }
+    care_->looked_at(i, camera_status_[i].trouble);
     all = all && !camera_status_[i].trouble;
   }
+  unanswered_.assign(unanswered_.size(), false);
   if (all) back_off_.reset();
   check_timer_.set(all ? std::chrono::nanoseconds(settings_.capture.check_every)
                        : std::chrono::nanoseconds(back_off_.next()));
   handle(all ? StationEvent::kCamerasReady : StationEvent::kCamerasLost);
+}
+
+void Station::begin_care() {
+  std::vector<std::optional<UsbAddress>> addresses;
+  for (const auto& camera : camera_status_) {
+    const auto usb = devices_.usb.find(camera.id);
+    addresses.push_back(usb == devices_.usb.end() ? std::nullopt : std::optional(usb->second));
+  }
+  const auto look = [this] {
+    back_off_.reset();
+    check_cameras();
+  };
+  care_.emplace(loop_, addresses, CameraCare::Listener{look, listener_.on_change});
 }
 
 void Station::pedal_signalled(PedalSignal signal) {
@@ -217,6 +242,9 @@ void Station::pedal_signalled(PedalSignal signal) {
       return handle(StationEvent::kCancelRequested);
     case PedalSignal::kStuck:
       pedal_trouble_ = stuck_pedal();
+      return handle(StationEvent::kPedalFault);
+    case PedalSignal::kChattering:
+      pedal_trouble_ = chattering_pedal();
       return handle(StationEvent::kPedalFault);
     case PedalSignal::kReleased:
       return pedal_returned();

@@ -17,6 +17,7 @@
 #include "daemon/loop/progress_watch.h"
 #include "daemon/loop/task_thread.h"
 #include "daemon/station/back_off.h"
+#include "daemon/station/camera_care.h"
 #include "daemon/station/camera_set.h"
 #include "daemon/station/devices.h"
 #include "daemon/station/pedal_watch.h"
@@ -28,7 +29,8 @@ namespace instep {
 struct CameraStatus {
   std::string id;
   std::string model;
-  std::optional<Error> trouble;  ///< nothing = it answers
+  std::optional<Error> trouble{};  ///< nothing = it answers
+  CameraHealth health{};
 };
 
 /// All that is told of a station from outside.
@@ -87,6 +89,7 @@ class Station {
   void check_cameras();
   void camera_answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome);
   void end_check();
+  void begin_care();
   void pedal_signalled(PedalSignal signal);
   void pedal_lost(const Error& error);
   void pedal_returned();
@@ -113,6 +116,7 @@ class Station {
   std::shared_future<std::map<std::string, double>> truth_;
   std::shared_ptr<CameraSet> cameras_;
   std::vector<CameraStatus> camera_status_;
+  std::optional<CameraCare> care_;  ///< there with cameras_
   std::vector<bool> unanswered_;
   std::uint64_t check_round_ = 0;
   EventLoop::Timer check_timer_;

@@ -39,6 +39,21 @@ TEST(SettingsFile, ShippedFileIsSoundAndSaysTheDefaults) {
   EXPECT_EQ(describe(*shipped), describe(read(kCamera).settings));
 }
 
+TEST(SettingsFile, SaysWhereThePedalIs) {
+  const auto described = [](const std::string& toml) {
+    return describe(read(kCamera + toml).settings);
+  };
+  EXPECT_THAT(described("[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nline = \"foot\"\n"),
+              HasSubstr("pedal    GPIO line \"foot\", active low, pulled up\n"));
+  EXPECT_THAT(
+      described("[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nchip = \"board\"\noffset = 17\n"
+                "active = \"high\"\nbias = \"none\"\n"),
+      HasSubstr("pedal    GPIO line 17 of the chip \"board\", active high, without bias\n"));
+  EXPECT_THAT(described("[pedal]\nkind = \"evdev\"\n[pedal.evdev]\ndevice = \"0c45:7403\"\n"
+                        "key = \"KEY_B\"\n"),
+              HasSubstr("pedal    KEY_B of the input device 0c45:7403\n"));
+}
+
 struct Fault {
   const char* toml;
   const char* text;
@@ -61,6 +76,18 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[pedal]\ndebounce_ms = 30.5", "must be a whole number, but it is a number"},
         Fault{"[pedal]\nkind = \"simulted\"", "did you mean \"simulated\"?"},
         Fault{"[pedal]\nkind = 3", "pedal.kind must be text in quotes, but it is a whole number"},
+        Fault{"[pedal]\nkind = \"gpio\"", ":3: pedal.gpio.line is missing"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nchip = \"board\"", "line is missing"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nline = \"foot\"\noffset = 3",
+              "a line and an offset"},
+        Fault{"[pedal.gpio]\nlines = \"foot\"", "did you mean pedal.gpio.line?"},
+        Fault{"[pedal.gpio]\noffset = -1", ":4: pedal.gpio.offset = -1 is outside 0 to 1023"},
+        Fault{"[pedal.gpio]\nbias = \"pull-pu\"", "did you mean \"pull-up\"?"},
+        Fault{"[pedal]\nkind = \"evdev\"\n[pedal.evdev]\nkey = \"KEY_B\"",
+              "pedal.evdev.device is missing"},
+        Fault{"[pedal]\nkind = \"evdev\"\n[pedal.evdev]\ndevice = \"0c45:7403\"",
+              "pedal.evdev.key is missing"},
+        Fault{"[pedal]\ngpio = 3", "pedal.gpio must be written as [pedal.gpio]"},
         Fault{"[pedal]\ndebounce = 30", "there is no setting pedal.debounce: did you mean"},
         Fault{"[pedl]\n", "there is no setting pedl: did you mean pedal?"},
         Fault{"[zzzzzz]\n", "there is no setting zzzzzz: known here are"},

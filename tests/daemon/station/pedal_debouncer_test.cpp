@@ -81,6 +81,51 @@ TEST(PedalDebouncer, NoticesAPressWhoseRisingEdgeWasLost) {
   EXPECT_EQ(debouncer.take_signals(), Signals{Signal::kPressed});
 }
 
+// The kernel keeps the oldest edges of a burst: here the last one, closing, is among those it
+// dropped.
+TEST(PedalDebouncer, AsksForTheLevelAfterABurstThatSeemsToEndWhereItBegan) {
+  auto debouncer = resting();
+  for (int i = 0; i < 8; ++i) {
+    debouncer.on_edge({true, 100ms + i * 2ms});
+    debouncer.on_edge({false, 101ms + i * 2ms});
+  }
+  ASSERT_EQ(debouncer.next_deadline(), Time(145ms));
+  debouncer.on_level(true, 145ms);
+  ASSERT_EQ(debouncer.next_deadline(), Time(175ms));
+  debouncer.on_level(true, 175ms);
+  EXPECT_EQ(debouncer.take_signals(), Signals{Signal::kPressed});
+}
+
+std::vector<PedalEdge> chatter(Time begin, Time end, Time every, bool last) {
+  std::vector<PedalEdge> edges;
+  bool pressed = false;
+  for (Time time = begin; time < end; time += every) edges.push_back({pressed = !pressed, time});
+  if (edges.back().pressed != last) edges.push_back({last, edges.back().time + every});
+  return edges;
+}
+
+TEST(PedalDebouncer, MakesOnePressOfTwoThousandBounces) {
+  EXPECT_EQ(play(resting(), chatter(100ms, 2100ms, 1ms, true), 3s), Signals{Signal::kPressed});
+}
+
+TEST(PedalDebouncer, ReportsAContactThatChattersOnceAndItsRest) {
+  EXPECT_EQ(play(resting(), chatter(1s, 60s, 10ms, false), 70s),
+            (Signals{Signal::kChattering, Signal::kReleased}));
+}
+
+TEST(PedalDebouncer, TakesAContactThatChatteredAndThenClosedForStuck) {
+  EXPECT_EQ(play(resting(), chatter(1s, 5s, 10ms, true), 70s),
+            (Signals{Signal::kChattering, Signal::kStuck}));
+}
+
+TEST(PedalDebouncer, TakesAPressAfterAChatterThatEnded) {
+  auto edges = chatter(1s, 5s, 10ms, false);
+  edges.push_back({true, 6s});
+  edges.push_back({false, 6500ms});
+  EXPECT_EQ(play(resting(), edges, 10s),
+            (Signals{Signal::kChattering, Signal::kReleased, Signal::kPressed, Signal::kReleased}));
+}
+
 TEST(PedalDebouncer, TellsAHoldOnceAfterTwoSeconds) {
   EXPECT_EQ(play(resting(), {{true, 100ms}, {false, 5s}}, 6s),
             (Signals{Signal::kPressed, Signal::kHeld, Signal::kReleased}));

@@ -1,0 +1,144 @@
+#include "drivers/v4l2/v4l2_camera.h"
+
+#include <fmt/format.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <optional>
+#include <utility>
+
+#include "drivers/v4l2/video_error.h"
+
+namespace instep {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr double kLargestUnitMm = 100.0;
+
+Result<void> check(const V4l2Camera::Settings& settings) {
+  const std::string& name = settings.geometry.id;
+  if (!(settings.depth_unit_mm > 0.0 && settings.depth_unit_mm <= kLargestUnitMm)) {
+    return fail(ErrorCode::kInvalidInput,
+                fmt::format("camera {} has no depth unit above 0 to {} mm", name, kLargestUnitMm),
+                "set depth_unit_mm: 1.0 for most RealSense, 0.1 for the D405, 0.125 for the SR300");
+  }
+  if (settings.address == UsbAddress{}) {
+    return fail(ErrorCode::kInvalidInput, "camera " + name + " has neither serial nor bus path",
+                "set serial or bus_path in the settings");
+  }
+  return check_intrinsics(settings.geometry.intrinsics);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<V4l2Camera>> V4l2Camera::create(Settings settings, VideoSystem& system) {
+  if (const auto sound = check(settings); !sound) return tl::make_unexpected(sound.error());
+  const int wake_up = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (wake_up < 0) return tl::make_unexpected(video_error(errno, "making an eventfd"));
+  return std::unique_ptr<V4l2Camera>(new V4l2Camera(std::move(settings), system, wake_up));
+}
+
+V4l2Camera::V4l2Camera(Settings settings, VideoSystem& system, int wake_up)
+    : settings_(std::move(settings)), system_(system), wake_up_(wake_up) {
+  description_.geometry = settings_.geometry;
+  description_.model = "V4L2 depth camera";
+  description_.serial = settings_.address.serial;
+  description_.depth_unit_mm = settings_.depth_unit_mm;
+}
+
+Result<void> V4l2Camera::start() {
+  std::uint64_t interrupts = 0;
+  [[maybe_unused]] const auto cleared = ::read(wake_up_.number(), &interrupts, sizeof interrupts);
+  if (stream_) return {};
+  const auto nodes = find_video_nodes(settings_.address, settings_.folders);
+  if (!nodes) return tl::make_unexpected(nodes.error());
+  std::optional<Error> refusal;
+  for (const auto& node : *nodes) {
+    auto stream = VideoStream::open(system_, node.path, settings_.format);
+    if (stream) return begin(std::move(*stream));
+    if (stream.error().code != ErrorCode::kUnsupported) {
+      return tl::make_unexpected(stream.error());
+    }
+    if (!refusal) refusal = stream.error();
+  }
+  return tl::make_unexpected(*refusal);
+}
+
+Result<void> V4l2Camera::begin(std::unique_ptr<VideoStream> stream) {
+  const auto& lens = settings_.geometry.intrinsics;
+  const auto begun = stream->begin(lens.width, lens.height, settings_.controls);
+  if (begun) stream_ = std::move(stream);
+  return begun;
+}
+
+Result<DepthFrame> V4l2Camera::next_frame(milliseconds limit) {
+  if (!stream_) return fail(ErrorCode::kInvalidInput, "it is not started", "start it first");
+  const auto deadline = steady_clock::now() + limit;
+  do {
+    auto image = wait_until(deadline).and_then([&] { return stream_->take(); });
+    if (!image) {
+      if (image.error().code == ErrorCode::kDeviceGone) stop();
+      return tl::make_unexpected(image.error());
+    }
+    if (*image) return frame_of(std::move(**image));
+  } while (steady_clock::now() < deadline);
+  return fail(ErrorCode::kTimeout, fmt::format("it gave no frame within {} ms", limit.count()),
+              "check its cable; if that does not help, unplug it and plug it in again");
+}
+
+Result<void> V4l2Camera::wait_until(steady_clock::time_point deadline) {
+  std::array<pollfd, 2> waiting{pollfd{wake_up_.number(), POLLIN, 0},
+                                pollfd{stream_->descriptor(), POLLIN, 0}};
+  const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
+  constexpr milliseconds::rep kLongestWait = 60000;
+  const auto wait = std::clamp<milliseconds::rep>(left, 0, kLongestWait);
+  const int ready = system_.poll(waiting.data(), waiting.size(), static_cast<int>(wait));
+  if (ready < 0) {
+    if (errno == EINTR) return {};
+    return tl::make_unexpected(video_error(errno, "waiting for a frame"));
+  }
+  if (waiting[0].revents != 0) {
+    return fail(ErrorCode::kCancelled, "waiting for a frame was stopped", "start again");
+  }
+  // Images that came before the device left are still good.
+  const short device = waiting[1].revents;
+  if (device != 0 && (device & POLLIN) == 0) return tl::make_unexpected(stream_->why_broken());
+  return {};
+}
+
+DepthFrame V4l2Camera::frame_of(VideoStream::Image image) const {
+  DepthFrame frame;
+  frame.camera = settings_.geometry.id;
+  frame.sequence = image.place.sequence;
+  frame.width = settings_.geometry.intrinsics.width;
+  frame.height = settings_.geometry.intrinsics.height;
+  frame.depth_unit_mm = settings_.depth_unit_mm;
+  frame.raw = std::move(image.depth);
+  frame.device_time = image.place.time;
+  frame.host_time = steady_clock::time_point(image.place.time);
+  if (image.flagged) {
+    frame.status = FrameStatus::kCorrupt;
+  } else if (image.short_of_data) {
+    frame.status = FrameStatus::kIncomplete;
+  } else if (image.place.stale) {
+    frame.status = FrameStatus::kStale;
+  }
+  return frame;
+}
+
+void V4l2Camera::stop() {
+  stream_.reset();
+}
+
+void V4l2Camera::interrupt() {
+  const std::uint64_t one = 1;
+  // A full counter already wakes; there is nothing else that this write could fail of.
+  [[maybe_unused]] const auto written = ::write(wake_up_.number(), &one, sizeof one);
+}
+
+}  // namespace instep

@@ -1,0 +1,43 @@
+#include <gtest/gtest.h>
+
+#include "drivers/evdev/evdev_pedal.h"
+#include "drivers/evdev/input_device.h"
+#include "drivers/gpio/gpio_pedal.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+TEST(UsbIds, AreFourHexadecimalDigitsEach) {
+  const auto ids = UsbIds::parse("0c45:7aF3");
+  ASSERT_TRUE(ids);
+  EXPECT_EQ(ids->vendor, 0x0c45);
+  EXPECT_EQ(ids->product, 0x7af3);
+  for (const char* wrong : {"", ":", "0c45", "0c45:740", "0c45:74033", "0c45-7403", "-c45:7403",
+                            "0c4g:7403", "0c45: 403", "usb-foot"}) {
+    EXPECT_FALSE(UsbIds::parse(wrong)) << wrong;
+  }
+}
+
+// What a machine without any such device says; what is there is for the tests against a kernel.
+TEST(PedalsOfAMachineWithout, SayWhatIsMissing) {
+  test::TemporaryFolder empty;
+  const auto by_ids =
+      EvdevPedal::open({.device = "0c45:7403", .key = "KEY_B", .devices = empty.path()});
+  EXPECT_EQ(by_ids.error().code, ErrorCode::kNotFound);
+  const auto by_name =
+      EvdevPedal::open({.device = "usb-foot", .key = "KEY_B", .devices = empty.path()});
+  EXPECT_EQ(by_name.error().code, ErrorCode::kNotFound);
+  const auto wrong_key =
+      EvdevPedal::open({.device = "0c45:7403", .key = "B", .devices = empty.path()});
+  EXPECT_EQ(wrong_key.error().code, ErrorCode::kInvalidInput);
+
+  GpioPedal::Settings settings;
+  settings.devices = empty.path();
+  EXPECT_EQ(GpioPedal::open(settings).error().code, ErrorCode::kInvalidInput) << "no address";
+  settings.address.line = "foot";
+  EXPECT_EQ(GpioPedal::open(settings).error().code, ErrorCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace instep
