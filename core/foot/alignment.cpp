@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/foot/foot_axis.h"
+#include "core/foot/main_body.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/side_from_shape.h"
 #include "core/geometry/distinct_points.h"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
+constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
   if (options.standing_plane) return *options.standing_plane;
@@ -30,6 +32,12 @@ Result<void> check_options(const AlignmentOptions& options) {
                 "give the direction that points up, of length 1");
   }
   return {};
+}
+
+tl::unexpected<Error> too_few(std::size_t points) {
+  return fail(ErrorCode::kInsufficientData,
+              "the cloud has only " + std::to_string(points) + " points",
+              "give at least " + std::to_string(kFewestPoints) + " points of one foot");
 }
 
 std::vector<std::string> doubts(const FootScan& foot, bool is_second_toe_resolved) {
@@ -53,10 +61,11 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   // Files of triangles name a corner once for each face.
   foot.cloud = cloud.subset(distinct_points(cloud.positions));
   if (foot.cloud.size() < kFewestPoints) {
-    return fail(ErrorCode::kInsufficientData,
-                "the cloud has only " + std::to_string(foot.cloud.size()) + " points",
-                "give at least " + std::to_string(kFewestPoints) + " points of one foot");
+    return too_few(foot.cloud.size());
   }
+  const MainBody body = main_body(foot.cloud.positions);
+  foot.cloud = foot.cloud.subset(body.points);
+  if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
   if (!plane) return tl::unexpected(plane.error());
   const RigidTransform standing_from_input = plane->standing_from_input();
@@ -81,6 +90,11 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
           ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
           : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
   foot.warnings = doubts(foot, axis.is_second_toe_resolved);
+  if (body.next_share > kLargePieceShare) {
+    foot.warnings.push_back("the cloud holds more than one body: the largest is measured, " +
+                            std::to_string(std::lround(100.0 * body.apart_share)) +
+                            " % of the points are left out");
+  }
   return foot;
 }
 
