@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/foot/foot_axis.h"
-#include "core/foot/main_body.h"
+#include "core/foot/standing_body.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/side_from_shape.h"
 #include "core/geometry/distinct_points.h"
@@ -63,7 +63,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (foot.cloud.size() < kFewestPoints) {
     return too_few(foot.cloud.size());
   }
-  const MainBody body = main_body(foot.cloud.positions);
+  const StandingBody body = standing_body(foot.cloud.positions);
   foot.cloud = foot.cloud.subset(body.points);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);

@@ -24,28 +24,23 @@ struct Rule {
   double from;
   double to;
   double prior;
-  double outwards;  ///< +1 medial, -1 lateral
   const char* found;
   const char* fallback;
 };
 
-std::optional<Landmark> most_protruding(const FootOutline& outline, const BorderProfile& border,
+std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBorder& border,
                                         const Rule& rule) {
-  const auto landmark = [&](double place, double reach, double confidence, const char* text) {
-    const Eigen::Vector2d flat(place, rule.outwards * reach);
-    return Landmark{{flat.x(), flat.y(), outline.border_height(flat)}, confidence, text};
-  };
   const auto handicap = [&](double place) {
     const double off = (place - rule.prior) / (kPriorSpreadShare * outline.length_mm());
     return kPriorHandicapMm * off * off;
   };
   const auto peak = border.furthest(rule.from, rule.to, handicap);
   if (peak && peak->rise > kFaintRiseMm) {
-    return landmark(peak->place, peak->reach, confidence_of(peak->rise), rule.found);
+    return Landmark{border.position(*peak), confidence_of(peak->rise), rule.found};
   }
-  const auto reach = border.reach(rule.prior);
-  if (!reach) return std::nullopt;
-  return landmark(rule.prior, *reach, kPriorConfidence, rule.fallback);
+  const auto place = border.at(rule.prior);
+  if (!place) return std::nullopt;
+  return Landmark{border.position(*place), kPriorConfidence, rule.fallback};
 }
 
 }  // namespace
@@ -54,7 +49,7 @@ std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
   const double length = outline.length_mm();
   return most_protruding(
       outline, outline.medial(),
-      {0.60 * length, 0.80 * length, 0.69 * length, 1.0,
+      {0.60 * length, 0.80 * length, 0.69 * length,
        "most medial point of the outline in 0.60-0.80 of the foot's length, weighed by "
        "nearness to 0.69",
        "no medial summit: outline at 0.69 of the foot's length"});
@@ -66,7 +61,7 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
   const double foremost = std::min(0.75 * length, tibiale.position_mm.x() - kBehindTibialeMm);
   return most_protruding(
       outline, outline.lateral(),
-      {0.50 * length, foremost, std::min(0.63 * length, foremost), -1.0,
+      {0.50 * length, foremost, std::min(0.63 * length, foremost),
        "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
        "nearness to 0.63",
        "no lateral summit: outline at 0.63 of the foot's length"});

@@ -105,11 +105,6 @@ std::optional<double> lowest_near(const std::vector<Vector2d>& lengths, double w
   return fine ? fine : rough;
 }
 
-Landmark border_landmark(const FootOutline& outline, const Vector2d& flat, double confidence,
-                         const char* rule) {
-  return {{flat.x(), flat.y(), outline.border_height(flat)}, confidence, rule};
-}
-
 }  // namespace
 
 Vector3d on_floor(const Vector3d& point) {
@@ -129,44 +124,40 @@ std::optional<Landmark> find_instep_point(const FootOutline& outline) {
 
 std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const Landmark& instep) {
   const Vector2d target = instep.position_mm.head<2>();
-  std::optional<Vector2d> nearest;
+  std::optional<Vector3d> nearest;
   for (double share = 0.25; share <= 0.45 + 1e-9; share += 0.005) {
-    const double place = share * outline.length_mm();
-    const auto reach = outline.lateral().reach(place);
-    if (!reach) continue;
-    const Vector2d point(place, -*reach);
-    if (!nearest || (point - target).norm() < (*nearest - target).norm()) nearest = point;
+    const auto place = outline.lateral().at(share * outline.length_mm());
+    if (!place) continue;
+    const Vector3d point = outline.lateral().position(*place);
+    const auto distance = [&](const Vector3d& at) { return (at.head<2>() - target).norm(); };
+    if (!nearest || distance(point) < distance(*nearest)) nearest = point;
   }
   if (!nearest) return std::nullopt;
-  return border_landmark(outline, *nearest, 0.8,
-                         "lateral outline in 0.25-0.45 of the foot's length nearest the instep");
+  return Landmark{*nearest, 0.8,
+                  "lateral outline in 0.25-0.45 of the foot's length nearest the instep"};
 }
 
 std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
                                          const Landmark& lateral) {
-  const auto on_border = [&](double place) -> std::optional<Vector2d> {
-    const auto reach = outline.medial().reach(place);
-    return reach ? std::optional<Vector2d>({place, *reach}) : std::nullopt;
-  };
   std::vector<Vector2d> lengths;
   for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
-    const auto point = on_border(share * outline.length_mm());
-    if (!point) continue;
+    const auto place = outline.medial().at(share * outline.length_mm());
+    if (!place) continue;
     const auto plane = TapePlane::through(instep.position_mm, on_floor(lateral.position_mm),
-                                          {point->x(), point->y(), 0.0});
+                                          on_floor(outline.medial().position(*place)));
     if (!plane) continue;
     if (const auto tape = rough_tape(outline.points(), *plane)) {
-      lengths.emplace_back(point->x(), *tape);
+      lengths.emplace_back(place->along, *tape);
     }
   }
   const auto lowest = lowest_near(lengths, kArchWindow * outline.length_mm());
-  const auto point = on_border(lowest.value_or(kArchPrior * outline.length_mm()));
-  if (!point) return std::nullopt;
-  return lowest ? border_landmark(outline, *point, 0.7,
-                                  "medial outline in 0.35-0.60 of the foot's length where the "
-                                  "instep tape is shortest")
-                : border_landmark(outline, *point, 0.3,
-                                  "no shortest tape: outline at 0.48 of the foot's length");
+  const auto place = outline.medial().at(lowest.value_or(kArchPrior * outline.length_mm()));
+  if (!place) return std::nullopt;
+  const Vector3d point = outline.medial().position(*place);
+  return lowest ? Landmark{point, 0.7,
+                           "medial outline in 0.35-0.60 of the foot's length where the instep "
+                           "tape is shortest"}
+                : Landmark{point, 0.3, "no shortest tape: outline at 0.48 of the foot's length"};
 }
 
 }  // namespace instep

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,13 +29,19 @@ struct FootOutcome {
   double milliseconds = 0.0;
 };
 
+/// What this thread has computed so far: feet measured beside each other do not count.
+double thread_milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 FootOutcome measured(std::uint64_t seed) {
   FootOutcome outcome{test::draw_scanned_foot(seed), {}, {}, {}, 0.0};
-  const auto start = std::chrono::steady_clock::now();
+  const double start = thread_milliseconds();
   const auto foot = align_foot(outcome.drawn.cloud).and_then(find_landmarks);
   const auto set = foot ? measure_foot(*foot) : tl::make_unexpected(foot.error());
-  const auto taken = std::chrono::steady_clock::now() - start;
-  outcome.milliseconds = std::chrono::duration<double, std::milli>(taken).count();
+  outcome.milliseconds = thread_milliseconds() - start;
   if (set) {
     outcome.foot = *foot;
     outcome.set = *set;
@@ -105,6 +111,58 @@ void print_row(const std::string& id, const Tally& tally) {
              tally.intervals.empty() ? "-" : fmt::format("{:.2f}", quantile(tally.intervals, 0.5)));
 }
 
+/// Our names of the landmarks beside the truth's.
+const std::map<std::string, std::string>& true_names() {
+  static const std::map<std::string, std::string> names{
+      {"pternion", "pternion"},       {"acropodion", "acropodion"},
+      {"toe2_tip", "toe2"},           {"metatarsale_tibiale", "mt"},
+      {"metatarsale_fibulare", "mf"}, {"instep_point", "instep"},
+      {"medial_arch", "medial_arch"}, {"lateral_midfoot", "lateral_midfoot"},
+      {"heel_point", "heel_point"},   {"junction", "junction"},
+      {"arch_point", "arch_point"},   {"medial_malleolus", "medial_malleolus"},
+      {"heel_medial", "heel_medial"}, {"heel_lateral", "heel_lateral"},
+      {"toe1_tip", "toe1_tip"}};
+  return names;
+}
+
+struct LandmarkTally {
+  std::vector<Eigen::Vector3d> errors;  ///< in the true foot frame
+  std::vector<double> radii;
+  std::size_t held = 0;
+};
+
+void add_to(std::map<std::string, LandmarkTally>& tallies, const FootOutcome& outcome) {
+  const FootTruth& truth = outcome.drawn.truth;
+  const RigidTransform true_from_found = truth.foot_from_solid *
+                                         outcome.drawn.input_from_solid.inverse() *
+                                         outcome.foot->foot_from_input.inverse();
+  for (const auto& [name, landmark] : outcome.foot->landmarks) {
+    const auto known = true_names().find(name);
+    if (known == true_names().end()) continue;
+    const Eigen::Vector3d error =
+        true_from_found * landmark.position_mm - truth.landmarks.at(known->second);
+    auto& tally = tallies[name];
+    tally.errors.push_back(error);
+  }
+}
+
+void print_row(const std::string& name, const LandmarkTally& tally) {
+  const auto count = static_cast<double>(tally.errors.size());
+  Eigen::Array3d mean = Eigen::Array3d::Zero();
+  Eigen::Array3d square = Eigen::Array3d::Zero();
+  std::vector<double> distances;
+  for (const auto& error : tally.errors) {
+    mean += error.array() / count;
+    square += error.array().square() / count;
+    distances.push_back(error.norm());
+  }
+  const Eigen::Array3d spread = (square - mean.square()).max(0.0).sqrt();
+  fmt::print(
+      "{:<26}{:>5}   {:>+6.2f} ({:.2f}) {:>+6.2f} ({:.2f}) {:>+6.2f} ({:.2f}){:>8.2f}{:>8.2f}\n",
+      name, tally.errors.size(), mean.x(), spread.x(), mean.y(), spread.y(), mean.z(), spread.z(),
+      quantile(distances, 0.5), quantile(distances, 0.95));
+}
+
 void print_foot(const FootOutcome& outcome, std::uint64_t seed) {
   fmt::print(
       "{} {}: {}\n", seed, outcome.drawn.making,
@@ -113,6 +171,15 @@ void print_foot(const FootOutcome& outcome, std::uint64_t seed) {
     fmt::print("    {:<26}{:>9.2f}{:>+8.2f}  +-{:.2f}\n", measure.id, measure.value(),
                measure.value() - outcome.drawn.truth.measures.at(measure.id),
                measure.u95().value_or(NAN));
+  }
+  if (outcome.foot) {
+    std::map<std::string, LandmarkTally> own;
+    add_to(own, outcome);
+    for (const auto& [name, tally] : own) {
+      const auto& error = tally.errors.front();
+      fmt::print("    {:<26}{:>+8.2f}{:>+8.2f}{:>+8.2f}  {:.2f}\n", name, error.x(), error.y(),
+                 error.z(), outcome.foot->landmarks.at(name).confidence);
+    }
   }
   for (const auto& one : outcome.set.withheld) fmt::print("    {}: {}\n", one.id, one.reason);
 }
@@ -138,6 +205,7 @@ void add_to(std::map<std::string, Tally>& tallies, const FootOutcome& outcome) {
 void report_drawn_feet(const DrawnFeetWishes& wishes) {
   const auto outcomes = measured_feet(wishes);
   std::map<std::string, Tally> tallies;
+  std::map<std::string, LandmarkTally> landmarks;
   std::size_t refused = 0, right_side = 0;
   std::vector<double> times;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -152,12 +220,16 @@ void report_drawn_feet(const DrawnFeetWishes& wishes) {
     if (!is_right) fmt::print("{} {}: wrong side\n", wishes.first_seed + i, outcome.drawn.making);
     times.push_back(outcome.milliseconds);
     add_to(tallies, outcome);
+    add_to(landmarks, outcome);
   }
   fmt::print("\n{} simulated feet: {} refused, side right in {} of {}, median {:.0f} ms\n\n",
              outcomes.size(), refused, right_side, outcomes.size() - refused, quantile(times, 0.5));
   fmt::print("{:<26}{:>5}{:>5}{:>8}{:>8}{:>8}{:>8}{:>9}{:>8}{:>8}\n", "mm, degrees", "n", "none",
              "bias", "SD", "95 %", "worst", "in bar %", "held %", "u95");
   for (const auto& [id, tally] : tallies) print_row(id, tally);
+  fmt::print("\n{:<26}{:>5}   {:>6} (SD) {:>8} (SD) {:>8} (SD){:>10}{:>8}\n", "landmarks: bias, mm",
+             "n", "x", "y", "z", "median", "95 %");
+  for (const auto& [name, tally] : landmarks) print_row(name, tally);
 }
 
 }  // namespace instep::bench

@@ -96,6 +96,9 @@ void report_moves(const std::string& name, const PointCloud& cloud) {
     if ((moved->foot.side == plain->foot.side) == other) {
       fmt::print("  {}: wrong side\n", variant.name);
     }
+    for (const auto& one : moved->set.withheld) {
+      if (plain->set.find(one.id)) fmt::print("  {}: {}: {}\n", variant.name, one.id, one.reason);
+    }
     for (const auto& measure : plain->set.measures) {
       const Measure* same = moved->set.find(measure.id);
       const double move = same ? std::abs(same->value() - measure.value()) : INFINITY;

@@ -1,4 +1,4 @@
-#include "core/foot/main_body.h"
+#include "core/foot/standing_body.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -29,8 +29,8 @@ struct Piece {
 
 }  // namespace
 
-MainBody main_body(const std::vector<Vector3d>& points) {
-  MainBody body;
+StandingBody standing_body(const std::vector<Vector3d>& points) {
+  StandingBody body;
   if (points.empty()) return body;
   const VoxelGrid grid(points, std::max(kLeastLinkMm, 2.0 * rough_spacing(points)));
   const auto piece_of = grid.clusters_of_points();
