@@ -5,9 +5,10 @@
 #include <string>
 
 #include "core/foot/foot_axis.h"
-#include "core/foot/standing_body.h"
+#include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/side_from_shape.h"
+#include "core/foot/standing_body.h"
 #include "core/geometry/distinct_points.h"
 
 namespace instep {
@@ -52,6 +53,22 @@ std::vector<std::string> doubts(const FootScan& foot, bool is_second_toe_resolve
   return warnings;
 }
 
+/// Moves the foot into the frame of an axis and sets its ends; true if the second toe was seen.
+bool take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& standing_from_cloud) {
+  const RigidTransform foot_from_cloud = axis.foot_from_standing * standing_from_cloud;
+  foot.foot_from_input = foot_from_cloud * foot.foot_from_input;
+  foot.cloud = transformed(foot_from_cloud, foot.cloud);
+  foot.landmarks.clear();
+  foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
+  foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
+                                  "foremost point of the toes along the axis"};
+  foot.landmarks["toe2_tip"] =
+      axis.is_second_toe_resolved
+          ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
+          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
+  return axis.is_second_toe_resolved;
+}
+
 }  // namespace
 
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
@@ -79,23 +96,27 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   foot.side = options.side.value_or(guess.side);
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 
-  const FootAxis axis = find_foot_axis(standing, *outline, foot.side);
-  foot.foot_from_input = axis.foot_from_standing * standing_from_input;
-  foot.cloud = transformed(foot.foot_from_input, foot.cloud);
-  foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
-  foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
-                                  "foremost point of the toes along the axis"};
-  foot.landmarks["toe2_tip"] =
-      axis.is_second_toe_resolved
-          ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
-          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
-  foot.warnings = doubts(foot, axis.is_second_toe_resolved);
+  foot.is_floor_known = options.standing_plane.has_value();
+  const bool is_second_toe_resolved =
+      take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
+  foot.warnings = doubts(foot, is_second_toe_resolved);
   if (body.next_share > kLargePieceShare) {
     foot.warnings.push_back("the cloud holds more than one body: the largest is measured, " +
                             std::to_string(std::lround(100.0 * body.apart_share)) +
                             " % of the points are left out");
   }
+  if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
+}
+
+void realign(FootScan& foot) {
+  StandingPlane floor;
+  if (!foot.is_floor_known) floor = settled_on_sole(foot.cloud.positions, floor);
+  const RigidTransform standing_from_cloud = floor.standing_from_input();
+  OutlineAxis start;
+  start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
+  const auto standing = transformed(standing_from_cloud, foot.cloud).positions;
+  take_axis(foot, find_foot_axis(standing, start, foot.side), standing_from_cloud);
 }
 
 }  // namespace instep

@@ -1,6 +1,8 @@
 #include "core/foot/ball_points.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace instep {
 namespace {
@@ -43,6 +45,13 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   return Landmark{border.position(*place), kPriorConfidence, rule.fallback};
 }
 
+std::optional<Landmark> broadest(const SkinBorder& border, double length) {
+  const auto peak = border.furthest(0.50 * length, 0.85 * length);
+  if (!peak) return std::nullopt;
+  return Landmark{border.position(*peak), 0.9,
+                  "furthest point of the outline in 0.50-0.85 of the foot's length"};
+}
+
 }  // namespace
 
 std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
@@ -65,6 +74,37 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
        "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
        "nearness to 0.63",
        "no lateral summit: outline at 0.63 of the foot's length"});
+}
+
+std::optional<Landmark> find_ball_medial(const FootOutline& outline) {
+  return broadest(outline.medial(), outline.length_mm());
+}
+
+std::optional<Landmark> find_ball_lateral(const FootOutline& outline) {
+  return broadest(outline.lateral(), outline.length_mm());
+}
+
+std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
+                                      const Landmark& fibulare) {
+  constexpr double kSlabMm = 15.0;
+  constexpr double kSmoothingMm = 9.0;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d across = tibiale.position_mm - fibulare.position_mm;
+  across.z() = 0.0;
+  if (!(across.norm() > 1.0)) return std::nullopt;
+  across.normalize();
+  const Eigen::Vector3d along = across.cross(up);
+  const double place = along.dot(tibiale.position_mm);
+  std::vector<Eigen::Vector3d> slab;
+  for (const auto& point : outline.points()) {
+    if (std::abs(along.dot(point) - place) < kSlabMm) slab.push_back(point);
+  }
+  const SkinBorder section(
+      slab, {along, up, across, across.dot(fibulare.position_mm), across.dot(tibiale.position_mm)},
+      kSmoothingMm);
+  const auto top = section.at(place);
+  if (!top) return std::nullopt;
+  return Landmark{section.position(*top), 0.8, "highest point of the ball's section"};
 }
 
 }  // namespace instep

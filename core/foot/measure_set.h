@@ -9,9 +9,9 @@
 
 namespace instep {
 
-/// The two parts of a 95 % interval, which add as squares: what the fitted surface leaves open where
-/// the tape or the ruler lies, and what the landmarks leave open about where that is. In the unit of
-/// the measure.
+/// The two parts of a 95 % interval, which add as squares: what the fitted surface leaves open
+/// where the tape or the ruler lies, and what the landmarks leave open about where that is. In the
+/// unit of the measure.
 struct DoubtParts {
   double surface = 0.0;
   double landmarks = 0.0;
@@ -25,9 +25,9 @@ struct Measure {
   std::optional<double> u95_mm;     ///< half-width of the 95 % interval, if there is one
   std::optional<double> u95_deg;    ///< the same of an angle
   std::optional<DoubtParts> parts;  ///< of u95_mm or u95_deg
-  std::optional<TapePlane> plane;  ///< for a girth: foot frame
-  std::optional<Girth> girth;      ///< for a girth: its section; value_mm is its stretched length
-  std::string definition;          ///< the rule it follows, in a sentence
+  std::optional<TapePlane> plane;   ///< for a girth: foot frame
+  std::optional<Girth> girth;       ///< for a girth: its section; value_mm is its stretched length
+  std::string definition;           ///< the rule it follows, in a sentence
   std::vector<std::string> warnings;
 
   /// In its own unit, millimetres or degrees.

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/foot/robust_extreme.h"
-#include "core/geometry/polygon.h"
+#include "core/foot/rough_tape.h"
+#include "core/foot/skin_summit.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {
@@ -26,7 +27,6 @@ constexpr double kArchTo = 0.60;
 constexpr double kArchPrior = 0.48;
 constexpr double kArchStep = 0.005;
 constexpr double kArchWindow = 0.06;
-constexpr double kTapeBandMm = 2.5;
 
 std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double place, double width) {
   std::vector<Vector3d> slab;
@@ -61,16 +61,6 @@ std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place,
   const double aside = fitted(4) < 0.0 ? -fitted(2) / (2.0 * fitted(4)) : 0.0;
   const double step = std::clamp(aside, -kRidgeHalfWidthMm, kRidgeHalfWidthMm);
   return Vector3d(place, y + step, fitted(0) + step * (fitted(2) + step * fitted(4)));
-}
-
-/// Length of a tape in a plane, by the hull of the points beside it: good enough to compare planes.
-std::optional<double> rough_tape(const std::vector<Vector3d>& points, const TapePlane& plane) {
-  std::vector<Vector2d> section;
-  for (const auto& point : points) {
-    if (std::abs(plane.distance(point)) < kTapeBandMm) section.push_back(plane.project(point));
-  }
-  if (section.size() < 10) return std::nullopt;
-  return perimeter(convex_hull(std::move(section)));
 }
 
 /// Where the parabola through (place, length) pairs is lowest, if it is so inside their range.
@@ -158,6 +148,41 @@ std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landm
                            "medial outline in 0.35-0.60 of the foot's length where the instep "
                            "tape is shortest"}
                 : Landmark{point, 0.3, "no shortest tape: outline at 0.48 of the foot's length"};
+}
+
+std::optional<Landmark> find_arch_point(const FootOutline& outline,
+                                        const std::vector<Vector3d>& seen) {
+  constexpr double kInwards = 0.25;
+  constexpr double kRadiusMm = 8.0;
+  constexpr double kUndersideShare = 0.12;
+  constexpr std::size_t kFewest = 12;
+  const double length = outline.length_mm();
+  std::vector<Vector3d> underside;
+  for (const auto& point : seen) {
+    const bool is_near =
+        point.x() > kArchFrom * length - kRadiusMm && point.x() < kArchTo * length + kRadiusMm;
+    if (is_near && point.z() < kUndersideShare * length) underside.push_back(point);
+  }
+  std::optional<Vector3d> highest;
+  for (double share = kArchFrom; share <= kArchTo + 1e-9; share += 2.0 * kArchStep) {
+    const auto inner = outline.medial().reach(share * length);
+    const auto outer = outline.lateral().reach(share * length);
+    if (!inner || !outer) continue;
+    const Vector3d place(share * length, *inner - kInwards * (*inner + *outer), 0.0);
+    SkinPatch patch;
+    for (const auto& point : underside) {
+      const Vector3d offset = point - place;
+      if (offset.head<2>().squaredNorm() < kRadiusMm * kRadiusMm) patch.push_back(offset);
+    }
+    if (patch.size() < kFewest) continue;
+    const auto skin = QuadraticSkin::through(patch);
+    if (!skin) continue;
+    const double height = skin->at(0.0, 0.0);
+    if (!highest || height > highest->z()) highest = place + height * Vector3d::UnitZ();
+  }
+  if (!highest) return std::nullopt;
+  return Landmark{*highest, 0.7,
+                  "highest place of the underside a quarter of the breadth from the medial border"};
 }
 
 }  // namespace instep

@@ -66,8 +66,7 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
       const auto end = from(place + window);
       const double thin = 0.5 * window;
       for (auto point = from(place - thin); point != end && point->x() < place + thin; ++point) {
-        const bool is_within =
-            point->y() >= view.across_from_mm && point->y() <= view.across_to_mm;
+        const bool is_within = point->y() >= view.across_from_mm && point->y() <= view.across_to_mm;
         if (is_within) strip.push_back(*point);
       }
       const auto start = start_of(strip);
@@ -80,9 +79,8 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
       }
       const bool is_last = wider * std::sqrt(2.0) > kWidestWindow;
       if (close.size() < (is_last ? kFewestPoints : 2 * kFewestPoints)) continue;
-      const auto summit =
-          summit_across(close, std::max(view.across_from_mm - start->y(), -window),
-                        std::min(view.across_to_mm - start->y(), window));
+      const auto summit = summit_across(close, std::max(view.across_from_mm - start->y(), -window),
+                                        std::min(view.across_to_mm - start->y(), window));
       if (summit && std::abs(summit->reach - start->z()) < kDeepestMm) {
         samples_.push_back({place, summit->reach, start->y() + summit->across});
       }
@@ -120,8 +118,8 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
     if (!fitted.allFinite()) return std::nullopt;
     for (auto sample = begin; sample != end; ++sample) {
       const double offset = (sample->along - along) / smoothing_mm_;
-      off.push_back(std::abs(sample->reach -
-                             fitted.col(0).dot(Vector3d(1.0, offset, offset * offset))));
+      off.push_back(
+          std::abs(sample->reach - fitted.col(0).dot(Vector3d(1.0, offset, offset * offset))));
     }
     limit = std::max(4.0 * median(std::move(off)), kStraySampleMm);
   }
@@ -149,9 +147,9 @@ std::optional<SkinBorder::Peak> SkinBorder::furthest(
     if (const auto place = at(from + i * kSearchStepMm)) border.push_back(*place);
   }
   if (border.empty()) return std::nullopt;
-  const auto top = std::max_element(
-      border.begin(), border.end(),
-      [&](const Place& a, const Place& b) { return weighed(a) < weighed(b); });
+  const auto top =
+      std::max_element(border.begin(), border.end(),
+                       [&](const Place& a, const Place& b) { return weighed(a) < weighed(b); });
   const double higher_end = std::max(weighed(border.front()), weighed(border.back()));
   return Peak{*top, weighed(*top) - higher_end};
 }

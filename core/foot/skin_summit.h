@@ -6,8 +6,8 @@
 
 namespace instep {
 
-/// Points near a place of the skin, each as two coordinates along the skin (x, y) from the place and
-/// one outwards (z).
+/// Points near a place of the skin, each as two coordinates along the skin (x, y) from the place
+/// and one outwards (z).
 using SkinPatch = std::vector<Eigen::Vector3d>;
 
 /// A quadratic surface z(x, y) by least squares, fitted a second time without the points that the

@@ -52,8 +52,8 @@ StandingBody standing_body(const std::vector<Vector3d>& points) {
   }
   for (const auto& piece : pieces) {
     if (belongs(piece)) continue;
-    body.next_share = std::max(body.next_share, static_cast<double>(piece.points) /
-                                                    static_cast<double>(largest->points));
+    body.next_share = std::max(
+        body.next_share, static_cast<double>(piece.points) / static_cast<double>(largest->points));
   }
   body.apart_share =
       1.0 - static_cast<double>(body.points.size()) / static_cast<double>(points.size());

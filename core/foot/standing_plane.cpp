@@ -9,7 +9,6 @@
 
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
-#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -21,12 +20,12 @@ using Points = std::vector<Vector3d>;
 constexpr double kStrayShare = 5e-4;
 constexpr double kSmallestSupportMm2 = 2500.0;
 constexpr double kClearlyLarger = 1.25;
-constexpr std::size_t kSample = 4000;     ///< points that candidates are compared by
+constexpr std::size_t kSample = 4000;      ///< points that candidates are compared by
 constexpr std::size_t kNormalPlaces = 80;  ///< at which the surface's normal is tried
 constexpr std::size_t kNeighbours = 16;
-constexpr double kTouchesMm = 8.0;         ///< a point this near to the plane touches it
-constexpr double kBorderReachMm = 12.0;    ///< a place of the border is touched by a point so near
-constexpr double kSoleThicknessMm = 3.0;
+constexpr double kTouchesMm = 8.0;       ///< a point this near to the plane touches it
+constexpr double kBorderReachMm = 12.0;  ///< a place of the border is touched by a point so near
+constexpr std::size_t kFewestOfSole = 50;
 constexpr double kLargestTilt = 0.14;
 constexpr double kFlatShare = 0.5;  ///< of the support that a closed sole covers
 
@@ -86,7 +85,8 @@ std::pair<Vector3d, double> fitted_plane(const Points& points, const Vector3d& u
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto& point : points) covariance += (point - mean) * (point - mean).transpose();
-  Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  Vector3d normal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
   if (normal.dot(up) < 0.0) normal = -normal;
   return {normal, normal.dot(mean)};
 }
@@ -181,20 +181,16 @@ StandingPlane plane_below(const Points& points, const Vector3d& up) {
 
 StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) {
   StandingPlane sole = plane;
-  double thickness = 2.0 * kSoleThicknessMm;
-  for (int round = 0; round < 8; ++round) {
+  // What stands up from a flat sole, its rim and arch, goes step by step.
+  for (const double thickness : {6.0, 4.0, 2.5, 1.5, 1.5, 1.5}) {
     Points near_plane;
     for (const auto& point : points) {
       if (std::abs(sole.up.dot(point) - sole.height_mm) < thickness) near_plane.push_back(point);
     }
-    if (near_plane.size() < 50 || !is_closed(near_plane, sole)) return plane;
+    if (near_plane.size() < kFewestOfSole || !is_closed(near_plane, sole)) return plane;
     const auto [up, height] = fitted_plane(near_plane, plane.up);
     if (up.cross(plane.up).norm() > kLargestTilt) return plane;
     sole = {up, height};
-    std::vector<double> off;
-    for (const auto& point : near_plane) off.push_back(std::abs(up.dot(point) - height));
-    // Three standard deviations of a flat sole's noise; what stands up from it goes.
-    thickness = std::clamp(4.5 * median(std::move(off)), 0.3, thickness);
   }
   return sole;
 }

@@ -143,6 +143,9 @@ void add_to(std::map<std::string, LandmarkTally>& tallies, const FootOutcome& ou
         true_from_found * landmark.position_mm - truth.landmarks.at(known->second);
     auto& tally = tallies[name];
     tally.errors.push_back(error);
+    if (!landmark.radius_mm) continue;
+    tally.radii.push_back(*landmark.radius_mm);
+    if (error.norm() <= *landmark.radius_mm) ++tally.held;
   }
 }
 
@@ -158,9 +161,12 @@ void print_row(const std::string& name, const LandmarkTally& tally) {
   }
   const Eigen::Array3d spread = (square - mean.square()).max(0.0).sqrt();
   fmt::print(
-      "{:<26}{:>5}   {:>+6.2f} ({:.2f}) {:>+6.2f} ({:.2f}) {:>+6.2f} ({:.2f}){:>8.2f}{:>8.2f}\n",
+      "{:<26}{:>5}   {:>+6.2f} ({:.2f}) {:>+6.2f} ({:.2f}) {:>+6.2f} "
+      "({:.2f}){:>8.2f}{:>8.2f}{:>8.1f}{:>8.2f}\n",
       name, tally.errors.size(), mean.x(), spread.x(), mean.y(), spread.y(), mean.z(), spread.z(),
-      quantile(distances, 0.5), quantile(distances, 0.95));
+      quantile(distances, 0.5), quantile(distances, 0.95),
+      100.0 * static_cast<double>(tally.held) / static_cast<double>(tally.radii.size()),
+      quantile(tally.radii, 0.5));
 }
 
 void print_foot(const FootOutcome& outcome, std::uint64_t seed) {
@@ -228,7 +234,7 @@ void report_drawn_feet(const DrawnFeetWishes& wishes) {
              "bias", "SD", "95 %", "worst", "in bar %", "held %", "u95");
   for (const auto& [id, tally] : tallies) print_row(id, tally);
   fmt::print("\n{:<26}{:>5}   {:>6} (SD) {:>8} (SD) {:>8} (SD){:>10}{:>8}\n", "landmarks: bias, mm",
-             "n", "x", "y", "z", "median", "95 %");
+             "n", "x", "y", "z", "median", "95 %", "held %", "radius");
   for (const auto& [name, tally] : landmarks) print_row(name, tally);
 }
 
