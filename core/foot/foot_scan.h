@@ -23,11 +23,18 @@ struct Landmark {
 
 using Landmarks = std::map<std::string, Landmark>;
 
-/// The landmarks as a half of the points would have given them: how they scatter tells how sure
+/// The landmarks as a part of the points would have given them: how they scatter tells how sure
 /// they are (core/foot/redrawn_landmarks.h).
 struct RedrawnLandmarks {
-  Landmarks landmarks;  ///< in the frame that the half gave
+  Landmarks landmarks;  ///< in the frame that the part gave
   RigidTransform foot_from_redrawn = RigidTransform::Identity();
+};
+
+/// All redraws: the cloud was parted, maybe several times, into `parts` of equal size, and the
+/// redraws of one parting follow each other.
+struct Redraws {
+  std::size_t parts = 0;
+  std::vector<RedrawnLandmarks> landmarks;
 };
 
 /// One foot in its own frame, ready to be measured.
@@ -43,8 +50,7 @@ struct FootScan {
   RigidTransform foot_from_input = RigidTransform::Identity();
   bool is_floor_known = false;  ///< given with the cloud, not found from it
   Landmarks landmarks;
-  /// Pairs of complementary halves, one after the other; none before find_landmarks().
-  std::vector<RedrawnLandmarks> redrawn;
+  Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;
 
   /// +1 where medial is +y (right foot), -1 where it is -y (left foot).

@@ -11,6 +11,7 @@
 #include "core/foot/heel_points.h"
 #include "core/foot/midfoot_points.h"
 #include "core/foot/redrawn_landmarks.h"
+#include "core/foot/shoe_last.h"
 #include "core/foot/toe_points.h"
 
 namespace instep {
@@ -49,29 +50,34 @@ std::vector<Eigen::Vector3d> seen_points(const FootScan& foot, const FootOutline
   return seen;
 }
 
-void mark_forefoot(const FootOutline& outline, Marking& marking) {
+void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landmark& fibulare,
+               Marking& marking) {
+  marking.add("toe1_contact", find_toe1_contact(outline, tibiale));
+  marking.add("toe5_contact", find_toe5_contact(outline, fibulare));
+  const auto tip = marking.add("toe1_tip", find_toe1_tip(outline, tibiale, fibulare));
+  if (tip) marking.add("toe1_top", find_toe1_top(outline, tibiale, fibulare, *tip));
+}
+
+void mark_forefoot(const FootOutline& outline, bool has_toes, Marking& marking) {
   marking.add("ball_medial", find_ball_medial(outline));
   marking.add("ball_lateral", find_ball_lateral(outline));
   const auto tibiale = marking.add("metatarsale_tibiale", find_metatarsale_tibiale(outline));
   if (!tibiale) return;
-  marking.add("toe1_contact", find_toe1_contact(outline, *tibiale));
   const auto fibulare =
       marking.add("metatarsale_fibulare", find_metatarsale_fibulare(outline, *tibiale));
   if (!fibulare) return;
   marking.add("ball_top", find_ball_top(outline, *tibiale, *fibulare));
-  marking.add("toe5_contact", find_toe5_contact(outline, *fibulare));
-  const auto tip = marking.add("toe1_tip", find_toe1_tip(outline, *tibiale, *fibulare));
-  if (tip) marking.add("toe1_top", find_toe1_top(outline, *tibiale, *fibulare, *tip));
+  if (has_toes) mark_toes(outline, *tibiale, *fibulare, marking);
 }
 
-void mark_hindfoot(const FootOutline& outline, Marking& marking) {
+void mark_hindfoot(const FootOutline& outline, bool has_leg, Marking& marking) {
   marking.add("heel_medial", find_heel_medial(outline));
   marking.add("heel_lateral", find_heel_lateral(outline));
-  marking.add("medial_malleolus", find_medial_malleolus(outline));
+  if (has_leg) marking.add("medial_malleolus", find_medial_malleolus(outline));
   const auto instep = marking.add("instep_point", find_instep_point(outline));
   if (!instep) return;
   const auto heel = marking.add("heel_point", find_heel_point(outline, *instep));
-  if (heel) marking.add("junction", find_junction(outline, *heel));
+  if (heel && has_leg) marking.add("junction", find_junction(outline, *heel));
   const auto lateral = marking.add("lateral_midfoot", find_lateral_midfoot(outline, *instep));
   if (lateral) marking.add("medial_arch", find_medial_arch(outline, *instep, *lateral));
 }
@@ -81,9 +87,15 @@ void mark_hindfoot(const FootOutline& outline, Marking& marking) {
 void mark(FootScan& foot) {
   const FootOutline outline(foot);
   Marking marking(foot);
-  mark_forefoot(outline, marking);
-  mark_hindfoot(outline, marking);
-  marking.add("arch_point", find_arch_point(outline, seen_points(foot, outline)));
+  const bool is_last = is_shoe_last(foot);
+  if (is_last) {
+    foot.warnings.emplace_back(
+        "no toes, no leg and a raised heel: taken for a shoe last, which has no measures of toes, "
+        "arch and ankle");
+  }
+  mark_forefoot(outline, !is_last, marking);
+  mark_hindfoot(outline, !is_last, marking);
+  if (!is_last) marking.add("arch_point", find_arch_point(outline, seen_points(foot, outline)));
 }
 
 Result<FootScan> find_landmarks(FootScan foot) {
@@ -91,7 +103,7 @@ Result<FootScan> find_landmarks(FootScan foot) {
     return fail(ErrorCode::kInvalidInput, "the foot has not been aligned", "align it first");
   }
   mark(foot);
-  foot.redrawn = redraw_landmarks(foot);
+  foot.redraws = redraw_landmarks(foot);
   set_radii(foot);
   return foot;
 }

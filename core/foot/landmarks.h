@@ -37,11 +37,11 @@ namespace instep {
 /// Where a border is nearly straight, the most protruding place is weighed by its nearness to the
 /// average one, so that it does not jump with the sampling.
 ///
-/// Radii, and what the measures' intervals need (FootScan::redrawn), come from redraw_landmarks().
+/// Radii, and what the measures' intervals need (FootScan::redraws), come from redraw_landmarks().
 ///
 /// A landmark for which the cloud has no points at all is left out, with a warning; measures that
 /// need it are then withheld. Fails with kInvalidInput if `foot` lacks the landmarks of
-/// align_foot(). O(n): 15 ms for 50,000 points and eight times half of that for the redraws.
+/// align_foot(). O(n): some 20 ms for 50,000 points, and as much again for the redraws.
 Result<FootScan> find_landmarks(FootScan foot);
 
 /// The rules alone, without redraws and radii.

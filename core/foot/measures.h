@@ -27,7 +27,7 @@ struct MeasureOptions {
 /// that defines it and a 95 % interval with its two parts; a girth its plane and its section as
 /// well.
 ///
-/// The part of the landmarks is how a measure scatters over FootScan::redrawn, a girth's by tapes
+/// The part of the landmarks is how a measure scatters over FootScan::redraws, a girth's by tapes
 /// laid round the same points; that of the surface is Girth's own. Neither knows of what the rules
 /// themselves get wrong.
 ///

@@ -129,6 +129,8 @@ std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const L
 
 std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
                                          const Landmark& lateral) {
+  const auto midfoot =
+      near_place(outline.points(), 0.45 * outline.length_mm(), 0.25 * outline.length_mm());
   std::vector<Vector2d> lengths;
   for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
     const auto place = outline.medial().at(share * outline.length_mm());
@@ -136,7 +138,7 @@ std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landm
     const auto plane = TapePlane::through(instep.position_mm, on_floor(lateral.position_mm),
                                           on_floor(outline.medial().position(*place)));
     if (!plane) continue;
-    if (const auto tape = rough_tape(outline.points(), *plane)) {
+    if (const auto tape = rough_tape(midfoot, *plane)) {
       lengths.emplace_back(place->along, *tape);
     }
   }
@@ -156,6 +158,7 @@ std::optional<Landmark> find_arch_point(const FootOutline& outline,
   constexpr double kRadiusMm = 8.0;
   constexpr double kUndersideShare = 0.12;
   constexpr std::size_t kFewest = 12;
+  constexpr double kMostAside = 0.35;
   const double length = outline.length_mm();
   std::vector<Vector3d> underside;
   for (const auto& point : seen) {
@@ -170,11 +173,17 @@ std::optional<Landmark> find_arch_point(const FootOutline& outline,
     if (!inner || !outer) continue;
     const Vector3d place(share * length, *inner - kInwards * (*inner + *outer), 0.0);
     SkinPatch patch;
+    Vector2d middle = Vector2d::Zero();
     for (const auto& point : underside) {
       const Vector3d offset = point - place;
-      if (offset.head<2>().squaredNorm() < kRadiusMm * kRadiusMm) patch.push_back(offset);
+      if (offset.head<2>().squaredNorm() > kRadiusMm * kRadiusMm) continue;
+      patch.push_back(offset);
+      middle += offset.head<2>();
     }
-    if (patch.size() < kFewest) continue;
+    // Skin on one side only is the wall beside an underside that was not seen.
+    const bool is_round =
+        middle.norm() < kMostAside * kRadiusMm * static_cast<double>(patch.size());
+    if (patch.size() < kFewest || !is_round) continue;
     const auto skin = QuadraticSkin::through(patch);
     if (!skin) continue;
     const double height = skin->at(0.0, 0.0);

@@ -161,6 +161,64 @@ bool is_closed(const Points& near_plane, const StandingPlane& plane) {
   return static_cast<double>(cells.size()) * kCellMm * kCellMm > kFlatShare * area;
 }
 
+/// Whether a flat face of the body lies on the plane.
+bool rests_flat(const Points& sample, const StandingPlane& plane) {
+  Points low;
+  for (const auto& point : sample) {
+    if (plane.up.dot(point) - plane.height_mm < 0.5 * kTouchesMm) low.push_back(point);
+  }
+  return low.size() >= kFewestOfSole && is_closed(low, plane);
+}
+
+/// Tilts a plane to what rests on it: heel and ball, not the toes, of which the undersides may hang
+/// a millimetre over the floor. Points over the plane count little.
+StandingPlane lowered(const Points& points, StandingPlane plane) {
+  constexpr double kThicknessMm = 2.0;
+  constexpr double kWeightAbove = 0.08;
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    double weights = 0.0;
+    Vector3d mean = Vector3d::Zero();
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    for (const auto& point : points) {
+      const double off = plane.up.dot(point) - plane.height_mm;
+      if (std::abs(off) > kThicknessMm) continue;
+      const double weight = off > 0.0 ? kWeightAbove : 1.0;
+      weights += weight;
+      mean += weight * point;
+      moment += weight * point * point.transpose();
+    }
+    if (!(weights > 0.0)) return plane;
+    mean /= weights;
+    const Eigen::Matrix3d spread = moment / weights - mean * mean.transpose();
+    Vector3d up = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    if (up.dot(plane.up) < 0.0) up = -up;
+    plane = {up, up.dot(mean)};
+  }
+  return plane;
+}
+
+/// The height over which most points lie close together: the sole, not what rises from it.
+double crowded_height(const Points& points, const StandingPlane& plane) {
+  constexpr double kSearchMm = 3.0;
+  constexpr double kWindowMm = 0.8;
+  std::vector<double> heights;
+  for (const auto& point : points) {
+    const double height = plane.up.dot(point);
+    if (std::abs(height - plane.height_mm) < kSearchMm) heights.push_back(height);
+  }
+  std::sort(heights.begin(), heights.end());
+  std::size_t most = 0;
+  double crowded = plane.height_mm;
+  for (std::size_t first = 0, past = 0; first < heights.size(); ++first) {
+    while (past < heights.size() && heights[past] <= heights[first] + kWindowMm) ++past;
+    if (past - first <= most) continue;
+    most = past - first;
+    crowded = heights[first + (past - first) / 2];
+  }
+  return crowded;
+}
+
 }  // namespace
 
 RigidTransform StandingPlane::standing_from_input() const {
@@ -192,7 +250,8 @@ StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) 
     if (up.cross(plane.up).norm() > kLargestTilt) return plane;
     sole = {up, height};
   }
-  return sole;
+  sole = lowered(points, sole);
+  return {sole.up, crowded_height(points, sole)};
 }
 
 Result<StandingPlane> find_standing_plane(const Points& points) {
@@ -206,7 +265,7 @@ Result<StandingPlane> find_standing_plane(const Points& points) {
     }
   }
   for (const auto& plane : likely_planes(sample)) {
-    keep_better(best, sample, plane, kClearlyLarger);
+    if (rests_flat(sample, plane)) keep_better(best, sample, plane, kClearlyLarger);
   }
   if (best.support < kSmallestSupportMm2) {
     return fail(ErrorCode::kInvalidInput, "the cloud has no flat support as large as a foot's",

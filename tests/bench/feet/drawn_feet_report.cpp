@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,7 +14,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
-#include "core/median.h"
+#include "tests/bench/feet/thread_time.h"
 #include "tests/support/cases/drawn_feet.h"
 
 namespace instep::bench {
@@ -29,17 +28,16 @@ struct FootOutcome {
   double milliseconds = 0.0;
 };
 
-/// What this thread has computed so far: feet measured beside each other do not count.
-double thread_milliseconds() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 FootOutcome measured(std::uint64_t seed) {
   FootOutcome outcome{test::draw_scanned_foot(seed), {}, {}, {}, 0.0};
   const double start = thread_milliseconds();
-  const auto foot = align_foot(outcome.drawn.cloud).and_then(find_landmarks);
+  AlignmentOptions options;
+  // An open sole is what a station gives, and a station knows its platform.
+  if (!outcome.drawn.sole_is_seen) {
+    options.standing_plane =
+        StandingPlane{Eigen::Vector3d::UnitZ(), outcome.drawn.input_from_solid.translation().z()};
+  }
+  const auto foot = align_foot(outcome.drawn.cloud, options).and_then(find_landmarks);
   const auto set = foot ? measure_foot(*foot) : tl::make_unexpected(foot.error());
   outcome.milliseconds = thread_milliseconds() - start;
   if (set) {
