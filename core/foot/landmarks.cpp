@@ -1,9 +1,9 @@
 #include "core/foot/landmarks.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/foot/ankle_points.h"
 #include "core/foot/ball_points.h"
@@ -42,12 +42,10 @@ class Marking {
   FootScan& foot_;
 };
 
-std::vector<Eigen::Vector3d> seen_points(const FootScan& foot, const FootOutline& outline) {
-  std::vector<Eigen::Vector3d> seen;
-  for (std::size_t i = 0; i < outline.points().size(); ++i) {
-    if (foot.cloud.was_seen(i)) seen.push_back(outline.points()[i]);
-  }
-  return seen;
+/// Where points had to be put under a foot, nobody saw its arch.
+bool is_underside_seen(const FootScan& foot) {
+  return std::none_of(foot.cloud.origins.begin(), foot.cloud.origins.end(),
+                      [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
 }
 
 void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landmark& fibulare,
@@ -95,7 +93,9 @@ void mark(FootScan& foot) {
   }
   mark_forefoot(outline, !is_last, marking);
   mark_hindfoot(outline, !is_last, marking);
-  if (!is_last) marking.add("arch_point", find_arch_point(outline, seen_points(foot, outline)));
+  if (!is_last && is_underside_seen(foot)) {
+    marking.add("arch_point", find_arch_point(outline));
+  }
 }
 
 Result<FootScan> find_landmarks(FootScan foot) {

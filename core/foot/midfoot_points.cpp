@@ -152,8 +152,7 @@ std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landm
                 : Landmark{point, 0.3, "no shortest tape: outline at 0.48 of the foot's length"};
 }
 
-std::optional<Landmark> find_arch_point(const FootOutline& outline,
-                                        const std::vector<Vector3d>& seen) {
+std::optional<Landmark> find_arch_point(const FootOutline& outline) {
   constexpr double kInwards = 0.25;
   constexpr double kRadiusMm = 8.0;
   constexpr double kUndersideShare = 0.12;
@@ -161,7 +160,7 @@ std::optional<Landmark> find_arch_point(const FootOutline& outline,
   constexpr double kMostAside = 0.35;
   const double length = outline.length_mm();
   std::vector<Vector3d> underside;
-  for (const auto& point : seen) {
+  for (const auto& point : outline.points()) {
     const bool is_near =
         point.x() > kArchFrom * length - kRadiusMm && point.x() < kArchTo * length + kRadiusMm;
     if (is_near && point.z() < kUndersideShare * length) underside.push_back(point);

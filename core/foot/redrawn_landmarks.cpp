@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kRedraws = 8;
 constexpr std::size_t kMostParts = 8;
-constexpr std::size_t kPointsOfPart = 5000;
+constexpr std::size_t kPointsOfPart = 7000;
 constexpr std::size_t kFewestDegrees = 3;
 
 /// Student's 97.5 % points for 1 to 8 degrees of freedom.

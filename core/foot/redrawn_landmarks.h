@@ -11,7 +11,7 @@ namespace instep {
 /// and all rules anew, so that whatever hangs on whatever is counted with it.
 ///
 /// The points are parted by a hash of their coordinates into two to eight parts, as many as leave
-/// 5000 points to each, as often as it takes to have eight parts or more. What one of k parts
+/// 7000 points to each, as often as it takes to have eight parts or more. What one of k parts
 /// leaves open has k times the variance of what all points together do, as far as that falls with
 /// their number; noise and sampling do. What all parts share, such as a hole, a fault of the
 /// calibration or a rule that is not what was meant, does not show. `foot` has its landmarks. One

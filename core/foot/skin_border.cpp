@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr double kStepMm = 2.0;
 constexpr double kWindowMm = 5.0;          ///< half, along and across
 constexpr double kDeepestMm = 4.0;         ///< below the furthest: beyond is another face
-constexpr double kWidestWindow = 2.0;      ///< times the usual one, where points are few
+constexpr double kWidestWindow = 2.1;      ///< times the usual one, where points are few
 constexpr std::size_t kFewestPoints = 14;  ///< of a fit; a window is widened to hold twice these
 constexpr std::size_t kFurthest = 5;
 constexpr std::size_t kFewestSamples = 4;
