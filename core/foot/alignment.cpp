@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/foot/foot_axis.h"
 #include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
+#include "core/foot/shoe_last.h"
 #include "core/foot/side_from_shape.h"
 #include "core/foot/standing_body.h"
 #include "core/geometry/distinct_points.h"
@@ -69,6 +71,28 @@ bool take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
   return axis.is_second_toe_resolved;
 }
 
+/// A foot's cloud put into its own frame, if it stands on a plane.
+Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
+                         const AlignmentOptions& options) {
+  const RigidTransform standing_from_input = plane.standing_from_input();
+  const auto standing = transformed(standing_from_input, foot.cloud).positions;
+
+  const auto outline = find_outline_axis(standing);
+  if (!outline) return tl::unexpected(outline.error());
+  auto along_outline = standing;
+  for (auto& point : along_outline) point = outline->axis_from_standing() * point;
+  const SideGuess guess = side_from_shape(along_outline, outline->length_mm);
+  foot.side = options.side.value_or(guess.side);
+  foot.side_confidence = options.side ? 1.0 : guess.confidence;
+
+  foot.is_floor_known = options.standing_plane.has_value();
+  const bool is_second_toe_resolved =
+      take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
+  foot.warnings = doubts(foot, is_second_toe_resolved);
+  if (is_sole_open(foot)) close_open_sole(foot);
+  return foot;
+}
+
 }  // namespace
 
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
@@ -84,29 +108,19 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   foot.cloud = foot.cloud.subset(body.points);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
-  if (!plane) return tl::unexpected(plane.error());
-  const RigidTransform standing_from_input = plane->standing_from_input();
-  const auto standing = transformed(standing_from_input, foot.cloud).positions;
-
-  const auto outline = find_outline_axis(standing);
-  if (!outline) return tl::unexpected(outline.error());
-  auto along_outline = standing;
-  for (auto& point : along_outline) point = outline->axis_from_standing() * point;
-  const SideGuess guess = side_from_shape(along_outline, outline->length_mm);
-  foot.side = options.side.value_or(guess.side);
-  foot.side_confidence = options.side ? 1.0 : guess.confidence;
-
-  foot.is_floor_known = options.standing_plane.has_value();
-  const bool is_second_toe_resolved =
-      take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
-  foot.warnings = doubts(foot, is_second_toe_resolved);
-  if (body.next_share > kLargePieceShare) {
-    foot.warnings.push_back("the cloud holds more than one body: the largest is measured, " +
-                            std::to_string(std::lround(100.0 * body.apart_share)) +
-                            " % of the points are left out");
+  auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
+  if (!found && !options.standing_plane && !options.up) {
+    // A last has no flat sole to be found by; files of lasts have z up.
+    const auto upright = plane_below(foot.cloud.positions, Eigen::Vector3d::UnitZ());
+    auto last = aligned(foot, upright, options);
+    if (last && is_shoe_last(*last)) found = std::move(last);
   }
-  if (is_sole_open(foot)) close_open_sole(foot);
-  return foot;
+  if (found && body.next_share > kLargePieceShare) {
+    found->warnings.push_back("the cloud holds more than one body: the largest is measured, " +
+                              std::to_string(std::lround(100.0 * body.apart_share)) +
+                              " % of the points are left out");
+  }
+  return found;
 }
 
 void realign(FootScan& foot) {

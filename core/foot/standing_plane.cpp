@@ -170,6 +170,14 @@ bool rests_flat(const Points& sample, const StandingPlane& plane) {
   return low.size() >= kFewestOfSole && is_closed(low, plane);
 }
 
+/// Whether the border of what touches the plane is touched nearly everywhere, as an open sole does.
+bool stands_all_round(const Points& sample, const StandingPlane& plane) {
+  constexpr double kNearlyAll = 0.75;
+  const auto points = touching(sample, plane, kTouchesMm);
+  const auto hull = convex_hull(points);
+  return hull.size() >= 3 && touched_share(hull, points) > kNearlyAll;
+}
+
 /// Tilts a plane to what rests on it: heel and ball, not the toes, of which the undersides may hang
 /// a millimetre over the floor. Points over the plane count little.
 StandingPlane lowered(const Points& points, StandingPlane plane) {
@@ -261,7 +269,10 @@ Result<StandingPlane> find_standing_plane(const Points& points) {
   for (const int axis : {2, 1, 0}) {
     for (const double sign : {1.0, -1.0}) {
       const StandingPlane plane = plane_below(sample, sign * Vector3d::Unit(axis));
-      keep_better(best, sample, plane, axis == 2 && sign > 0.0 ? 1.0 : kClearlyLarger);
+      const bool is_habit = axis == 2 && sign > 0.0;
+      if (is_habit || rests_flat(sample, plane) || stands_all_round(sample, plane)) {
+        keep_better(best, sample, plane, is_habit ? 1.0 : kClearlyLarger);
+      }
     }
   }
   for (const auto& plane : likely_planes(sample)) {
