@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastArchMm = 1.0;
+constexpr double kLeastArchMm = 3.0;  ///< a lower one is not told from a sole closed by the scanner
 
 /// The vector from one landmark to another.
 Result<Vector3d> between(const Landmarks& landmarks, const char* from, const char* to) {

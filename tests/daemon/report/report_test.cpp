@@ -244,7 +244,7 @@ TEST(CsvReport, HasALineForEachMeasure) {
   EXPECT_EQ(result_csv(foot_json(small_foot(), small_set(), small_sizes())),
             "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg\n"
             "left,foot_length,251.250,,,\"\",,\n"
-            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",\n"
+            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",,\n"
             "left,waist_girth,,,,\"the section is open\",,\n");
 }
 
