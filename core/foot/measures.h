@@ -28,8 +28,8 @@ struct MeasureOptions {
 /// well.
 ///
 /// The part of the landmarks is how a measure scatters over FootScan::redraws, a girth's by tapes
-/// laid round the same points; that of the surface is Girth's own. Neither knows of what the rules
-/// themselves get wrong.
+/// laid round the same points, widened for what all redraws share; that of the surface is Girth's
+/// own. Neither knows of a rule that is not what was meant.
 ///
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
 /// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no
