@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
+constexpr double kSeenToe = 0.5;          ///< confidence of a second toe that was seen as one
 constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
@@ -109,7 +110,8 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
-  if (!found && !options.standing_plane && !options.up) {
+  const bool is_doubtful = !found || found->landmarks.at("toe2_tip").confidence < kSeenToe;
+  if (is_doubtful && !options.standing_plane && !options.up) {
     // A last has no flat sole to be found by; files of lasts have z up.
     const auto upright = plane_below(foot.cloud.positions, Eigen::Vector3d::UnitZ());
     auto last = aligned(foot, upright, options);
