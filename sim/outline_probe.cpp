@@ -57,8 +57,6 @@ double place_of_maximum(const std::function<double(double)>& function, double lo
   return function(refined) >= best_value ? refined : best;
 }
 
-/// How far the body reaches along a line through `centre`, felt from outside; -kFarMm if the line
-/// misses it.
 double OutlineProbe::reach(const Vector3d& centre, const Vector3d& direction) const {
   const auto at = [&](double distance) { return value(centre + distance * direction); };
   double distance = kFarMm;
@@ -82,6 +80,18 @@ Vector3d OutlineProbe::side(double station, double sign) const {
 
 Vector3d OutlineProbe::end(double offset, double sign) const {
   return outermost({0.0, offset, 0.0}, sign * Vector3d::UnitX());
+}
+
+Vector3d OutlineProbe::profile(const Vector3d& centre, const Vector3d& direction,
+                               double half_width) const {
+  const auto reach_at = [&](double y) { return reach({centre.x(), y, centre.z()}, direction); };
+  const double y = place_of_maximum(reach_at, -half_width, half_width, 5.0);
+  return Vector3d(centre.x(), y, centre.z()) + reach_at(y) * direction;
+}
+
+Vector3d OutlineProbe::underside(double station, double offset) const {
+  const Vector3d below(station, offset, 0.0);
+  return below - reach(below, -Vector3d::UnitZ()) * Vector3d::UnitZ();
 }
 
 Vector3d OutlineProbe::top(double station, double offset, double from) const {

@@ -33,13 +33,24 @@ class OutlineProbe {
   /// The outermost point on the line y = `offset`, towards +x (`sign` +1) or -x.
   Eigen::Vector3d end(double offset, double sign) const;
 
+  /// How far the body reaches along a line through `centre`, felt from outside; far below zero if
+  /// the line misses it.
+  double reach(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction) const;
+
+  /// The outermost point of the body's side view (its shadow along y) on the ray from `centre` in
+  /// `direction`, which has no y; lines up to `half_width` beside y = 0 are felt.
+  Eigen::Vector3d profile(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction,
+                          double half_width) const;
+
+  /// The lower skin at `station` and `offset`, felt from below.
+  Eigen::Vector3d underside(double station, double offset) const;
+
   /// The upper skin above `station` and `offset`, reached from within the body at height `from`:
   /// what hangs over it does not count. z = 0 if that start is not within the body.
   Eigen::Vector3d top(double station, double offset, double from) const;
 
  private:
   Eigen::Vector3d outermost(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction) const;
-  double reach(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction) const;
 
   const Solid& solid_;
   RigidTransform solid_from_frame_;

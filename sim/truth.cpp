@@ -16,6 +16,9 @@ using PlanePoints = std::array<Vector3d, 3>;
 
 constexpr double kFineStepMm = 0.1;
 constexpr double kSearchStepMm = 0.5;
+// Between these angles over the floor the back of the foot is seen from the heel.
+constexpr double kLeastRise = 0.40;
+constexpr double kMostRise = 0.85;
 
 RigidTransform frame_at(const Vector3d& origin, const Vector3d& along) {
   RigidTransform frame = RigidTransform::Identity();
@@ -27,6 +30,11 @@ RigidTransform frame_at(const Vector3d& origin, const Vector3d& along) {
 
 Vector3d on_floor(const Vector3d& point) {
   return {point.x(), point.y(), 0.0};
+}
+
+/// Distance as it looks from the side.
+double seen_from_side(const Vector3d& a, const Vector3d& b) {
+  return std::hypot(a.x() - b.x(), a.z() - b.z());
 }
 
 Vector3d mean(const PlanePoints& points) {
@@ -46,9 +54,17 @@ class Measurer {
     find_length();
     find_ball_points();
     find_midfoot_points();
+    find_arch_height();
+    find_heel_points();
+    find_malleolus();
+    find_toe_height();
+    find_toe_angles();
     for (const auto& [id, points] : {std::pair("ball_girth", ball_points()),
                                      {"instep_girth", instep_points(landmark("medial_arch"))},
-                                     {"waist_girth", waist_points()}}) {
+                                     {"waist_girth", waist_points()},
+                                     {"short_heel_girth", heel_points(landmark("junction"))},
+                                     {"long_heel_girth", heel_points(landmark("instep"))},
+                                     {"ankle_girth", ankle_points()}}) {
       if (auto stored = store(id, points); !stored) return tl::make_unexpected(stored.error());
     }
     return truth_;
@@ -103,19 +119,19 @@ class Measurer {
 
   /// A millimetre of handicap at a twenty-fifth of FL off the usual place, growing as its square.
   auto off_usual(double usual) const {
-    return [usual, spread = 0.04 * length_](double at) {
-      return std::pow((at - usual) / spread, 2);
-    };
+    return
+        [usual, spread = 0.04 * length_](double at) { return std::pow((at - usual) / spread, 2); };
   }
 
   void find_ball_points() {
     const Vector3d mt = landmark("mt") =
         most_protruding(medial_, 0.60 * length_, 0.80 * length_, off_usual(0.69 * length_));
     const double foremost = std::min(0.75 * length_, mt.x() - 15.0);
-    const Vector3d mf = landmark("mf") =
-        most_protruding(-medial_, 0.50 * length_, foremost,
-                        off_usual(std::min(0.63 * length_, foremost)));
+    const Vector3d mf = landmark("mf") = most_protruding(
+        -medial_, 0.50 * length_, foremost, off_usual(std::min(0.63 * length_, foremost)));
     truth_.measures["foot_breadth"] = (mt - mf).head<2>().norm();
+    truth_.measures["ball_length"] = mt.x();
+    truth_.measures["outside_ball_length"] = mf.x();
     const double from = 0.50 * length_, to = 0.85 * length_;
     truth_.measures["foot_breadth_horizontal"] =
         std::abs(most_protruding(medial_, from, to).y() - most_protruding(-medial_, from, to).y());
@@ -140,7 +156,13 @@ class Measurer {
     truth_.planes[id] = points;
     truth_.measures[id] = contour->stretched_mm;
     truth_.contact_mm[id] = contour->contact_mm;
+    if (id == "ball_girth") store_ball_height(*plane, *contour);
     return {};
+  }
+
+  void store_ball_height(const TapePlane& plane, const SectionContour& contour) {
+    double& highest = truth_.measures["ball_height"];
+    for (const auto& corner : contour.polygon) highest = std::max(highest, plane.lift(corner).z());
   }
 
   /// Medial, lateral and dorsal control points, as in instep_points().
@@ -176,6 +198,7 @@ class Measurer {
     const auto height = [&](double y) { return felt.top(middle, y, inside).z(); };
     const double y = place_of_maximum(height, -0.15 * length_, 0.15 * length_, 1.0);
     const Vector3d instep = landmark("instep") = felt.top(middle, y, inside);
+    truth_.measures["instep_height"] = instep.z();
 
     const auto nearness = [&](double x) {
       return -(felt.side(x, -medial_) - instep).head<2>().norm();
@@ -186,6 +209,108 @@ class Measurer {
     const double medial = place_of_maximum([&](double x) { return -girth_over(x); }, 0.35 * length_,
                                            0.60 * length_, 4.0);
     landmark("medial_arch") = felt.side(medial, medial_);
+  }
+
+  /// The underside a quarter of the breadth inwards from the medial border.
+  void find_arch_height() {
+    const OutlineProbe felt = probe();
+    const auto underside = [&](double x) {
+      const double inner = felt.side(x, medial_).y();
+      const double outer = felt.side(x, -medial_).y();
+      return felt.underside(x, inner + 0.25 * (outer - inner));
+    };
+    const double x = place_of_maximum([&](double at) { return underside(at).z(); }, 0.35 * length_,
+                                      0.60 * length_, 4.0);
+    landmark("arch_point") = underside(x);
+    truth_.measures["arch_height"] = underside(x).z();
+  }
+
+  /// Seen from the side: direction that rises by an angle.
+  static Vector3d rising(double radians) { return {std::cos(radians), 0.0, std::sin(radians)}; }
+
+  void find_heel_points() {
+    const OutlineProbe felt = probe();
+    const Vector3d inner = felt.side(length_ / 6.0, medial_);
+    const Vector3d outer = felt.side(length_ / 6.0, -medial_);
+    landmark("heel_medial") = inner;
+    landmark("heel_lateral") = outer;
+    truth_.measures["heel_breadth"] = std::abs(inner.y() - outer.y());
+
+    // Down and back from the instep point to the far end of the heel; the rays that leave through
+    // the sole in front of it are shorter.
+    const double half_width = 0.12 * length_;
+    const Vector3d instep = landmark("instep");
+    const auto heel = [&](double down) { return felt.profile(instep, -rising(down), half_width); };
+    const double down = place_of_maximum(
+        [&](double at) { return seen_from_side(heel(at), instep); }, 0.25, 0.60, 0.02);
+    landmark("heel_point") = heel(down);
+
+    const Vector3d rear = landmark("heel_point");
+    const auto back = [&](double up) { return felt.profile(rear, rising(up), half_width); };
+    const double up = place_of_maximum([&](double at) { return -seen_from_side(back(at), rear); },
+                                       kLeastRise, kMostRise, 0.03);
+    landmark("junction") = back(up);
+  }
+
+  PlanePoints heel_points(const Vector3d& dorsal) {
+    const Vector3d heel = landmark("heel_point");
+    return {heel, dorsal, Vector3d(heel + 0.1 * length_ * Vector3d::UnitY())};
+  }
+
+  void find_malleolus() {
+    const OutlineProbe felt = probe();
+    const auto protrusion = [&](double z) {
+      const auto reach = [&](double x) {
+        return felt.reach({x, 0.0, z}, medial_ * Vector3d::UnitY());
+      };
+      const double x = place_of_maximum(reach, 0.10 * length_, 0.45 * length_, 4.0);
+      return Vector3d(x, medial_ * reach(x), z);
+    };
+    const auto weighed = [&](double z) {
+      return medial_ * protrusion(z).y() - std::pow((z / length_ - 0.30) / 0.03, 2);
+    };
+    landmark("medial_malleolus") =
+        protrusion(place_of_maximum(weighed, 0.22 * length_, 0.38 * length_, 2.0));
+  }
+
+  PlanePoints ankle_points() {
+    const Vector3d skin = landmark("medial_malleolus");
+    const Vector3d inside = skin - medial_ * 0.1 * length_ * Vector3d::UnitY();
+    return {inside, inside + 5.0 * Vector3d::UnitX(), inside + 5.0 * Vector3d::UnitY()};
+  }
+
+  void find_toe_height() {
+    const OutlineProbe felt = probe();
+    const double inner = landmark("mt").y();
+    const double border = inner + 0.30 * (landmark("mf").y() - inner);
+    const double from = std::min(inner, border), to = std::max(inner, border);
+    const double tip =
+        place_of_maximum([&](double y) { return felt.end(y, 1.0).x(); }, from, to, 2.0);
+    landmark("toe1_tip") = felt.end(tip, 1.0);
+    const double x = landmark("toe1_tip").x() - 15.0;
+    const auto height = [&](double y) { return felt.top(x, y, 6.0).z(); };
+    truth_.measures["toe1_height"] = height(place_of_maximum(height, from, to, 1.5));
+  }
+
+  /// By how much the toe whose border lies in a range turns from the line of the side: medial for
+  /// `sign` +1.
+  double toe_angle(const Vector3d& heel, const Vector3d& ball, double sign, double from,
+                   double to) {
+    const OutlineProbe felt = probe();
+    const double outwards = sign * medial_;
+    const auto bearing = [&](double x) {
+      return std::atan2(outwards * (felt.side(x, outwards).y() - ball.y()), x - ball.x());
+    };
+    const double toe = bearing(place_of_maximum(bearing, from * length_, to * length_, 2.0));
+    const double side = std::atan2(outwards * (ball.y() - heel.y()), ball.x() - heel.x());
+    return (side - toe) * 180.0 / M_PI;
+  }
+
+  void find_toe_angles() {
+    truth_.measures["toe1_angle"] =
+        toe_angle(landmark("heel_medial"), landmark("mt"), 1.0, 0.80, 0.95);
+    truth_.measures["toe5_angle"] =
+        toe_angle(landmark("heel_lateral"), landmark("mf"), -1.0, 0.70, 0.85);
   }
 
   const FootSolid& foot_;

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/foot/foot_axis.h"
+#include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
+#include "core/foot/shoe_last.h"
 #include "core/foot/side_from_shape.h"
+#include "core/foot/standing_body.h"
 #include "core/geometry/distinct_points.h"
 
 namespace instep {
@@ -14,6 +18,8 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
+constexpr double kSeenToe = 0.5;          ///< confidence of a second toe that was seen as one
+constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
   if (options.standing_plane) return *options.standing_plane;
@@ -32,6 +38,12 @@ Result<void> check_options(const AlignmentOptions& options) {
   return {};
 }
 
+tl::unexpected<Error> too_few(std::size_t points) {
+  return fail(ErrorCode::kInsufficientData,
+              "the cloud has only " + std::to_string(points) + " points",
+              "give at least " + std::to_string(kFewestPoints) + " points of one foot");
+}
+
 std::vector<std::string> doubts(const FootScan& foot, bool is_second_toe_resolved) {
   std::vector<std::string> warnings;
   if (foot.side_confidence < kSureSide) {
@@ -44,22 +56,26 @@ std::vector<std::string> doubts(const FootScan& foot, bool is_second_toe_resolve
   return warnings;
 }
 
-}  // namespace
+/// Moves the foot into the frame of an axis and sets its ends; true if the second toe was seen.
+bool take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& standing_from_cloud) {
+  const RigidTransform foot_from_cloud = axis.foot_from_standing * standing_from_cloud;
+  foot.foot_from_input = foot_from_cloud * foot.foot_from_input;
+  foot.cloud = transformed(foot_from_cloud, foot.cloud);
+  foot.landmarks.clear();
+  foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
+  foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
+                                  "foremost point of the toes along the axis"};
+  foot.landmarks["toe2_tip"] =
+      axis.is_second_toe_resolved
+          ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
+          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
+  return axis.is_second_toe_resolved;
+}
 
-Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
-  if (auto checked = check_cloud(cloud); !checked) return tl::unexpected(checked.error());
-  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
-  FootScan foot;
-  // Files of triangles name a corner once for each face.
-  foot.cloud = cloud.subset(distinct_points(cloud.positions));
-  if (foot.cloud.size() < kFewestPoints) {
-    return fail(ErrorCode::kInsufficientData,
-                "the cloud has only " + std::to_string(foot.cloud.size()) + " points",
-                "give at least " + std::to_string(kFewestPoints) + " points of one foot");
-  }
-  const auto plane = standing_plane(foot.cloud, options);
-  if (!plane) return tl::unexpected(plane.error());
-  const RigidTransform standing_from_input = plane->standing_from_input();
+/// A foot's cloud put into its own frame, if it stands on a plane.
+Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
+                         const AlignmentOptions& options) {
+  const RigidTransform standing_from_input = plane.standing_from_input();
   const auto standing = transformed(standing_from_input, foot.cloud).positions;
 
   const auto outline = find_outline_axis(standing);
@@ -70,18 +86,53 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   foot.side = options.side.value_or(guess.side);
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 
-  const FootAxis axis = find_foot_axis(standing, *outline, foot.side);
-  foot.foot_from_input = axis.foot_from_standing * standing_from_input;
-  foot.cloud = transformed(foot.foot_from_input, foot.cloud);
-  foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
-  foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
-                                  "foremost point of the toes along the axis"};
-  foot.landmarks["toe2_tip"] =
-      axis.is_second_toe_resolved
-          ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
-          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
-  foot.warnings = doubts(foot, axis.is_second_toe_resolved);
+  foot.is_floor_known = options.standing_plane.has_value();
+  const bool is_second_toe_resolved =
+      take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
+  foot.warnings = doubts(foot, is_second_toe_resolved);
+  if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
+}
+
+}  // namespace
+
+Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
+  if (auto checked = check_cloud(cloud); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
+  FootScan foot;
+  // Files of triangles name a corner once for each face.
+  foot.cloud = cloud.subset(distinct_points(cloud.positions));
+  if (foot.cloud.size() < kFewestPoints) {
+    return too_few(foot.cloud.size());
+  }
+  const StandingBody body = standing_body(foot.cloud.positions);
+  foot.cloud = foot.cloud.subset(body.points);
+  if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
+  const auto plane = standing_plane(foot.cloud, options);
+  auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
+  const bool is_doubtful = !found || found->landmarks.at("toe2_tip").confidence < kSeenToe;
+  if (is_doubtful && !options.standing_plane && !options.up) {
+    // A last has no flat sole to be found by; files of lasts have z up.
+    const auto upright = plane_below(foot.cloud.positions, Eigen::Vector3d::UnitZ());
+    auto last = aligned(foot, upright, options);
+    if (last && is_shoe_last(*last)) found = std::move(last);
+  }
+  if (found && body.next_share > kLargePieceShare) {
+    found->warnings.push_back("the cloud holds more than one body: the largest is measured, " +
+                              std::to_string(std::lround(100.0 * body.apart_share)) +
+                              " % of the points are left out");
+  }
+  return found;
+}
+
+void realign(FootScan& foot) {
+  StandingPlane floor;
+  if (!foot.is_floor_known) floor = settled_on_sole(foot.cloud.positions, floor);
+  const RigidTransform standing_from_cloud = floor.standing_from_input();
+  OutlineAxis start;
+  start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
+  const auto standing = transformed(standing_from_cloud, foot.cloud).positions;
+  take_axis(foot, find_foot_axis(standing, start, foot.side), standing_from_cloud);
 }
 
 }  // namespace instep

@@ -26,9 +26,15 @@ struct AlignmentOptions {
 /// in floor projection. The landmarks `pternion`, `acropodion` and `toe2_tip` are set; the others
 /// are find_landmarks()'s business.
 ///
-/// A leg above the foot, an open sole and a cut at any height above the instep are fine. Fails with
-/// kInsufficientData under 200 points and with kInvalidInput, saying why, for what is no whole
-/// foot. A mirrored cloud gives the mirrored result. O(n log n).
+/// Strays and what stands apart are left out. A sole that was not seen is closed on the floor
+/// (close_open_sole()), with a warning. A leg above the foot, an open sole and a cut at any height
+/// above the instep are fine. Fails with kInsufficientData under 200 points and with kInvalidInput,
+/// saying why, for what is no whole foot. A mirrored cloud gives the mirrored result. O(n log n).
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
+
+/// Finds floor, axis and ends again on a foot that stands in its own frame already, as after points
+/// were taken away: moves its cloud into the new frame, adds the move to `foot_from_input`, and
+/// sets the three landmarks, all others gone. The side stays.
+void realign(FootScan& foot);
 
 }  // namespace instep

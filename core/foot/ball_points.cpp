@@ -1,6 +1,8 @@
 #include "core/foot/ball_points.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace instep {
 namespace {
@@ -24,28 +26,30 @@ struct Rule {
   double from;
   double to;
   double prior;
-  double outwards;  ///< +1 medial, -1 lateral
   const char* found;
   const char* fallback;
 };
 
-std::optional<Landmark> most_protruding(const FootOutline& outline, const BorderProfile& border,
+std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBorder& border,
                                         const Rule& rule) {
-  const auto landmark = [&](double place, double reach, double confidence, const char* text) {
-    const Eigen::Vector2d flat(place, rule.outwards * reach);
-    return Landmark{{flat.x(), flat.y(), outline.border_height(flat)}, confidence, text};
-  };
   const auto handicap = [&](double place) {
     const double off = (place - rule.prior) / (kPriorSpreadShare * outline.length_mm());
     return kPriorHandicapMm * off * off;
   };
   const auto peak = border.furthest(rule.from, rule.to, handicap);
   if (peak && peak->rise > kFaintRiseMm) {
-    return landmark(peak->place, peak->reach, confidence_of(peak->rise), rule.found);
+    return Landmark{border.position(*peak), confidence_of(peak->rise), rule.found};
   }
-  const auto reach = border.reach(rule.prior);
-  if (!reach) return std::nullopt;
-  return landmark(rule.prior, *reach, kPriorConfidence, rule.fallback);
+  const auto place = border.at(rule.prior);
+  if (!place) return std::nullopt;
+  return Landmark{border.position(*place), kPriorConfidence, rule.fallback};
+}
+
+std::optional<Landmark> broadest(const SkinBorder& border, double length) {
+  const auto peak = border.furthest(0.50 * length, 0.85 * length);
+  if (!peak) return std::nullopt;
+  return Landmark{border.position(*peak), 0.9,
+                  "furthest point of the outline in 0.50-0.85 of the foot's length"};
 }
 
 }  // namespace
@@ -54,7 +58,7 @@ std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
   const double length = outline.length_mm();
   return most_protruding(
       outline, outline.medial(),
-      {0.60 * length, 0.80 * length, 0.69 * length, 1.0,
+      {0.60 * length, 0.80 * length, 0.69 * length,
        "most medial point of the outline in 0.60-0.80 of the foot's length, weighed by "
        "nearness to 0.69",
        "no medial summit: outline at 0.69 of the foot's length"});
@@ -66,10 +70,41 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
   const double foremost = std::min(0.75 * length, tibiale.position_mm.x() - kBehindTibialeMm);
   return most_protruding(
       outline, outline.lateral(),
-      {0.50 * length, foremost, std::min(0.63 * length, foremost), -1.0,
+      {0.50 * length, foremost, std::min(0.63 * length, foremost),
        "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
        "nearness to 0.63",
        "no lateral summit: outline at 0.63 of the foot's length"});
+}
+
+std::optional<Landmark> find_ball_medial(const FootOutline& outline) {
+  return broadest(outline.medial(), outline.length_mm());
+}
+
+std::optional<Landmark> find_ball_lateral(const FootOutline& outline) {
+  return broadest(outline.lateral(), outline.length_mm());
+}
+
+std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
+                                      const Landmark& fibulare) {
+  constexpr double kSlabMm = 15.0;
+  constexpr double kSmoothingMm = 9.0;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d across = tibiale.position_mm - fibulare.position_mm;
+  across.z() = 0.0;
+  if (!(across.norm() > 1.0)) return std::nullopt;
+  across.normalize();
+  const Eigen::Vector3d along = across.cross(up);
+  const double place = along.dot(tibiale.position_mm);
+  std::vector<Eigen::Vector3d> slab;
+  for (const auto& point : outline.points()) {
+    if (std::abs(along.dot(point) - place) < kSlabMm) slab.push_back(point);
+  }
+  const SkinBorder section(
+      slab, {along, up, across, across.dot(fibulare.position_mm), across.dot(tibiale.position_mm)},
+      kSmoothingMm);
+  const auto top = section.at(place);
+  if (!top) return std::nullopt;
+  return Landmark{section.position(*top), 0.8, "highest point of the ball's section"};
 }
 
 }  // namespace instep

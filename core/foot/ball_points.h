@@ -16,4 +16,13 @@ std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline);
 std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
                                                   const Landmark& tibiale);
 
+/// The most medial and the most lateral point of the outline in 0.50-0.85 of the foot's length:
+/// the ends of its horizontal breadth.
+std::optional<Landmark> find_ball_medial(const FootOutline& outline);
+std::optional<Landmark> find_ball_lateral(const FootOutline& outline);
+
+/// The highest point of the upright section through the two points of the ball.
+std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
+                                      const Landmark& fibulare);
+
 }  // namespace instep

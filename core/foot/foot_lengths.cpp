@@ -1,35 +1,116 @@
 #include "core/foot/foot_lengths.h"
 
-#include "core/foot/foot_outline.h"
+#include <cmath>
+#include <numbers>
 
 namespace instep {
+namespace {
 
-Result<double> foot_length(const FootScan& foot) {
-  return foot.landmarks.at("acropodion").position_mm.x() -
-         foot.landmarks.at("pternion").position_mm.x();
+using Eigen::Vector3d;
+
+constexpr double kLeastArchMm = 3.0;  ///< a lower one is not told from a sole closed by the scanner
+
+/// The vector from one landmark to another.
+Result<Vector3d> between(const Landmarks& landmarks, const char* from, const char* to) {
+  const auto start = position_of(landmarks, from);
+  if (!start) return tl::unexpected(start.error());
+  const auto end = position_of(landmarks, to);
+  if (!end) return tl::unexpected(end.error());
+  return Vector3d(*end - *start);
 }
 
-Result<double> foot_breadth(const FootScan& foot) {
-  const auto tibiale = foot.landmarks.find("metatarsale_tibiale");
-  const auto fibulare = foot.landmarks.find("metatarsale_fibulare");
-  if (tibiale == foot.landmarks.end() || fibulare == foot.landmarks.end()) {
-    return fail(ErrorCode::kInsufficientData, "the sides of the ball were not found",
-                "scan the foot again, from all sides");
-  }
-  return (tibiale->second.position_mm - fibulare->second.position_mm).head<2>().norm();
+Result<double> height(const Landmarks& landmarks, const char* name) {
+  return position_of(landmarks, name).map([](const Vector3d& place) { return place.z(); });
 }
 
-Result<double> foot_breadth_horizontal(const FootScan& foot) {
-  const FootOutline outline(foot);
-  const double from = 0.5 * outline.length_mm();
-  const double to = 0.85 * outline.length_mm();
-  const auto medial = outline.medial().furthest(from, to);
-  const auto lateral = outline.lateral().furthest(from, to);
-  if (!medial || !lateral) {
-    return fail(ErrorCode::kInsufficientData, "the outline has no points beside the ball",
+Result<double> extent_along(const Landmarks& landmarks, const char* from, const char* to) {
+  return between(landmarks, from, to).map([](const Vector3d& step) { return step.x(); });
+}
+
+Result<double> extent_across(const Landmarks& landmarks, const char* from, const char* to) {
+  return between(landmarks, from, to).map([](const Vector3d& step) { return std::abs(step.y()); });
+}
+
+/// Positive where the toe turns inwards, from `medial` or lateral.
+Result<double> toe_angle(const Landmarks& landmarks, const char* heel, const char* ball,
+                         const char* toe) {
+  const auto side = between(landmarks, heel, ball);
+  if (!side) return tl::unexpected(side.error());
+  const auto ray = between(landmarks, ball, toe);
+  if (!ray) return tl::unexpected(ray.error());
+  const auto outwards = position_of(landmarks, ball);
+  const double sign = outwards->y() > 0.0 ? 1.0 : -1.0;
+  const auto bearing = [&](const Vector3d& step) { return std::atan2(sign * step.y(), step.x()); };
+  return (bearing(*side) - bearing(*ray)) * 180.0 / std::numbers::pi;
+}
+
+}  // namespace
+
+Result<Vector3d> position_of(const Landmarks& landmarks, const std::string& name) {
+  const auto found = landmarks.find(name);
+  if (found == landmarks.end()) {
+    return fail(ErrorCode::kInsufficientData, "the landmark " + name + " was not found",
                 "scan the foot again, from all sides");
   }
-  return medial->reach + lateral->reach;
+  return found->second.position_mm;
+}
+
+Result<double> foot_length(const Landmarks& landmarks) {
+  return extent_along(landmarks, "pternion", "acropodion");
+}
+
+Result<double> foot_breadth(const Landmarks& landmarks) {
+  return between(landmarks, "metatarsale_tibiale", "metatarsale_fibulare")
+      .map([](const Vector3d& step) { return step.head<2>().norm(); });
+}
+
+Result<double> foot_breadth_horizontal(const Landmarks& landmarks) {
+  return extent_across(landmarks, "ball_medial", "ball_lateral");
+}
+
+Result<double> heel_breadth(const Landmarks& landmarks) {
+  return extent_across(landmarks, "heel_medial", "heel_lateral");
+}
+
+Result<double> ball_length(const Landmarks& landmarks) {
+  return extent_along(landmarks, "pternion", "metatarsale_tibiale");
+}
+
+Result<double> outside_ball_length(const Landmarks& landmarks) {
+  return extent_along(landmarks, "pternion", "metatarsale_fibulare");
+}
+
+Result<double> instep_height(const Landmarks& landmarks) {
+  return height(landmarks, "instep_point");
+}
+
+Result<double> ball_height(const Landmarks& landmarks) {
+  return height(landmarks, "ball_top");
+}
+
+Result<double> toe1_height(const Landmarks& landmarks) {
+  return height(landmarks, "toe1_top");
+}
+
+Result<double> arch_height(const Landmarks& landmarks) {
+  const auto found = landmarks.find("arch_point");
+  if (found == landmarks.end()) {
+    return fail(ErrorCode::kInsufficientData, "the arch was not seen from below",
+                "scan with a camera under the glass");
+  }
+  const double clearance = found->second.position_mm.z();
+  if (clearance >= kLeastArchMm) return clearance;
+  return fail(ErrorCode::kInsufficientData,
+              "the underside is flat: a flat foot, or a sole that was closed without being seen",
+              "scan with a camera under the glass");
+}
+
+Result<double> toe1_angle(const Landmarks& landmarks) {
+  return toe_angle(landmarks, "heel_medial", "metatarsale_tibiale", "toe1_contact");
+}
+
+Result<double> toe5_angle(const Landmarks& landmarks) {
+  return toe_angle(landmarks, "heel_lateral", "metatarsale_fibulare", "toe5_contact");
 }
 
 }  // namespace instep

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/foot/border_profile.h"
 #include "core/foot/foot_scan.h"
+#include "core/foot/skin_border.h"
 
 namespace instep {
 
@@ -20,24 +20,18 @@ class FootOutline {
 
   double length_mm() const { return length_mm_; }
 
-  /// All points, and those of the outline.
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
-  const std::vector<Eigen::Vector3d>& low_points() const { return low_points_; }
 
-  /// Reach towards medial, and towards lateral, at each x.
-  const BorderProfile& medial() const { return medial_; }
-  const BorderProfile& lateral() const { return lateral_; }
-
-  /// The skin's height at a place of the border: mean height of the outline's points close to it,
-  /// or half the outline's height if there are none.
-  double border_height(const Eigen::Vector2d& place) const;
+  /// Reach towards medial, and towards lateral, at each x, of the skin up to
+  /// kLandmarkOutlineHeightMm.
+  const SkinBorder& medial() const { return medial_; }
+  const SkinBorder& lateral() const { return lateral_; }
 
  private:
   double length_mm_;
   std::vector<Eigen::Vector3d> points_;
-  std::vector<Eigen::Vector3d> low_points_;
-  BorderProfile medial_;
-  BorderProfile lateral_;
+  SkinBorder medial_;
+  SkinBorder lateral_;
 };
 
 }  // namespace instep

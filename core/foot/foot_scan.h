@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,24 @@ struct Landmark {
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< foot frame
   double confidence = 0.0;                                ///< 0 (a guess) to 1
   std::string rule;                                       ///< how it was found, in a few words
+  /// Within this of the true place with 95 % probability, as far as the points tell.
+  std::optional<double> radius_mm = std::nullopt;
+};
+
+using Landmarks = std::map<std::string, Landmark>;
+
+/// The landmarks as a part of the points would have given them: how they scatter tells how sure
+/// they are (core/foot/redrawn_landmarks.h).
+struct RedrawnLandmarks {
+  Landmarks landmarks;  ///< in the frame that the part gave
+  RigidTransform foot_from_redrawn = RigidTransform::Identity();
+};
+
+/// All redraws: the cloud was parted, maybe several times, into `parts` of equal size, and the
+/// redraws of one parting follow each other.
+struct Redraws {
+  std::size_t parts = 0;
+  std::vector<RedrawnLandmarks> landmarks;
 };
 
 /// One foot in its own frame, ready to be measured.
@@ -29,7 +48,9 @@ struct FootScan {
   Side side = Side::kRight;
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();
-  std::map<std::string, Landmark> landmarks;
+  bool is_floor_known = false;  ///< given with the cloud, not found from it
+  Landmarks landmarks;
+  Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;
 
   /// +1 where medial is +y (right foot), -1 where it is -y (left foot).

@@ -1,7 +1,6 @@
 #include "core/foot/foot_tapes.h"
 
-#include <string>
-
+#include "core/foot/foot_lengths.h"
 #include "core/foot/midfoot_points.h"
 
 namespace instep {
@@ -18,56 +17,73 @@ struct TapePoints {
   Result<TapePlane> plane() const { return TapePlane::through(medial, lateral, dorsal); }
 };
 
-Result<Vector3d> position(const FootScan& foot, const std::string& name) {
-  const auto found = foot.landmarks.find(name);
-  if (found == foot.landmarks.end()) {
-    return fail(ErrorCode::kInsufficientData, "the landmark " + name + " was not found",
-                "scan the foot again, from all sides");
-  }
-  return found->second.position_mm;
-}
-
-Result<TapePoints> ball_points(const FootScan& foot) {
-  const auto tibiale = position(foot, "metatarsale_tibiale");
+Result<TapePoints> ball_points(const Landmarks& landmarks) {
+  const auto tibiale = position_of(landmarks, "metatarsale_tibiale");
   if (!tibiale) return tl::unexpected(tibiale.error());
-  const auto fibulare = position(foot, "metatarsale_fibulare");
+  const auto fibulare = position_of(landmarks, "metatarsale_fibulare");
   if (!fibulare) return tl::unexpected(fibulare.error());
-  const auto instep = position(foot, "instep_point");
+  const auto instep = position_of(landmarks, "instep_point");
   if (!instep) return tl::unexpected(instep.error());
   const Vector3d medial = on_floor(*tibiale);
   const Vector3d lateral = on_floor(*fibulare);
   return TapePoints{medial, lateral, (medial + lateral) / 2.0 + instep->z() * Vector3d::UnitZ()};
 }
 
-Result<TapePoints> instep_points(const FootScan& foot) {
-  const auto instep = position(foot, "instep_point");
+Result<TapePoints> instep_points(const Landmarks& landmarks) {
+  const auto instep = position_of(landmarks, "instep_point");
   if (!instep) return tl::unexpected(instep.error());
-  const auto arch = position(foot, "medial_arch");
+  const auto arch = position_of(landmarks, "medial_arch");
   if (!arch) return tl::unexpected(arch.error());
-  const auto lateral = position(foot, "lateral_midfoot");
+  const auto lateral = position_of(landmarks, "lateral_midfoot");
   if (!lateral) return tl::unexpected(lateral.error());
   return TapePoints{on_floor(*arch), on_floor(*lateral), *instep};
 }
 
+constexpr double kApartMm = 50.0;  ///< of control points that only give a direction
+
+/// The plane over two points that is square to the side view.
+Result<TapePlane> heel_tape(const Landmarks& landmarks, const char* dorsal) {
+  const auto heel = position_of(landmarks, "heel_point");
+  if (!heel) return tl::unexpected(heel.error());
+  const auto back = position_of(landmarks, dorsal);
+  if (!back) return tl::unexpected(back.error());
+  return TapePlane::through(*heel, *back, *heel + kApartMm * Vector3d::UnitY());
+}
+
 }  // namespace
 
-Result<TapePlane> ball_tape(const FootScan& foot) {
-  return ball_points(foot).and_then([](const TapePoints& points) { return points.plane(); });
+Result<TapePlane> ball_tape(const Landmarks& landmarks) {
+  return ball_points(landmarks).and_then([](const TapePoints& points) { return points.plane(); });
 }
 
-Result<TapePlane> instep_tape(const FootScan& foot) {
-  return instep_points(foot).and_then([](const TapePoints& points) { return points.plane(); });
+Result<TapePlane> instep_tape(const Landmarks& landmarks) {
+  return instep_points(landmarks).and_then([](const TapePoints& points) { return points.plane(); });
 }
 
-Result<TapePlane> waist_tape(const FootScan& foot) {
-  const auto ball = ball_points(foot);
+Result<TapePlane> waist_tape(const Landmarks& landmarks) {
+  const auto ball = ball_points(landmarks);
   if (!ball) return tl::unexpected(ball.error());
-  const auto instep = instep_points(foot);
+  const auto instep = instep_points(landmarks);
   if (!instep) return tl::unexpected(instep.error());
   const TapePoints middle{(ball->medial + instep->medial) / 2.0,
                           (ball->lateral + instep->lateral) / 2.0,
                           (ball->dorsal + instep->dorsal) / 2.0};
   return middle.plane();
+}
+
+Result<TapePlane> short_heel_tape(const Landmarks& landmarks) {
+  return heel_tape(landmarks, "junction");
+}
+
+Result<TapePlane> long_heel_tape(const Landmarks& landmarks) {
+  return heel_tape(landmarks, "instep_point");
+}
+
+Result<TapePlane> ankle_tape(const Landmarks& landmarks) {
+  return position_of(landmarks, "medial_malleolus").and_then([](const Vector3d& ankle) {
+    return TapePlane::through(ankle, ankle + kApartMm * Vector3d::UnitX(),
+                              ankle + kApartMm * Vector3d::UnitY());
+  });
 }
 
 }  // namespace instep

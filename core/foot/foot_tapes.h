@@ -6,17 +6,26 @@
 
 namespace instep {
 
-/// Where the tapes lie on an aligned foot with its landmarks; foot frame. Each fails with
+/// Where the tapes lie on a foot, by its landmarks; in their frame. Each fails with
 /// kInsufficientData where a landmark it needs was not found.
 
 /// Upright, over metatarsale tibiale and fibulare.
-Result<TapePlane> ball_tape(const FootScan& foot);
+Result<TapePlane> ball_tape(const Landmarks& landmarks);
 
 /// Over the instep point; meets the floor under the lateral midfoot and the medial arch.
-Result<TapePlane> instep_tape(const FootScan& foot);
+Result<TapePlane> instep_tape(const Landmarks& landmarks);
 
 /// Midway between the two: medial, lateral and dorsal control points are averaged. (The ball tape's
 /// dorsal one is taken at the height of the instep point.)
-Result<TapePlane> waist_tape(const FootScan& foot);
+Result<TapePlane> waist_tape(const Landmarks& landmarks);
+
+/// Round the heel point and over the junction of foot and leg, square to the side view.
+Result<TapePlane> short_heel_tape(const Landmarks& landmarks);
+
+/// Round the heel point and over the instep point, square to the side view.
+Result<TapePlane> long_heel_tape(const Landmarks& landmarks);
+
+/// Level, over the medial malleolus.
+Result<TapePlane> ankle_tape(const Landmarks& landmarks);
 
 }  // namespace instep

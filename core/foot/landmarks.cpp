@@ -1,53 +1,110 @@
 #include "core/foot/landmarks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "core/foot/ankle_points.h"
 #include "core/foot/ball_points.h"
 #include "core/foot/foot_outline.h"
+#include "core/foot/heel_points.h"
 #include "core/foot/midfoot_points.h"
+#include "core/foot/redrawn_landmarks.h"
+#include "core/foot/shoe_last.h"
+#include "core/foot/toe_points.h"
 
 namespace instep {
 namespace {
 
 constexpr double kPoorConfidence = 0.35;
 
-using NamedLandmark = std::pair<const char*, std::optional<Landmark>>;
+/// Collects landmarks of the right-foot form into a foot, in its own frame.
+class Marking {
+ public:
+  explicit Marking(FootScan& foot) : foot_(foot) {}
 
-/// Turns a landmark of the right-foot form back into the foot's own frame.
-Landmark in_own_frame(Landmark landmark, double medial_sign) {
-  landmark.position_mm.y() *= medial_sign;
-  return landmark;
+  std::optional<Landmark> add(const char* name, std::optional<Landmark> landmark) {
+    if (!landmark) {
+      foot_.warnings.push_back(std::string(name) + " not found: the cloud has no points there");
+      return landmark;
+    }
+    if (landmark->confidence < kPoorConfidence) {
+      foot_.warnings.push_back(std::string(name) + " is placed by proportion: " + landmark->rule);
+    }
+    Landmark own = *landmark;
+    own.position_mm.y() *= foot_.medial_sign();
+    foot_.landmarks[name] = own;
+    return landmark;
+  }
+
+ private:
+  FootScan& foot_;
+};
+
+/// Where points had to be put under a foot, nobody saw its arch.
+bool is_underside_seen(const FootScan& foot) {
+  return std::none_of(foot.cloud.origins.begin(), foot.cloud.origins.end(),
+                      [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
+}
+
+void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landmark& fibulare,
+               Marking& marking) {
+  marking.add("toe1_contact", find_toe1_contact(outline, tibiale));
+  marking.add("toe5_contact", find_toe5_contact(outline, fibulare));
+  const auto tip = marking.add("toe1_tip", find_toe1_tip(outline, tibiale, fibulare));
+  if (tip) marking.add("toe1_top", find_toe1_top(outline, tibiale, fibulare, *tip));
+}
+
+void mark_forefoot(const FootOutline& outline, bool has_toes, Marking& marking) {
+  marking.add("ball_medial", find_ball_medial(outline));
+  marking.add("ball_lateral", find_ball_lateral(outline));
+  const auto tibiale = marking.add("metatarsale_tibiale", find_metatarsale_tibiale(outline));
+  if (!tibiale) return;
+  const auto fibulare =
+      marking.add("metatarsale_fibulare", find_metatarsale_fibulare(outline, *tibiale));
+  if (!fibulare) return;
+  marking.add("ball_top", find_ball_top(outline, *tibiale, *fibulare));
+  if (has_toes) mark_toes(outline, *tibiale, *fibulare, marking);
+}
+
+void mark_hindfoot(const FootOutline& outline, bool has_leg, Marking& marking) {
+  marking.add("heel_medial", find_heel_medial(outline));
+  marking.add("heel_lateral", find_heel_lateral(outline));
+  if (has_leg) marking.add("medial_malleolus", find_medial_malleolus(outline));
+  const auto instep = marking.add("instep_point", find_instep_point(outline));
+  if (!instep) return;
+  const auto heel = marking.add("heel_point", find_heel_point(outline, *instep));
+  if (heel && has_leg) marking.add("junction", find_junction(outline, *heel));
+  const auto lateral = marking.add("lateral_midfoot", find_lateral_midfoot(outline, *instep));
+  if (lateral) marking.add("medial_arch", find_medial_arch(outline, *instep, *lateral));
 }
 
 }  // namespace
+
+void mark(FootScan& foot) {
+  const FootOutline outline(foot);
+  Marking marking(foot);
+  const bool is_last = is_shoe_last(foot);
+  if (is_last) {
+    foot.warnings.emplace_back(
+        "no toes, no leg and a raised heel: taken for a shoe last, which has no measures of toes, "
+        "arch and ankle");
+  }
+  mark_forefoot(outline, !is_last, marking);
+  mark_hindfoot(outline, !is_last, marking);
+  if (!is_last && is_underside_seen(foot)) {
+    marking.add("arch_point", find_arch_point(outline));
+  }
+}
 
 Result<FootScan> find_landmarks(FootScan foot) {
   if (!foot.landmarks.contains("pternion") || !foot.landmarks.contains("acropodion")) {
     return fail(ErrorCode::kInvalidInput, "the foot has not been aligned", "align it first");
   }
-  const FootOutline outline(foot);
-  const auto tibiale = find_metatarsale_tibiale(outline);
-  const auto fibulare = tibiale ? find_metatarsale_fibulare(outline, *tibiale) : std::nullopt;
-  const auto instep = find_instep_point(outline);
-  const auto lateral = instep ? find_lateral_midfoot(outline, *instep) : std::nullopt;
-  const auto arch = lateral ? find_medial_arch(outline, *instep, *lateral) : std::nullopt;
-
-  for (const auto& [name, landmark] :
-       {NamedLandmark{"metatarsale_tibiale", tibiale},
-        NamedLandmark{"metatarsale_fibulare", fibulare}, NamedLandmark{"instep_point", instep},
-        NamedLandmark{"lateral_midfoot", lateral}, NamedLandmark{"medial_arch", arch}}) {
-    if (!landmark) {
-      foot.warnings.push_back(std::string(name) + " not found: the cloud has no points there");
-      continue;
-    }
-    if (landmark->confidence < kPoorConfidence) {
-      foot.warnings.push_back(std::string(name) + " is placed by proportion: " + landmark->rule);
-    }
-    foot.landmarks[name] = in_own_frame(*landmark, foot.medial_sign());
-  }
+  mark(foot);
+  foot.redraws = redraw_landmarks(foot);
+  set_radii(foot);
   return foot;
 }
 

@@ -21,9 +21,15 @@ struct MeasureOptions {
   Workers workers = one_after_the_other;  ///< does the girths; the measures are the same with any
 };
 
-/// All measures of an aligned foot with its landmarks, in a fixed order: `foot_length`,
-/// `foot_breadth`, `foot_breadth_horizontal`, `ball_girth`, `waist_girth`, `instep_girth`. Each
-/// carries the sentence that defines it; a girth its plane, its section and its interval.
+/// All measures of an aligned foot with its landmarks, in a fixed order: the lengths, breadths,
+/// heights and angles of core/foot/foot_lengths.h, then `ball_girth`, `waist_girth`,
+/// `instep_girth`, `short_heel_girth`, `long_heel_girth`, `ankle_girth`. Each carries the sentence
+/// that defines it and a 95 % interval with its two parts; a girth its plane and its section as
+/// well.
+///
+/// The part of the landmarks is how a measure scatters over FootScan::redraws, a girth's by tapes
+/// laid round the same points, widened for what all redraws share; that of the surface is Girth's
+/// own. Neither knows of a rule that is not what was meant.
 ///
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
 /// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no

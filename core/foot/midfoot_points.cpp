@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/foot/robust_extreme.h"
-#include "core/geometry/polygon.h"
+#include "core/foot/rough_tape.h"
+#include "core/foot/skin_summit.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {
@@ -26,7 +27,6 @@ constexpr double kArchTo = 0.60;
 constexpr double kArchPrior = 0.48;
 constexpr double kArchStep = 0.005;
 constexpr double kArchWindow = 0.06;
-constexpr double kTapeBandMm = 2.5;
 
 std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double place, double width) {
   std::vector<Vector3d> slab;
@@ -63,16 +63,6 @@ std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place,
   return Vector3d(place, y + step, fitted(0) + step * (fitted(2) + step * fitted(4)));
 }
 
-/// Length of a tape in a plane, by the hull of the points beside it: good enough to compare planes.
-std::optional<double> rough_tape(const std::vector<Vector3d>& points, const TapePlane& plane) {
-  std::vector<Vector2d> section;
-  for (const auto& point : points) {
-    if (std::abs(plane.distance(point)) < kTapeBandMm) section.push_back(plane.project(point));
-  }
-  if (section.size() < 10) return std::nullopt;
-  return perimeter(convex_hull(std::move(section)));
-}
-
 /// Where the parabola through (place, length) pairs is lowest, if it is so inside their range.
 std::optional<double> lowest_place(const std::vector<Vector2d>& lengths) {
   if (lengths.size() < 8) return std::nullopt;
@@ -105,11 +95,6 @@ std::optional<double> lowest_near(const std::vector<Vector2d>& lengths, double w
   return fine ? fine : rough;
 }
 
-Landmark border_landmark(const FootOutline& outline, const Vector2d& flat, double confidence,
-                         const char* rule) {
-  return {{flat.x(), flat.y(), outline.border_height(flat)}, confidence, rule};
-}
-
 }  // namespace
 
 Vector3d on_floor(const Vector3d& point) {
@@ -129,44 +114,83 @@ std::optional<Landmark> find_instep_point(const FootOutline& outline) {
 
 std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const Landmark& instep) {
   const Vector2d target = instep.position_mm.head<2>();
-  std::optional<Vector2d> nearest;
+  std::optional<Vector3d> nearest;
   for (double share = 0.25; share <= 0.45 + 1e-9; share += 0.005) {
-    const double place = share * outline.length_mm();
-    const auto reach = outline.lateral().reach(place);
-    if (!reach) continue;
-    const Vector2d point(place, -*reach);
-    if (!nearest || (point - target).norm() < (*nearest - target).norm()) nearest = point;
+    const auto place = outline.lateral().at(share * outline.length_mm());
+    if (!place) continue;
+    const Vector3d point = outline.lateral().position(*place);
+    const auto distance = [&](const Vector3d& at) { return (at.head<2>() - target).norm(); };
+    if (!nearest || distance(point) < distance(*nearest)) nearest = point;
   }
   if (!nearest) return std::nullopt;
-  return border_landmark(outline, *nearest, 0.8,
-                         "lateral outline in 0.25-0.45 of the foot's length nearest the instep");
+  return Landmark{*nearest, 0.8,
+                  "lateral outline in 0.25-0.45 of the foot's length nearest the instep"};
 }
 
 std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
                                          const Landmark& lateral) {
-  const auto on_border = [&](double place) -> std::optional<Vector2d> {
-    const auto reach = outline.medial().reach(place);
-    return reach ? std::optional<Vector2d>({place, *reach}) : std::nullopt;
-  };
+  const auto midfoot =
+      near_place(outline.points(), 0.45 * outline.length_mm(), 0.25 * outline.length_mm());
   std::vector<Vector2d> lengths;
   for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
-    const auto point = on_border(share * outline.length_mm());
-    if (!point) continue;
+    const auto place = outline.medial().at(share * outline.length_mm());
+    if (!place) continue;
     const auto plane = TapePlane::through(instep.position_mm, on_floor(lateral.position_mm),
-                                          {point->x(), point->y(), 0.0});
+                                          on_floor(outline.medial().position(*place)));
     if (!plane) continue;
-    if (const auto tape = rough_tape(outline.points(), *plane)) {
-      lengths.emplace_back(point->x(), *tape);
+    if (const auto tape = rough_tape(midfoot, *plane)) {
+      lengths.emplace_back(place->along, *tape);
     }
   }
   const auto lowest = lowest_near(lengths, kArchWindow * outline.length_mm());
-  const auto point = on_border(lowest.value_or(kArchPrior * outline.length_mm()));
-  if (!point) return std::nullopt;
-  return lowest ? border_landmark(outline, *point, 0.7,
-                                  "medial outline in 0.35-0.60 of the foot's length where the "
-                                  "instep tape is shortest")
-                : border_landmark(outline, *point, 0.3,
-                                  "no shortest tape: outline at 0.48 of the foot's length");
+  const auto place = outline.medial().at(lowest.value_or(kArchPrior * outline.length_mm()));
+  if (!place) return std::nullopt;
+  const Vector3d point = outline.medial().position(*place);
+  return lowest ? Landmark{point, 0.7,
+                           "medial outline in 0.35-0.60 of the foot's length where the instep "
+                           "tape is shortest"}
+                : Landmark{point, 0.3, "no shortest tape: outline at 0.48 of the foot's length"};
+}
+
+std::optional<Landmark> find_arch_point(const FootOutline& outline) {
+  constexpr double kInwards = 0.25;
+  constexpr double kRadiusMm = 8.0;
+  constexpr double kUndersideShare = 0.12;
+  constexpr std::size_t kFewest = 12;
+  constexpr double kMostAside = 0.35;
+  const double length = outline.length_mm();
+  std::vector<Vector3d> underside;
+  for (const auto& point : outline.points()) {
+    const bool is_near =
+        point.x() > kArchFrom * length - kRadiusMm && point.x() < kArchTo * length + kRadiusMm;
+    if (is_near && point.z() < kUndersideShare * length) underside.push_back(point);
+  }
+  std::optional<Vector3d> highest;
+  for (double share = kArchFrom; share <= kArchTo + 1e-9; share += 2.0 * kArchStep) {
+    const auto inner = outline.medial().reach(share * length);
+    const auto outer = outline.lateral().reach(share * length);
+    if (!inner || !outer) continue;
+    const Vector3d place(share * length, *inner - kInwards * (*inner + *outer), 0.0);
+    SkinPatch patch;
+    Vector2d middle = Vector2d::Zero();
+    for (const auto& point : underside) {
+      const Vector3d offset = point - place;
+      if (offset.head<2>().squaredNorm() > kRadiusMm * kRadiusMm) continue;
+      patch.push_back(offset);
+      middle += offset.head<2>();
+    }
+    // Skin on one side only is the wall beside an underside that was not seen.
+    const bool is_round =
+        middle.norm() < kMostAside * kRadiusMm * static_cast<double>(patch.size());
+    if (patch.size() < kFewest || !is_round) continue;
+    const auto skin = QuadraticSkin::through(patch);
+    if (!skin) continue;
+    const double height = skin->at(0.0, 0.0);
+    if (!highest || height > highest->z()) highest = place + height * Vector3d::UnitZ();
+  }
+  if (!highest) return std::nullopt;
+  return Landmark{*highest, 0.7,
+                  "highest place of the underside a quarter of the breadth from the medial border"};
 }
 
 }  // namespace instep

@@ -18,6 +18,10 @@ std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const L
 std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
                                          const Landmark& lateral);
 
+/// The highest place of the underside a quarter of the outline's breadth inwards from the medial
+/// border, in 0.35-0.60 of the foot's length. All points must be evidence.
+std::optional<Landmark> find_arch_point(const FootOutline& outline);
+
 /// A landmark of the outline as a tape's control point: on the floor below it. The outline's wall
 /// is steep, so its own height says little and would only tilt the tape.
 Eigen::Vector3d on_floor(const Eigen::Vector3d& point);

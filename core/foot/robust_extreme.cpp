@@ -3,21 +3,26 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "core/median.h"
+#include "core/foot/skin_summit.h"
 
 namespace instep {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostExtreme = 5;
-constexpr double kSummitRadiusMm = 6.0;
+constexpr double kWidestMm = 6.0;
+constexpr double kNarrowestMm = 3.0;
+/// The patch reaches so far, as a share of the skin's radius there: on a toe's tip a wider one is
+/// no quadratic any more.
+constexpr double kShareOfRadius = 0.7;
 /// Deeper points are of another face: the sole behind the edge of a toe.
-constexpr double kDeepestMm = 2.0;
+constexpr double kDeepestMm = 4.0;
 constexpr std::size_t kFewestForSummit = 12;
 constexpr double kLargestCorrectionMm = 2.5;
+constexpr int kRounds = 4;
 
 Vector3d median_of_furthest(const std::vector<Vector3d>& points, const Vector3d& direction) {
   const std::size_t count = std::min(kMostExtreme, points.size());
@@ -28,54 +33,31 @@ Vector3d median_of_furthest(const std::vector<Vector3d>& points, const Vector3d&
   return furthest[count / 2];
 }
 
-/// Points near the summit in its own coordinates: two across, the third along the direction.
-using LocalPoints = std::vector<Vector3d>;
-
-using Quadratic = Eigen::Matrix<double, 6, 1>;
-
-Quadratic terms(double a, double b) {
-  return (Quadratic() << 1.0, a, b, a * a, a * b, b * b).finished();
-}
-
-Quadratic fit(const LocalPoints& local) {
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(local.size()), 6);
-  Eigen::VectorXd reach(static_cast<Eigen::Index>(local.size()));
-  for (std::size_t i = 0; i < local.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    matrix.row(row) = terms(local[i].x(), local[i].y()).transpose();
-    reach(row) = local[i].z();
+SkinPatch within(const SkinPatch& patch, const Vector2d& middle, double radius) {
+  SkinPatch close;
+  for (const auto& point : patch) {
+    const Vector2d offset = point.head<2>() - middle;
+    if (offset.squaredNorm() < radius * radius) {
+      close.emplace_back(offset.x(), offset.y(), point.z());
+    }
   }
-  return matrix.colPivHouseholderQr().solve(reach);
+  return close;
 }
 
-double residual(const Quadratic& surface, const Vector3d& local) {
-  return std::abs(local.z() - surface.dot(terms(local.x(), local.y())));
-}
+struct Dome {
+  Vector2d vertex = Vector2d::Zero();
+  double least_radius = 0.0;
+};
 
-/// Fits twice, the second time without the points that the first fit finds far off.
-Quadratic robust_fit(LocalPoints local) {
-  const Quadratic first = fit(local);
-  std::vector<double> residuals;
-  for (const auto& point : local) residuals.push_back(residual(first, point));
-  const double limit = std::max(4.0 * median(std::move(residuals)), 0.05);
-  std::erase_if(local, [&](const Vector3d& point) { return residual(first, point) > limit; });
-  return local.size() < kFewestForSummit ? first : fit(local);
-}
-
-/// Where the quadratic is highest: at its vertex if that is a summit near by, else at the start.
-Eigen::Vector2d summit(const Quadratic& surface) {
+/// The summit of a quadratic and its tighter radius, if it is a dome.
+std::optional<Dome> dome_of(const QuadraticSkin& skin) {
+  const auto& c = skin.coefficients();
   Eigen::Matrix2d hessian;
-  hessian << 2.0 * surface(3), surface(4), surface(4), 2.0 * surface(5);
-  const bool is_dome = hessian(0, 0) < 0.0 && hessian.determinant() > 1e-8;
-  if (!is_dome) return Eigen::Vector2d::Zero();
-  const Eigen::Vector2d vertex = hessian.inverse() * Eigen::Vector2d(-surface(1), -surface(2));
-  return vertex.norm() < 0.5 * kSummitRadiusMm ? vertex : Eigen::Vector2d::Zero();
-}
-
-double second_furthest(LocalPoints local) {
-  std::nth_element(local.begin(), local.begin() + 1, local.end(),
-                   [](const Vector3d& a, const Vector3d& b) { return a.z() > b.z(); });
-  return local[1].z();
+  hessian << 2.0 * c(3), c(4), c(4), 2.0 * c(5);
+  const Eigen::Vector2d bends =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(hessian, Eigen::EigenvaluesOnly).eigenvalues();
+  if (!(bends(1) < 0.0 && hessian.determinant() > 1e-8)) return std::nullopt;
+  return Dome{hessian.inverse() * Vector2d(-c(1), -c(2)), -1.0 / bends(0)};
 }
 
 }  // namespace
@@ -84,22 +66,36 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
   const Vector3d start = median_of_furthest(points, direction);
   const Vector3d across = direction.unitOrthogonal();
   const Vector3d upright = direction.cross(across);
-  LocalPoints local;
+  SkinPatch patch;
   for (const auto& point : points) {
     const Vector3d offset = point - start;
-    if (offset.squaredNorm() > kSummitRadiusMm * kSummitRadiusMm) continue;
+    if (offset.squaredNorm() > 4.0 * kWidestMm * kWidestMm) continue;
     if (direction.dot(offset) < -kDeepestMm) continue;
-    local.emplace_back(across.dot(offset), upright.dot(offset), direction.dot(offset));
+    patch.emplace_back(across.dot(offset), upright.dot(offset), direction.dot(offset));
   }
-  if (local.size() < kFewestForSummit) return start;
-
-  const double furthest = second_furthest(local);
-  const Quadratic surface = robust_fit(std::move(local));
-  const Eigen::Vector2d top = summit(surface);
-  // A summit beyond what was seen would be a guess of the quadratic.
-  const double reach = std::min(surface.dot(terms(top.x(), top.y())), furthest);
-  if (!(std::abs(reach) < kLargestCorrectionMm)) return start;
-  return start + top.x() * across + top.y() * upright + reach * direction;
+  Vector2d middle = Vector2d::Zero();
+  double radius = kWidestMm;
+  std::optional<double> reach;
+  for (int round = 0; round < kRounds; ++round) {
+    SkinPatch close = within(patch, middle, radius);
+    if (close.size() < kFewestForSummit) close = within(patch, middle, radius = kWidestMm);
+    if (close.size() < kFewestForSummit) break;
+    const auto skin = QuadraticSkin::through(close);
+    if (!skin) break;
+    reach = skin->at(0.0, 0.0);
+    const auto dome = dome_of(*skin);
+    if (!dome) break;
+    // No further at once than the patch knows.
+    const double step = dome->vertex.norm();
+    const Vector2d move =
+        step > 0.5 * radius ? Vector2d(dome->vertex * (0.5 * radius / step)) : dome->vertex;
+    if ((middle + move).norm() > kWidestMm) break;
+    reach = skin->at(move.x(), move.y());
+    middle += move;
+    radius = std::clamp(kShareOfRadius * dome->least_radius, kNarrowestMm, kWidestMm);
+  }
+  if (!reach || !(std::abs(*reach) < kLargestCorrectionMm)) return start;
+  return start + middle.x() * across + middle.y() * upright + *reach * direction;
 }
 
 }  // namespace instep

@@ -15,8 +15,10 @@ constexpr double kToeSmoothingMm = 3.5;
 constexpr double kToeStripMm = 1.0;
 constexpr double kCleftMm = 1.0;  ///< depth from which a cleft parts two toes
 constexpr std::size_t kFewestToes = 2;
-constexpr double kFurthestShareOff = 0.1;
+constexpr double kFurthestShareOff = 0.06;
 constexpr double kHalfToeMm = 6.0;
+constexpr double kToeRadiusShare =
+    0.027;                           ///< of a toe's tip seen from above, over the foot's length
 constexpr double kTipDepthMm = 1.0;  ///< how far behind the tip its flanks are felt
 
 struct BallBorders {
@@ -73,12 +75,16 @@ std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vec
   return found;
 }
 
-/// The foremost point of the toe that shows at `toe`. A tip is round, so that its very foremost
-/// place wanders with the noise: the middle between its flanks does not.
-Vector2d foremost_of_toe(const BorderProfile& forwards, const Vector2d& toe) {
-  const auto tip = forwards.furthest(toe.y() - kHalfToeMm, toe.y() + kHalfToeMm);
-  const bool is_summit = tip && std::abs(tip->place - toe.y()) < 0.9 * kHalfToeMm;
-  if (!is_summit) return toe;
+/// The foremost point of the toe that shows at `toe`, seen in the direction `square`. A tip is
+/// round, so that its very foremost place wanders with the noise: the middle between its flanks
+/// does not. Where a longer neighbour hides one flank, the roundness tells where the foremost place
+/// is.
+Vector2d foremost_of_toe(const BorderProfile& forwards, const Vector2d& toe, const Vector2d& square,
+                         double toe_radius) {
+  const Vector2d rounded = toe + toe_radius * (Vector2d::UnitX() - square);
+  const auto tip = forwards.furthest(rounded.y() - kHalfToeMm, rounded.y() + kHalfToeMm);
+  const bool is_summit = tip && std::abs(tip->place - rounded.y()) < 0.9 * kHalfToeMm;
+  if (!is_summit) return rounded;
   const auto flank = [&](double step) -> std::optional<double> {
     for (double off = 0.0; std::abs(off) < 1.5 * kHalfToeMm; off += step) {
       const auto reach = forwards.reach(tip->place + off);
@@ -89,8 +95,8 @@ Vector2d foremost_of_toe(const BorderProfile& forwards, const Vector2d& toe) {
   };
   const auto medial = flank(0.1);
   const auto lateral = flank(-0.1);
-  const double place = medial && lateral ? 0.5 * (*medial + *lateral) : tip->place;
-  return {tip->reach, place};
+  if (!medial || !lateral) return rounded;
+  return {tip->reach, 0.5 * (*medial + *lateral)};
 }
 
 }  // namespace
@@ -115,7 +121,8 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
       });
   if (toes.size() >= kFewestToes &&
       std::abs(nearest->y() - expected) < kFurthestShareOff * ball->breadth) {
-    return SecondToe{foremost_of_toe(forwards, *nearest), true};
+    return SecondToe{foremost_of_toe(forwards, *nearest, square, kToeRadiusShare * length_mm),
+                     true};
   }
   const auto reach = forwards.reach(expected);
   if (!reach) return std::nullopt;

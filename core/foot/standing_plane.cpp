@@ -1,89 +1,230 @@
 #include "core/foot/standing_plane.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
+#include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
 constexpr double kStrayShare = 5e-4;
-constexpr double kFootprintShareOfSize = 1.0 / 40.0;
-constexpr double kSmallestFootprintMm2 = 2500.0;
+constexpr double kSmallestSupportMm2 = 2500.0;
 constexpr double kClearlyLarger = 1.25;
-constexpr int kRounds = 6;
-constexpr std::size_t kLargestSample = 40000;
+constexpr std::size_t kSample = 4000;      ///< points that candidates are compared by
+constexpr std::size_t kNormalPlaces = 80;  ///< at which the surface's normal is tried
+constexpr std::size_t kNeighbours = 16;
+constexpr double kTouchesMm = 8.0;       ///< a point this near to the plane touches it
+constexpr double kBorderReachMm = 12.0;  ///< a place of the border is touched by a point so near
+constexpr std::size_t kFewestOfSole = 50;
+constexpr double kLargestTilt = 0.14;
+constexpr double kFlatShare = 0.5;  ///< of the support that a closed sole covers
 
-Points even_sample(const Points& points) {
-  const std::size_t step = points.size() / kLargestSample + 1;
+Points even_sample(const Points& points, std::size_t most) {
+  const std::size_t step = points.size() / most + 1;
   Points sample;
   for (std::size_t i = 0; i < points.size(); i += step) sample.push_back(points[i]);
   return sample;
 }
 
-double diameter(const Points& points) {
-  Eigen::AlignedBox3d box;
-  for (const auto& point : points) box.extend(point);
-  return box.diagonal().norm();
-}
-
-Points footprint(const Points& points, const StandingPlane& plane, double thickness) {
-  Points low;
-  for (const auto& point : points) {
-    if (plane.up.dot(point) - plane.height_mm < thickness) low.push_back(point);
-  }
-  return low;
-}
-
-double footprint_area(const Points& points, const StandingPlane& plane, double thickness) {
+/// Points that touch a plane, seen along its normal.
+std::vector<Vector2d> touching(const Points& points, const StandingPlane& plane, double thickness) {
   const RigidTransform standing = plane.standing_from_input();
-  std::vector<Eigen::Vector2d> flat;
-  for (const auto& point : footprint(points, plane, thickness)) {
-    flat.push_back((standing * point).head<2>());
+  std::vector<Vector2d> flat;
+  for (const auto& point : points) {
+    if (plane.up.dot(point) - plane.height_mm < thickness) {
+      flat.push_back((standing * point).head<2>());
+    }
   }
-  return std::abs(signed_area(convex_hull(std::move(flat))));
+  return flat;
 }
 
-struct PrincipalAxes {
-  Eigen::Matrix3d directions;  ///< columns, the least spread first
-};
+double distance_to_nearest(const std::vector<Vector2d>& points, const Vector2d& place) {
+  double least = 1e300;
+  for (const auto& point : points) least = std::min(least, (point - place).squaredNorm());
+  return std::sqrt(least);
+}
 
-PrincipalAxes principal_axes(const Points& points) {
+/// Share of a hull's border, walked in steps, beside which a point lies.
+double touched_share(const std::vector<Vector2d>& hull, const std::vector<Vector2d>& points) {
+  double touched = 0.0;
+  double steps = 0.0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vector2d along = hull[(i + 1) % hull.size()] - hull[i];
+    const int pieces = 1 + static_cast<int>(along.norm() / kBorderReachMm);
+    for (int k = 0; k < pieces; ++k) {
+      const Vector2d place = hull[i] + (k + 0.5) / pieces * along;
+      const double length = along.norm() / pieces;
+      if (distance_to_nearest(points, place) < kBorderReachMm) touched += length;
+      steps += length;
+    }
+  }
+  return steps > 0.0 ? touched / steps : 0.0;
+}
+
+double support(const Points& sample, const StandingPlane& plane) {
+  const auto points = touching(sample, plane, kTouchesMm);
+  const auto hull = convex_hull(points);
+  if (hull.size() < 3) return 0.0;
+  return std::abs(signed_area(hull)) * std::pow(touched_share(hull, points), 2);
+}
+
+/// The plane of a set of points by least squares, its normal on the side of `up`.
+std::pair<Vector3d, double> fitted_plane(const Points& points, const Vector3d& up) {
   Vector3d mean = Vector3d::Zero();
   for (const auto& point : points) mean += point;
   mean /= static_cast<double>(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const auto& point : points) covariance += (point - mean) * (point - mean).transpose();
-  return {Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors()};
+  Vector3d normal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  if (normal.dot(up) < 0.0) normal = -normal;
+  return {normal, normal.dot(mean)};
 }
 
-/// Tilts the plane until it fits its own footprint.
-StandingPlane settled(const Points& points, StandingPlane plane, double thickness) {
-  for (int round = 0; round < kRounds; ++round) {
-    const Points low = footprint(points, plane, thickness);
+/// Tilts the plane until it fits what touches it.
+StandingPlane settled(const Points& sample, StandingPlane plane) {
+  for (const double thickness : {kTouchesMm, 0.75 * kTouchesMm, 0.5 * kTouchesMm}) {
+    Points low;
+    for (const auto& point : sample) {
+      if (plane.up.dot(point) - plane.height_mm < thickness) low.push_back(point);
+    }
     if (low.size() < 3) return plane;
-    Vector3d up = principal_axes(low).directions.col(0);
-    if (up.dot(plane.up) < 0.0) up = -up;
-    plane = plane_below(points, up);
+    plane = plane_below(sample, fitted_plane(low, plane.up).first);
   }
   return plane;
 }
 
+/// Normals of the surface at places spread over the sample, on both sides.
+Points surface_directions(const Points& sample) {
+  const PointIndex index(sample);
+  Points directions;
+  const std::size_t step = sample.size() / kNormalPlaces + 1;
+  for (std::size_t i = 0; i < sample.size(); i += step) {
+    Points close;
+    for (const auto& neighbour : index.nearest(sample[i], kNeighbours)) {
+      close.push_back(sample[neighbour.index]);
+    }
+    const Vector3d normal = fitted_plane(close, Vector3d::UnitZ()).first;
+    directions.push_back(normal);
+    directions.push_back(-normal);
+  }
+  return directions;
+}
+
 struct Candidate {
   StandingPlane plane;
-  double area = 0.0;
+  double support = 0.0;
 };
 
-void keep_larger(Candidate& best, const Points& points, const StandingPlane& plane,
-                 double thickness, double advantage) {
-  const double area = footprint_area(points, plane, thickness);
-  if (area > advantage * best.area) best = {plane, area};
+void keep_better(Candidate& best, const Points& sample, const StandingPlane& plane,
+                 double advantage) {
+  const double own = support(sample, plane);
+  if (own > advantage * best.support) best = {plane, own};
+}
+
+/// The candidates among the surface's normals that touch most points, settled.
+std::vector<StandingPlane> likely_planes(const Points& sample) {
+  constexpr std::size_t kKept = 10;
+  std::vector<std::pair<std::size_t, StandingPlane>> rough;
+  for (const auto& up : surface_directions(sample)) {
+    const StandingPlane plane = plane_below(sample, up);
+    rough.emplace_back(touching(sample, plane, kTouchesMm).size(), plane);
+  }
+  std::stable_sort(rough.begin(), rough.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<StandingPlane> planes;
+  for (std::size_t i = 0; i < std::min(kKept, rough.size()); ++i) {
+    planes.push_back(settled(sample, rough[i].second));
+  }
+  return planes;
+}
+
+/// Whether points near a plane cover it, rather than only its border.
+bool is_closed(const Points& near_plane, const StandingPlane& plane) {
+  constexpr double kCellMm = 10.0;
+  const auto flat = touching(near_plane, plane, 1e300);
+  std::set<std::pair<long, long>> cells;
+  for (const auto& point : flat) {
+    cells.emplace(std::lround(point.x() / kCellMm), std::lround(point.y() / kCellMm));
+  }
+  const double area = std::abs(signed_area(convex_hull(flat)));
+  return static_cast<double>(cells.size()) * kCellMm * kCellMm > kFlatShare * area;
+}
+
+/// Whether a flat face of the body lies on the plane.
+bool rests_flat(const Points& sample, const StandingPlane& plane) {
+  Points low;
+  for (const auto& point : sample) {
+    if (plane.up.dot(point) - plane.height_mm < 0.5 * kTouchesMm) low.push_back(point);
+  }
+  return low.size() >= kFewestOfSole && is_closed(low, plane);
+}
+
+/// Whether the border of what touches the plane is touched nearly everywhere, as an open sole does.
+bool stands_all_round(const Points& sample, const StandingPlane& plane) {
+  constexpr double kNearlyAll = 0.75;
+  const auto points = touching(sample, plane, kTouchesMm);
+  const auto hull = convex_hull(points);
+  return hull.size() >= 3 && touched_share(hull, points) > kNearlyAll;
+}
+
+/// Tilts a plane to what rests on it: heel and ball, not the toes, of which the undersides may hang
+/// a millimetre over the floor. Points over the plane count little.
+StandingPlane lowered(const Points& points, StandingPlane plane) {
+  constexpr double kThicknessMm = 2.0;
+  constexpr double kWeightAbove = 0.08;
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    double weights = 0.0;
+    Vector3d mean = Vector3d::Zero();
+    Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
+    for (const auto& point : points) {
+      const double off = plane.up.dot(point) - plane.height_mm;
+      if (std::abs(off) > kThicknessMm) continue;
+      const double weight = off > 0.0 ? kWeightAbove : 1.0;
+      weights += weight;
+      mean += weight * point;
+      moment += weight * point * point.transpose();
+    }
+    if (!(weights > 0.0)) return plane;
+    mean /= weights;
+    const Eigen::Matrix3d spread = moment / weights - mean * mean.transpose();
+    Vector3d up = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    if (up.dot(plane.up) < 0.0) up = -up;
+    plane = {up, up.dot(mean)};
+  }
+  return plane;
+}
+
+/// The height over which most points lie close together: the sole, not what rises from it.
+double crowded_height(const Points& points, const StandingPlane& plane) {
+  constexpr double kSearchMm = 3.0;
+  constexpr double kWindowMm = 0.8;
+  std::vector<double> heights;
+  for (const auto& point : points) {
+    const double height = plane.up.dot(point);
+    if (std::abs(height - plane.height_mm) < kSearchMm) heights.push_back(height);
+  }
+  std::sort(heights.begin(), heights.end());
+  std::size_t most = 0;
+  double crowded = plane.height_mm;
+  for (std::size_t first = 0, past = 0; first < heights.size(); ++first) {
+    while (past < heights.size() && heights[past] <= heights[first] + kWindowMm) ++past;
+    if (past - first <= most) continue;
+    most = past - first;
+    crowded = heights[first + (past - first) / 2];
+  }
+  return crowded;
 }
 
 }  // namespace
@@ -104,29 +245,44 @@ StandingPlane plane_below(const Points& points, const Vector3d& up) {
   return {up, heights[static_cast<std::size_t>(strays)]};
 }
 
+StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) {
+  StandingPlane sole = plane;
+  // What stands up from a flat sole, its rim and arch, goes step by step.
+  for (const double thickness : {6.0, 4.0, 2.5, 1.5, 1.5, 1.5}) {
+    Points near_plane;
+    for (const auto& point : points) {
+      if (std::abs(sole.up.dot(point) - sole.height_mm) < thickness) near_plane.push_back(point);
+    }
+    if (near_plane.size() < kFewestOfSole || !is_closed(near_plane, sole)) return plane;
+    const auto [up, height] = fitted_plane(near_plane, plane.up);
+    if (up.cross(plane.up).norm() > kLargestTilt) return plane;
+    sole = {up, height};
+  }
+  sole = lowered(points, sole);
+  return {sole.up, crowded_height(points, sole)};
+}
+
 Result<StandingPlane> find_standing_plane(const Points& points) {
-  const Points sample = even_sample(points);
-  const double thickness = kFootprintShareOfSize * diameter(sample);
+  const Points sample = even_sample(points, kSample);
   Candidate best;
   // z up is the habit of files, so it is tried first and wins a tie.
   for (const int axis : {2, 1, 0}) {
     for (const double sign : {1.0, -1.0}) {
       const StandingPlane plane = plane_below(sample, sign * Vector3d::Unit(axis));
-      keep_larger(best, sample, plane, thickness, axis == 2 && sign > 0.0 ? 1.0 : kClearlyLarger);
+      const bool is_habit = axis == 2 && sign > 0.0;
+      if (is_habit || rests_flat(sample, plane) || stands_all_round(sample, plane)) {
+        keep_better(best, sample, plane, is_habit ? 1.0 : kClearlyLarger);
+      }
     }
   }
-  const PrincipalAxes axes = principal_axes(sample);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double sign : {1.0, -1.0}) {
-      const StandingPlane rough = plane_below(sample, sign * axes.directions.col(axis));
-      keep_larger(best, sample, settled(sample, rough, thickness), thickness, kClearlyLarger);
-    }
+  for (const auto& plane : likely_planes(sample)) {
+    if (rests_flat(sample, plane)) keep_better(best, sample, plane, kClearlyLarger);
   }
-  if (best.area < kSmallestFootprintMm2) {
+  if (best.support < kSmallestSupportMm2) {
     return fail(ErrorCode::kInvalidInput, "the cloud has no flat support as large as a foot's",
                 "measure one whole foot, in millimetres");
   }
-  return best.plane;
+  return settled_on_sole(points, plane_below(points, best.plane.up));
 }
 
 }  // namespace instep

@@ -23,13 +23,21 @@ StandingPlane plane_below(const std::vector<Eigen::Vector3d>& points, const Eige
 
 /// Finds the plane that the body stands on when nothing is known of its pose.
 ///
-/// Every direction of the frame's axes, and then of the body's own principal axes, is tried as
-/// `up`; the one whose footprint (the hull of what lies within a fortieth of the body's size above
-/// the plane) is largest wins, and the axes of the frame win over the principal ones unless these
-/// are clearly better. A sole is by far the largest flat support of a foot. A principal axis is
-/// only near the true one, so its plane is then fitted to the footprint.
+/// A sole is by far the largest support of a foot: a plane that leaves all of the body on one side
+/// and is touched all round. Tried as `up` are the axes of the frame, and the normals of the
+/// surface at places spread over it, each plane settled on what it touches. The support of a plane
+/// is the area of the hull of what lies near it, times the squared share of the hull's border that
+/// is touched; the largest wins, but the axes of the frame win over other directions unless these
+/// are clearly better. Where the touched part is flat and closed, the plane goes through the middle
+/// of its points, not under the lowest: their noise does not lower the floor. An open sole (a ring
+/// of lowest points) stands on them.
 ///
-/// Fails with kInvalidInput where no footprint is as large as a foot's.
+/// Fails with kInvalidInput where no support is as large as a foot's. O(n) and some 20 ms.
 Result<StandingPlane> find_standing_plane(const std::vector<Eigen::Vector3d>& points);
+
+/// The same plane, tilted by up to 8 degrees and shifted to the flat sole that rests on it, if
+/// there is one.
+StandingPlane settled_on_sole(const std::vector<Eigen::Vector3d>& points,
+                              const StandingPlane& plane);
 
 }  // namespace instep

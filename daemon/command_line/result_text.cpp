@@ -23,7 +23,7 @@ std::string measure_line(const json& measure, const json& truth) {
   const bool is_angle = measure.contains("value_deg");
   const auto value = number_at(measure, is_angle ? "value_deg" : "value_mm");
   if (!value) return fmt::format("  {:<26}       -\n", id);
-  const auto interval = number_at(measure, "u95_mm");
+  const auto interval = number_at(measure, is_angle ? "u95_deg" : "u95_mm");
   std::string line = fmt::format("  {:<26}{:>8.1f} {}{:>8}", id, *value, is_angle ? "deg" : "mm ",
                                  interval ? fmt::format("+-{:.1f}", *interval) : "");
   if (const auto known = number_at(truth, id.c_str())) {

@@ -90,7 +90,8 @@ void add_measures(const ScanRecord& record, Table& table) {
   const char* other = record.foot.side == Side::kLeft ? "right" : "left";
   table.caption("Measures in mm, ± 95 %", has_other ? other : "");
   for (const auto& measure : record.measures.measures) {
-    table.measure(as_words(measure.id), interval_text(measure.value_mm, measure.u95_mm),
+    table.measure(as_words(measure.id),
+                  interval_text(measure.value(), measure.u95()) + (measure.value_deg ? "°" : ""),
                   difference_text(record, measure.id), has_other);
   }
   for (const auto& withheld : record.measures.withheld) {

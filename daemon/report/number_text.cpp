@@ -10,6 +10,10 @@ std::string interval_text(double value, const std::optional<double>& u95) {
   return u95 ? fmt::format("{:.1f} ± {:.1f}", value, *u95) : fmt::format("{:.1f}", value);
 }
 
+std::string measure_text(const Measure& measure) {
+  return interval_text(measure.value(), measure.u95()) + (measure.value_deg ? "°" : " mm");
+}
+
 std::string as_words(std::string id) {
   std::replace(id.begin(), id.end(), '_', ' ');
   return id;

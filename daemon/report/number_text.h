@@ -3,10 +3,15 @@
 #include <optional>
 #include <string>
 
+#include "core/foot/measure_set.h"
+
 namespace instep {
 
 /// "251.3", or "251.3 +- 0.2" with a true plus-minus sign where there is an interval.
 std::string interval_text(double value, const std::optional<double>& u95);
+
+/// A measure with its interval and unit: "251.3 ± 0.2 mm", "9.5 ± 0.6°".
+std::string measure_text(const Measure& measure);
 
 /// An identifier as words: "ball_girth" becomes "ball girth".
 std::string as_words(std::string id);

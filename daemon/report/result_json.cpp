@@ -45,13 +45,19 @@ std::string utc(std::chrono::system_clock::time_point time) {
 Json landmark_json(const Landmark& landmark) {
   return {{"xyz_mm", coordinates(landmark.position_mm)},
           {"confidence", json_number(landmark.confidence)},
+          {"u95_mm", json_number(landmark.radius_mm)},
           {"rule", landmark.rule}};
 }
 
 Json measure_json(const Measure& measure) {
+  const std::string unit = measure.value_deg ? "_deg" : "_mm";
   Json json{{"id", measure.id},
-            {"value_mm", json_number(measure.value_mm)},
-            {"u95_mm", json_number(measure.u95_mm)}};
+            {"value" + unit, json_number(measure.value())},
+            {"u95" + unit, json_number(measure.u95())}};
+  if (measure.parts) {
+    json["surface_u95" + unit] = json_number(measure.parts->surface);
+    json["landmarks_u95" + unit] = json_number(measure.parts->landmarks);
+  }
   if (measure.girth) {
     json["stretched_mm"] = json_number(measure.girth->stretched_mm);
     json["contact_mm"] = json_number(measure.girth->contact_mm);

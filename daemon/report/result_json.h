@@ -23,8 +23,10 @@ struct GirthTimes {
 /// One girth, as `instep girth` prints it. `method` is the name that the user gave.
 Json girth_json(const std::string& method, const Girth& girth, const GirthTimes& times);
 
-/// A measured foot, as `instep measure` prints it: side, frame, landmarks, measures, those that
-/// were withheld and why, sizes, warnings.
+/// A measured foot, as `instep measure` prints it: side, frame, landmarks (each with `u95_mm`, the
+/// radius within which it is), measures (an angle has `value_deg` and `u95_deg` instead of
+/// `value_mm` and `u95_mm`; `surface_u95_mm` and `landmarks_u95_mm` are the two parts of the
+/// interval, which add as squares), those that were withheld and why, sizes, warnings.
 Json foot_json(const FootScan& foot, const MeasureSet& measures, const ShoeSizes& sizes);
 
 /// A whole result, as result.json holds it: what came how and when, then the object of foot_json(),

@@ -79,8 +79,7 @@ std::string panel_svg(const DrawnSection& panel, double left, double base_line) 
   text += svg::label({left + 10.0, base_line + 20.0}, "side", "medial");
   text += svg::label({left + width_px(panel) - 10.0, base_line + 20.0}, "side", "lateral");
   text += svg::label({middle, base_line + 52.0}, "heading", as_words(panel.measure->id));
-  text += svg::label({middle, base_line + 82.0}, "number",
-                     interval_text(panel.measure->value_mm, panel.measure->u95_mm) + " mm");
+  text += svg::label({middle, base_line + 82.0}, "number", measure_text(*panel.measure));
   text += svg::label({middle, base_line + 102.0}, "middle",
                      fmt::format("along the skin {:.1f} mm", girth.contact_mm));
   return text;
@@ -101,8 +100,7 @@ std::string table(const MeasureSet& measures, double left, double right) {
   double y = kPlanTopPx + 24.0;
   for (const auto& measure : measures.measures) {
     text += svg::label({left, y}, "row", as_words(measure.id));
-    text +=
-        svg::label({right, y}, "value", interval_text(measure.value_mm, measure.u95_mm) + " mm");
+    text += svg::label({right, y}, "value", measure_text(measure));
     text += svg::line({left, y + 8.0}, {right, y + 8.0}, "floor");
     y += 30.0;
   }

@@ -42,8 +42,9 @@ std::string foot_text(const FootScan& foot, const MeasureSet& measures, const Sh
   text += "\n\n";
   const std::size_t width = widest_name(measures);
   for (const auto& measure : measures.measures) {
-    std::string line = fmt::format("  {:<{}}  {:>7.1f} mm  {:<7}", as_words(measure.id), width,
-                                   measure.value_mm, interval_column(measure.u95_mm));
+    std::string line =
+        fmt::format("  {:<{}}  {:>7.1f} {}  {:<7}", as_words(measure.id), width, measure.value(),
+                    measure.value_deg ? "° " : "mm", interval_column(measure.u95()));
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }

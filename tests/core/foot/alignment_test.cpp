@@ -160,6 +160,49 @@ TEST(Alignment, RefusesWhatIsNoFoot) {
   }
 }
 
+TEST(Alignment, FindsTheSoleInAnyPose) {
+  const auto body = FootBody{}.points();
+  const auto straight = align_foot(body);
+  ASSERT_TRUE(straight);
+  for (const Vector3d& axis : {Vector3d(1, 2, 3), Vector3d(-2, 1, 0.3), Vector3d(0.2, -1, 2)}) {
+    for (const double angle : {0.5, 1.4, 2.6, 3.1}) {
+      const auto foot = align_foot(transformed(turned(angle, axis, {100, -50, 200}), body));
+      ASSERT_TRUE(foot) << foot.error().line();
+      EXPECT_EQ(foot->side, Side::kRight);
+      EXPECT_NEAR(length(*foot), length(*straight), 0.5);
+    }
+  }
+}
+
+/// A rectangle of points, 4 mm apart.
+void add_board(PointCloud& cloud, const Vector3d& corner, const Vector3d& u, const Vector3d& v) {
+  const auto steps = [](const Vector3d& side) { return static_cast<int>(side.norm() / 4.0); };
+  for (int i = 0; i <= steps(u); ++i) {
+    for (int j = 0; j <= steps(v); ++j) {
+      cloud.positions.push_back(corner + u * i / steps(u) + v * j / steps(v));
+    }
+  }
+}
+
+TEST(Alignment, RefusesRoomsTablesAndFusedFeet) {
+  PointCloud room;
+  add_board(room, {0, 0, 0}, {900, 0, 0}, {0, 900, 0});
+  add_board(room, {0, 0, 0}, {900, 0, 0}, {0, 0, 700});
+  add_board(room, {0, 0, 0}, {0, 900, 0}, {0, 0, 700});
+  PointCloud table;
+  add_board(table, {0, 0, 300}, {300, 0, 0}, {0, 110, 0});
+  for (const double x : {0.0, 280.0}) add_board(table, {x, 0, 0}, {20, 0, 0}, {0, 0, 300});
+  PointCloud fused = FootBody{}.points();
+  for (const auto& point : test::mirrored(FootBody{}.points()).positions) {
+    fused.positions.push_back(point - Vector3d(0.0, 92.0, 0.0));
+  }
+  for (const auto& cloud : {room, table, fused}) {
+    const auto foot = align_foot(cloud);
+    ASSERT_FALSE(foot);
+    EXPECT_FALSE(foot.error().advice.empty());
+  }
+}
+
 TEST(Alignment, RefusesHalfAFoot) {
   const auto whole = FootBody{}.points();
   EXPECT_FALSE(align_foot(part_of(whole, [](const Vector3d& p) { return p.x() < 130.0; })));

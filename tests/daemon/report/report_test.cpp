@@ -106,6 +106,24 @@ TEST(ResultJson, HoldsWhatAFootIs) {
   EXPECT_EQ(json["withheld"][0]["id"], "waist_girth");
 }
 
+TEST(ResultJson, GivesAnglesInDegreesAndTheTwoPartsOfAnInterval) {
+  MeasureSet set = small_set();
+  Measure angle;
+  angle.id = "toe1_angle";
+  angle.value_mm = kNan;
+  angle.value_deg = 9.5;
+  angle.u95_deg = 0.6;
+  set.measures.push_back(angle);
+  set.measures[1].parts = DoubtParts{0.2, 0.1};
+  const Json json = foot_json(small_foot(), set, small_sizes());
+  EXPECT_EQ(json["measures"][1]["surface_u95_mm"], 0.2);
+  EXPECT_EQ(json["measures"][1]["landmarks_u95_mm"], 0.1);
+  EXPECT_EQ(json["measures"][2]["value_deg"], 9.5);
+  EXPECT_EQ(json["measures"][2]["u95_deg"], 0.6);
+  EXPECT_FALSE(json["measures"][2].contains("value_mm"));
+  EXPECT_NE(foot_text(small_foot(), set, small_sizes()).find("9.5 °   ± 0.6"), std::string::npos);
+}
+
 TEST(ResultJson, HoldsTheSizes) {
   const Json sizes = foot_json(small_foot(), small_set(), small_sizes())["sizes"];
   EXPECT_EQ(sizes["mondopoint_mm"], 250.0);
@@ -224,19 +242,19 @@ TEST(TextReport, TellsAGirth) {
 
 TEST(CsvReport, HasALineForEachMeasure) {
   EXPECT_EQ(result_csv(foot_json(small_foot(), small_set(), small_sizes())),
-            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n"
-            "left,foot_length,251.250,,,\"\",\n"
-            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",\n"
-            "left,waist_girth,,,,\"the section is open\",\n");
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg\n"
+            "left,foot_length,251.250,,,\"\",,\n"
+            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",,\n"
+            "left,waist_girth,,,,\"the section is open\",,\n");
 }
 
 TEST(CsvReport, HasTheAnglesInAColumnOfTheirOwn) {
   const auto result = nlohmann::json::parse(
-      R"({"side": "right", "measures": [{"id": "toe1_angle", "value_deg": 9.5}, 3, {"id": 4}],
+      R"({"side": "right", "measures": [{"id": "toe1_angle", "value_deg": 9.5, "u95_deg": 0.6}, 3, {"id": 4}],
           "withheld": "none"})");
   EXPECT_EQ(result_csv(result),
-            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg\n"
-            "right,toe1_angle,,,,\"\",9.500\n");
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg\n"
+            "right,toe1_angle,,,,\"\",9.500,0.600\n");
 }
 
 TEST(SectionsSvg, IsSoundAndShowsTheNumbers) {

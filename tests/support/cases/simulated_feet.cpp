@@ -1,12 +1,10 @@
 #include "tests/support/cases/simulated_feet.h"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <memory>
 
-#include "core/surface/marching_cubes.h"
 #include "sim/section_contour.h"
 #include "sim/solids/foot_solid.h"
+#include "tests/support/cases/foot_skin.h"
 #include "tests/support/shape_files.h"
 
 namespace instep::test {
@@ -15,32 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kCutMm = 100.0;
-/// Fine enough to spread points evenly; they are moved to the skin afterwards.
-constexpr double kCubeMm = 4.0;
-
-TriangleMesh rough_mesh(const FootSolid& foot) {
-  Eigen::AlignedBox3d box = foot.bounds();
-  box.max().z() = std::min(box.max().z(), kCutMm);
-  return march_cubes(CubeGrid::covering(box, kCubeMm).value(),
-                     {[&](const Vector3d& place) { return -foot.value(place); },
-                      [&](const Eigen::Vector3i&) { return true; },
-                      {}});
-}
-
-/// Moves points to the skin and gives them its normals.
-void settle(const FootSolid& foot, PointCloud& cloud) {
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    Vector3d& place = cloud.positions[i];
-    Vector3d slope = foot.gradient(place);
-    for (int step = 0; step < 20; ++step) {
-      const double value = foot.value(place);
-      if (std::abs(value) < 1e-7) break;
-      slope = foot.gradient(place);
-      place -= value / slope.squaredNorm() * slope;
-    }
-    cloud.normals[i] = slope.normalized();
-  }
-}
 
 /// Between instep and ball, across the foot.
 TapePlane drawn_plane(double length_mm, RandomNumbers& random) {
@@ -57,7 +29,7 @@ std::vector<CaseBody> simulated_feet(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto foot = std::make_shared<const FootSolid>(
         draw_foot(i + 1, i % 2 == 0 ? Side::kRight : Side::kLeft));
-    const auto mesh = std::make_shared<const TriangleMesh>(rough_mesh(*foot));
+    const auto mesh = std::make_shared<const TriangleMesh>(rough_skin(*foot, kCutMm));
     feet.push_back({.name = "simulated foot",
                     .crowd =
                         [mesh](std::size_t points, std::uint64_t seed) {
@@ -72,7 +44,7 @@ std::vector<CaseBody> simulated_feet(std::size_t count) {
                       if (!contour) return std::nullopt;
                       return TrueLengths{contour->stretched_mm, contour->contact_mm, 0.0};
                     },
-                    .settle = [foot](PointCloud& cloud) { settle(*foot, cloud); }});
+                    .settle = [foot](PointCloud& cloud) { settle_on_skin(*foot, cloud); }});
   }
   return feet;
 }

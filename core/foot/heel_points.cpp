@@ -1,0 +1,114 @@
+#include "core/foot/heel_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kHeelShare = 1.0 / 6.0;
+constexpr double kSmoothingMm = 9.0;
+constexpr double kStepMm = 0.5;
+constexpr double kHalfWidthShare = 0.12;  ///< beside the axis
+constexpr double kHeelSlope = 0.45;       ///< radians: from the instep point down to the heel
+constexpr double kJunctionSlope = 0.62;   ///< radians: from the heel up to the junction
+constexpr double kLeastRise = 0.40;
+constexpr double kMostRise = 0.85;
+
+Vector3d rising(double radians) {
+  return {std::cos(radians), 0.0, std::sin(radians)};
+}
+
+double seen_from_side(const Vector3d& a, const Vector3d& b) {
+  return std::hypot(a.x() - b.x(), a.z() - b.z());
+}
+
+template <typename Chooser>
+SkinBorder side_view(const FootOutline& outline, const Vector3d& outwards, const Chooser& chosen) {
+  std::vector<Vector3d> points;
+  for (const auto& point : outline.points()) {
+    if (chosen(point)) points.push_back(point);
+  }
+  const double half_width = kHalfWidthShare * outline.length_mm();
+  const Vector3d along(-outwards.z(), 0.0, outwards.x());
+  return {points, {along, outwards, Vector3d::UnitY(), -half_width, half_width}, kSmoothingMm};
+}
+
+std::optional<Landmark> at_heel_share(const SkinBorder& border, double length) {
+  const auto place = border.at(kHeelShare * length);
+  if (!place) return std::nullopt;
+  return Landmark{border.position(*place), 0.9, "outline at a sixth of the foot's length"};
+}
+
+/// The place of a border, within a range, that counts most.
+template <typename Worth>
+std::optional<Vector3d> best_place(const SkinBorder& border, double from, double to,
+                                   const Worth& worth) {
+  std::optional<Vector3d> best;
+  double most = 0.0;
+  for (double along = from; along <= to; along += kStepMm) {
+    const auto place = border.at(along);
+    if (!place) continue;
+    const Vector3d point = border.position(*place);
+    if (best && worth(point) <= most) continue;
+    best = point;
+    most = worth(point);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Landmark> find_heel_medial(const FootOutline& outline) {
+  return at_heel_share(outline.medial(), outline.length_mm());
+}
+
+std::optional<Landmark> find_heel_lateral(const FootOutline& outline) {
+  return at_heel_share(outline.lateral(), outline.length_mm());
+}
+
+std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep) {
+  const double length = outline.length_mm();
+  const Vector3d down = -rising(kHeelSlope);
+  const auto heel = side_view(outline, down, [&](const Vector3d& point) {
+    return point.x() < 0.2 * length && point.z() < 0.2 * length;
+  });
+  const double middle = Vector3d(-down.z(), 0.0, down.x()).dot(instep.position_mm);
+  const auto point =
+      best_place(heel, middle - 0.1 * length, middle + 0.1 * length,
+                 [&](const Vector3d& place) { return seen_from_side(place, instep.position_mm); });
+  if (!point) return std::nullopt;
+  return Landmark{*point, 0.8, "point of the heel's side view furthest from the instep point"};
+}
+
+std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark& heel) {
+  const double length = outline.length_mm();
+  const Vector3d& origin = heel.position_mm;
+  const auto rise = [&](const Vector3d& point) {
+    return std::atan2(point.z() - origin.z(), point.x() - origin.x());
+  };
+  const auto back = side_view(outline, rising(kJunctionSlope), [&](const Vector3d& point) {
+    return point.x() > 0.15 * length && point.z() > 0.12 * length && point.x() < 0.75 * length &&
+           rise(point) < kMostRise + 0.15;
+  });
+  const double middle =
+      Vector3d(-std::sin(kJunctionSlope), 0.0, std::cos(kJunctionSlope)).dot(origin);
+  double highest_rise = 0.0;
+  const auto point =
+      best_place(back, middle - 0.3 * length, middle + 0.3 * length, [&](const Vector3d& place) {
+        const double own = rise(place);
+        if (own < kLeastRise || own > kMostRise) return -1e6;
+        highest_rise = std::max(highest_rise, own);
+        return -seen_from_side(place, origin);
+      });
+  constexpr double kMarginRad = 0.02;
+  if (!point || rise(*point) < kLeastRise || rise(*point) > highest_rise - kMarginRad) {
+    return std::nullopt;
+  }
+  return Landmark{*point, 0.7, "point of the back's side view nearest to the heel point"};
+}
+
+}  // namespace instep

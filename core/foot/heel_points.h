@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+
+#include "core/foot/foot_outline.h"
+#include "core/foot/foot_scan.h"
+
+namespace instep {
+
+/// Right-foot form, as all here. Nothing where the cloud has no points there.
+
+/// The outline's sides at a sixth of the foot's length.
+std::optional<Landmark> find_heel_medial(const FootOutline& outline);
+std::optional<Landmark> find_heel_lateral(const FootOutline& outline);
+
+/// Where a tape comes round the heel: the point of the heel's side view furthest from the instep
+/// point. The distance is stationary there, so that a girth hardly feels where along the heel it
+/// was found.
+std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep);
+
+/// Where the leg rises from the foot's back: the point of the back's side view nearest to the heel
+/// point, between rays that rise by 23 and 49 degrees. Nothing where the leg is cut below it.
+std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark& heel);
+
+}  // namespace instep

@@ -1,0 +1,107 @@
+#include "core/foot/open_sole.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/fusion/close_sole.h"
+#include "core/geometry/point_index.h"
+#include "core/geometry/polygon.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kUndersideShare = 0.08;  ///< of the length: an arch may be so high
+constexpr double kWallHeightMm = 45.0;
+constexpr double kCellMm = 8.0;
+constexpr std::size_t kNeighbours = 14;
+
+double length_of(const FootScan& foot) {
+  return foot.landmarks.at("acropodion").position_mm.x();
+}
+
+using Cell = std::pair<long, long>;
+
+Cell cell_of(const Vector3d& point) {
+  return {std::lround(point.x() / kCellMm), std::lround(point.y() / kCellMm)};
+}
+
+/// Normals of a wall round a foot, pointing away from the foot's middle line.
+std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points, double length) {
+  const PointIndex index(points);
+  std::vector<Vector3d> normals;
+  normals.reserve(points.size());
+  for (const auto& point : points) {
+    const auto close = index.nearest(point, kNeighbours);
+    Vector3d mean = Vector3d::Zero();
+    for (const auto& one : close) mean += points[one.index];
+    mean /= static_cast<double>(close.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const auto& one : close) {
+      spread += (points[one.index] - mean) * (points[one.index] - mean).transpose();
+    }
+    Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    const Vector3d middle(std::clamp(point.x(), 0.12 * length, 0.85 * length), 0.0, point.z());
+    if (normal.dot(point - middle) < 0.0) normal = -normal;
+    normals.push_back(normal);
+  }
+  return normals;
+}
+
+}  // namespace
+
+bool is_sole_open(const FootScan& foot) {
+  const bool has_platform =
+      std::any_of(foot.cloud.origins.begin(), foot.cloud.origins.end(),
+                  [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
+  if (has_platform) return false;
+  // Walls stand on the border of the ground that is covered, so that only ground further in tells.
+  std::map<Cell, bool> ground;
+  std::map<long, std::pair<long, long>> rows;
+  for (const auto& point : foot.cloud.positions) {
+    if (point.z() > kWallHeightMm) continue;
+    const Cell cell = cell_of(point);
+    auto& is_covered = ground[cell];
+    is_covered = is_covered || point.z() < kUndersideShare * length_of(foot);
+    const auto [row, is_new] = rows.try_emplace(cell.first, cell.second, cell.second);
+    row->second.first = std::min(row->second.first, cell.second);
+    row->second.second = std::max(row->second.second, cell.second);
+  }
+  constexpr long kMarginCells = 2;
+  std::size_t inside = 0;
+  std::size_t covered = 0;
+  for (const auto& [x, reach] : rows) {
+    for (long y = reach.first + kMarginCells; y <= reach.second - kMarginCells; ++y) {
+      ++inside;
+      const auto cell = ground.find({x, y});
+      if (cell != ground.end() && cell->second) ++covered;
+    }
+  }
+  return 2 * covered < inside;
+}
+
+void close_open_sole(FootScan& foot) {
+  std::vector<std::size_t> low;
+  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
+    if (foot.cloud.positions[i].z() < kWallHeightMm) low.push_back(i);
+  }
+  PointCloud walls = foot.cloud.subset(low);
+  if (walls.size() < kNeighbours) return;
+  if (!walls.has_normals()) walls.normals = wall_normals(walls.positions, length_of(foot));
+  const std::size_t seen = walls.size();
+  close_sole(walls, 0.0);
+  std::vector<std::size_t> added;
+  for (std::size_t i = seen; i < walls.size(); ++i) added.push_back(i);
+  if (added.empty()) return;
+  if (foot.cloud.origins.empty()) foot.cloud.origins.assign(foot.cloud.size(), PointOrigin::kSeen);
+  foot.cloud.append(walls.subset(added));
+  foot.warnings.emplace_back("the sole was not seen: it is taken to stand flat on the floor");
+}
+
+}  // namespace instep

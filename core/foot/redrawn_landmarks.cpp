@@ -1,0 +1,113 @@
+#include "core/foot/redrawn_landmarks.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "core/foot/alignment.h"
+#include "core/foot/landmarks.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kRedraws = 8;
+constexpr std::size_t kMostParts = 8;
+constexpr std::size_t kPointsOfPart = 7000;
+constexpr std::size_t kFewestDegrees = 3;
+
+/// Student's 97.5 % points for 1 to 8 degrees of freedom.
+constexpr std::array<double, 8> kStudent{12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31};
+
+std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9ULL;
+  bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBULL;
+  return bits ^ (bits >> 31U);
+}
+
+std::uint64_t hash_of(const Vector3d& point) {
+  std::uint64_t hash = 0x9E3779B97F4A7C15ULL;
+  for (int axis = 0; axis < 3; ++axis) {
+    hash = mixed(hash + std::bit_cast<std::uint64_t>(point(axis)));
+  }
+  return hash;
+}
+
+RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices) {
+  FootScan part;
+  part.side = foot.side;
+  part.is_floor_known = foot.is_floor_known;
+  part.cloud = foot.cloud.subset(indices);
+  part.landmarks = foot.landmarks;
+  realign(part);
+  mark(part);
+  return {std::move(part.landmarks), part.foot_from_input.inverse()};
+}
+
+}  // namespace
+
+Redraws redraw_landmarks(const FootScan& foot) {
+  Redraws redraws;
+  redraws.parts = std::clamp<std::size_t>(foot.cloud.size() / kPointsOfPart, 2, kMostParts);
+  const std::size_t partings = (kRedraws + redraws.parts - 1) / redraws.parts;
+  std::vector<std::uint64_t> hashes;
+  hashes.reserve(foot.cloud.size());
+  for (const auto& point : foot.cloud.positions) hashes.push_back(hash_of(point));
+  for (std::size_t parting = 0; parting < partings; ++parting) {
+    std::vector<std::vector<std::size_t>> parts(redraws.parts);
+    for (std::size_t i = 0; i < hashes.size(); ++i) {
+      parts[(hashes[i] >> (8 * parting)) % redraws.parts].push_back(i);
+    }
+    for (const auto& part : parts) redraws.landmarks.push_back(redrawn_on(foot, part));
+  }
+  return redraws;
+}
+
+std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& values,
+                                     std::size_t parts) {
+  double squares = 0.0;
+  std::size_t degrees = 0;
+  for (std::size_t first = 0; first + parts <= values.size(); first += parts) {
+    double sum = 0.0;
+    double sum_of_squares = 0.0;
+    double count = 0.0;
+    for (std::size_t i = first; i < first + parts; ++i) {
+      if (!values[i]) continue;
+      sum += *values[i];
+      sum_of_squares += *values[i] * *values[i];
+      count += 1.0;
+    }
+    if (count < 2.0) continue;
+    squares += std::max(0.0, sum_of_squares - sum * sum / count);
+    degrees += static_cast<std::size_t>(count) - 1;
+  }
+  if (degrees < kFewestDegrees) return std::nullopt;
+  const double variance = squares / static_cast<double>(degrees * parts);
+  return kStudent[std::min(degrees, kStudent.size()) - 1] * std::sqrt(variance);
+}
+
+void set_radii(FootScan& foot) {
+  for (auto& [name, landmark] : foot.landmarks) {
+    double squared = 0.0;
+    bool is_known = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<std::optional<double>> values;
+      for (const auto& redrawn : foot.redraws.landmarks) {
+        const auto found = redrawn.landmarks.find(name);
+        values.push_back(
+            found == redrawn.landmarks.end()
+                ? std::nullopt
+                : std::optional((redrawn.foot_from_redrawn * found->second.position_mm)(axis)));
+      }
+      const auto own = u95_of_redraws(values, foot.redraws.parts);
+      is_known = is_known && own.has_value();
+      squared += std::pow(own.value_or(0.0), 2);
+    }
+    if (is_known) landmark.radius_mm = std::sqrt(squared);
+  }
+}
+
+}  // namespace instep

@@ -1,0 +1,67 @@
+#include "core/foot/rough_tape.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/geometry/polygon.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kBandMm = 4.0;
+constexpr std::size_t kSectors = 72;
+constexpr std::size_t kFewestSectors = 24;
+/// Points in a sector that lie deeper than this under its outermost are of another face.
+constexpr double kDeepestMm = 8.0;
+
+struct Sector {
+  double furthest = 0.0;
+  double weight = 0.0;
+  Vector2d sum = Vector2d::Zero();
+};
+
+}  // namespace
+
+std::optional<double> rough_tape(const std::vector<Eigen::Vector3d>& points,
+                                 const TapePlane& plane) {
+  std::vector<std::pair<Vector2d, double>> section;
+  Eigen::AlignedBox2d box;
+  for (const auto& point : points) {
+    const double off = plane.distance(point) / kBandMm;
+    if (std::abs(off) >= 1.0) continue;
+    section.emplace_back(plane.project(point), 1.0 - off * off);
+    box.extend(section.back().first);
+  }
+  if (section.size() < kFewestSectors) return std::nullopt;
+  const Vector2d middle = box.center();
+  const auto sector_of = [&](const Vector2d& place) {
+    const double turn =
+        std::atan2(place.y() - middle.y(), place.x() - middle.x()) / (2.0 * std::numbers::pi) + 0.5;
+    return std::min(kSectors - 1, static_cast<std::size_t>(turn * kSectors));
+  };
+  std::array<Sector, kSectors> sectors;
+  for (const auto& [place, weight] : section) {
+    auto& sector = sectors[sector_of(place)];
+    sector.furthest = std::max(sector.furthest, (place - middle).norm());
+  }
+  for (const auto& [place, weight] : section) {
+    auto& sector = sectors[sector_of(place)];
+    if ((place - middle).norm() < sector.furthest - kDeepestMm) continue;
+    sector.weight += weight;
+    sector.sum += weight * place;
+  }
+  std::vector<Vector2d> ring;
+  for (const auto& sector : sectors) {
+    if (sector.weight > 0.0) ring.push_back(sector.sum / sector.weight);
+  }
+  if (ring.size() < kFewestSectors) return std::nullopt;
+  return perimeter(convex_hull(std::move(ring)));
+}
+
+}  // namespace instep

@@ -1,0 +1,157 @@
+#include "core/foot/skin_border.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/foot/skin_summit.h"
+#include "core/median.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kStepMm = 2.0;
+constexpr double kWindowMm = 5.0;          ///< half, along and across
+constexpr double kDeepestMm = 4.0;         ///< below the furthest: beyond is another face
+constexpr double kWidestWindow = 2.1;      ///< times the usual one, where points are few
+constexpr std::size_t kFewestPoints = 14;  ///< of a fit; a window is widened to hold twice these
+constexpr std::size_t kFurthest = 5;
+constexpr std::size_t kFewestSamples = 4;
+constexpr double kSearchStepMm = 0.5;
+constexpr double kStraySampleMm = 1.5;
+
+/// Along, across, outwards: as SkinSummit takes them.
+using Local = Vector3d;
+
+/// Median of the furthest points in a strip: two strays do not move it.
+std::optional<Local> start_of(const std::vector<Local>& strip) {
+  if (strip.size() < 3) return std::nullopt;
+  const std::size_t count = std::min(kFurthest, strip.size());
+  std::vector<Local> furthest(count);
+  std::partial_sort_copy(strip.begin(), strip.end(), furthest.begin(), furthest.end(),
+                         [](const Local& a, const Local& b) { return a.z() > b.z(); });
+  return furthest[count / 2];
+}
+
+}  // namespace
+
+SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& view,
+                       double smoothing_mm)
+    : view_(view), smoothing_mm_(smoothing_mm) {
+  std::vector<Local> sorted;
+  sorted.reserve(points.size());
+  const double margin = kWidestWindow * kWindowMm;
+  for (const auto& point : points) {
+    const Local local(view.along.dot(point), view.across.dot(point), view.outwards.dot(point));
+    const bool is_near =
+        local.y() > view.across_from_mm - margin && local.y() < view.across_to_mm + margin;
+    if (is_near) sorted.push_back(local);
+  }
+  if (sorted.empty()) return;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Local& a, const Local& b) { return a.x() < b.x(); });
+  const auto from = [&](double place) {
+    return std::lower_bound(sorted.begin(), sorted.end(), place,
+                            [](const Local& a, double value) { return a.x() < value; });
+  };
+  const double last = sorted.back().x();
+  for (double place = std::ceil(sorted.front().x() / kStepMm) * kStepMm; place <= last;
+       place += kStepMm) {
+    for (double wider = 1.0; wider <= kWidestWindow; wider *= std::sqrt(2.0)) {
+      const double window = wider * kWindowMm;
+      std::vector<Local> strip;
+      const auto end = from(place + window);
+      const double thin = 0.5 * window;
+      for (auto point = from(place - thin); point != end && point->x() < place + thin; ++point) {
+        const bool is_within = point->y() >= view.across_from_mm && point->y() <= view.across_to_mm;
+        if (is_within) strip.push_back(*point);
+      }
+      const auto start = start_of(strip);
+      if (!start) continue;
+      std::vector<Local> close;
+      for (auto point = from(place - window); point != end; ++point) {
+        if (std::abs(point->y() - start->y()) > window) continue;
+        if (point->z() < start->z() - kDeepestMm) continue;
+        close.emplace_back(point->x() - place, point->y() - start->y(), point->z());
+      }
+      const bool is_last = wider * std::sqrt(2.0) > kWidestWindow;
+      if (close.size() < (is_last ? kFewestPoints : 2 * kFewestPoints)) continue;
+      const auto summit = summit_across(close, std::max(view.across_from_mm - start->y(), -window),
+                                        std::min(view.across_to_mm - start->y(), window));
+      if (summit && std::abs(summit->reach - start->z()) < kDeepestMm) {
+        samples_.push_back({place, summit->reach, start->y() + summit->across});
+      }
+      break;
+    }
+  }
+}
+
+std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
+  const auto bound = [&](double value) {
+    return std::lower_bound(samples_.begin(), samples_.end(), value,
+                            [](const Place& sample, double limit) { return sample.along < limit; });
+  };
+  const auto begin = bound(along - smoothing_mm_);
+  const auto end = bound(along + smoothing_mm_);
+  if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
+  Eigen::Matrix<double, 3, 2> fitted;
+  double limit = 1e300;
+  for (int round = 0; round < 2; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+    std::vector<double> off;
+    for (auto sample = begin; sample != end; ++sample) {
+      const double offset = (sample->along - along) / smoothing_mm_;
+      const Vector3d terms(1.0, offset, offset * offset);
+      if (round > 0) {
+        const double residual = std::abs(sample->reach - fitted.col(0).dot(terms));
+        if (residual > limit) continue;
+      }
+      const double weight = std::pow(1.0 - offset * offset, 2) + 1e-6;
+      normal += weight * terms * terms.transpose();
+      right += weight * terms * Eigen::RowVector2d(sample->reach, sample->across);
+    }
+    fitted = normal.ldlt().solve(right);
+    if (!fitted.allFinite()) return std::nullopt;
+    for (auto sample = begin; sample != end; ++sample) {
+      const double offset = (sample->along - along) / smoothing_mm_;
+      off.push_back(
+          std::abs(sample->reach - fitted.col(0).dot(Vector3d(1.0, offset, offset * offset))));
+    }
+    limit = std::max(4.0 * median(std::move(off)), kStraySampleMm);
+  }
+  return Place{along, fitted(0, 0),
+               std::clamp(fitted(0, 1), view_.across_from_mm, view_.across_to_mm)};
+}
+
+std::optional<double> SkinBorder::reach(double along) const {
+  const auto place = at(along);
+  return place ? std::optional(place->reach) : std::nullopt;
+}
+
+Vector3d SkinBorder::position(const Place& place) const {
+  return place.along * view_.along + place.reach * view_.outwards + place.across * view_.across;
+}
+
+std::optional<SkinBorder::Peak> SkinBorder::furthest(
+    double from, double to, const std::function<double(double)>& handicap) const {
+  const auto weighed = [&](const Place& place) {
+    return place.reach - (handicap ? handicap(place.along) : 0.0);
+  };
+  std::vector<Place> border;
+  const auto steps = static_cast<int>((to - from) / kSearchStepMm);
+  for (int i = 0; i <= steps; ++i) {
+    if (const auto place = at(from + i * kSearchStepMm)) border.push_back(*place);
+  }
+  if (border.empty()) return std::nullopt;
+  const auto top =
+      std::max_element(border.begin(), border.end(),
+                       [&](const Place& a, const Place& b) { return weighed(a) < weighed(b); });
+  const double higher_end = std::max(weighed(border.front()), weighed(border.back()));
+  return Peak{*top, weighed(*top) - higher_end};
+}
+
+}  // namespace instep

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace instep {
+
+/// What of a cloud is the body that is meant, and what lies apart from it.
+struct StandingBody {
+  std::vector<std::size_t> points;  ///< indices, ascending
+  double apart_share = 0.0;         ///< of all points, left out
+  double next_share = 0.0;          ///< the largest piece left out, over the largest piece of all
+};
+
+/// Parts the points into pieces that touch, within twice their spacing or 8 mm, whichever is more.
+/// The largest piece is the body, with those pieces that lie within its box: a scan with unseen
+/// strips comes in pieces. Strays and the remains of another foot are left out. O(n log n).
+StandingBody standing_body(const std::vector<Eigen::Vector3d>& points);
+
+}  // namespace instep
