@@ -12,9 +12,9 @@ using nlohmann::json;
 constexpr std::array kCodes = {
     ErrorCode::kInvalidInput, ErrorCode::kNotFound,    ErrorCode::kPermissionDenied,
     ErrorCode::kCorruptData,  ErrorCode::kUnsupported, ErrorCode::kInsufficientData,
-    ErrorCode::kNoSpace,      ErrorCode::kBusy,        ErrorCode::kTimeout,
-    ErrorCode::kDeviceGone,   ErrorCode::kCancelled,   ErrorCode::kIo,
-    ErrorCode::kInternal};
+    ErrorCode::kNoSpace,      ErrorCode::kNoBandwidth, ErrorCode::kBusy,
+    ErrorCode::kTimeout,      ErrorCode::kDeviceGone,  ErrorCode::kCancelled,
+    ErrorCode::kIo,           ErrorCode::kInternal};
 constexpr std::array kRemedies = {Remedy::kRetry, Remedy::kReopen, Remedy::kReset,
                                   Remedy::kOperator, Remedy::kBug};
 
