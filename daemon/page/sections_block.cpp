@@ -72,10 +72,9 @@ std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double 
   text += svg::dots(svg::placed(drawing.seen_points, origin, per_mm), kPointRadius, "seen");
   text += svg::label(middle + Vector2d(0.0, 44.0), "section-name", as_words(panel.measure->id));
   text += svg::label(middle + Vector2d(0.0, 80.0), "section-number",
-                     interval_text(girth.stretched_mm, girth.stretched_u95_mm));
-  return text +
-         svg::label(middle + Vector2d(0.0, 110.0), "section-note",
-                    "along the skin " + interval_text(girth.contact_mm, girth.contact_u95_mm));
+                     interval_text(panel.measure->value_mm, panel.measure->u95_mm));
+  return text + svg::label(middle + Vector2d(0.0, 110.0), "section-note",
+                           fmt::format("along the skin {:.1f}", girth.contact_mm));
 }
 
 }  // namespace
