@@ -5,18 +5,11 @@
 namespace instep {
 namespace {
 
-std::string describe_v4l2(const V4l2Settings& camera) {
-  std::string text = camera.placement.name + ", a V4L2 camera";
-  if (!camera.serial.empty()) text += ", serial " + camera.serial;
-  if (!camera.bus_path.empty()) text += ", at " + camera.bus_path;
-  return text + fmt::format(", depth in {} mm", camera.depth_unit_mm);
-}
-
 std::string describe_camera(const CameraSettings& camera,
                             const SimulatedStationSettings& simulation) {
   if (camera.kind == CameraKind::kRecording) return "the recording " + camera.path.string();
   if (camera.kind == CameraKind::kOpenni) return describe(camera.openni);
-  if (camera.kind == CameraKind::kV4l2) return describe_v4l2(camera.v4l2);
+  if (camera.kind == CameraKind::kV4l2) return describe(camera.v4l2);
   return fmt::format("{} simulated", simulation.cameras);
 }
 

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <set>
 #include <system_error>
 
+#include "config/distinct_cameras.h"
 #include "config/settings_table.h"
 #include "config/v4l2_settings_table.h"
 
@@ -171,24 +171,20 @@ void read_log(SettingsTable& table, LogSettings& log) {
                 {"error", LogLevel::kError}});
 }
 
-/// Two processes cannot have one sensor, and two that take the only one would.
-void check_openni_serials(const std::vector<CameraSettings>& cameras, SettingsFaults& faults) {
-  std::set<std::string> serials;
-  for (const CameraSettings& camera : cameras) {
-    if (camera.kind != CameraKind::kOpenni || serials.insert(camera.openni.serial).second) continue;
-    faults.add(1, camera.openni.serial.empty()
-                      ? "two [[camera]] of kind \"openni2\" have no serial: give each its own"
-                      : "two [[camera]] have the serial " + camera.openni.serial);
-  }
-}
-
 void read_cameras(SettingsTable& root, std::vector<CameraSettings>& cameras,
                   const std::filesystem::path& base, SettingsFaults& faults) {
+  // One with a fault may look like another only because of it.
+  std::vector<CameraSettings> sound;
+  std::vector<unsigned> lines;
   for (const toml::table* camera : root.tables("camera")) {
     SettingsTable table(*camera, "camera", faults);
+    const auto faults_before = faults.count();
     cameras.push_back(read_camera(table, base, faults));
+    if (faults.count() != faults_before) continue;
+    sound.push_back(cameras.back());
+    lines.push_back(table.line());
   }
-  check_openni_serials(cameras, faults);
+  check_distinct_cameras(sound, lines, faults);
   if (cameras.empty()) {
     faults.add(1, "there is no [[camera]]: add one, such as kind = \"simulated\"");
   }

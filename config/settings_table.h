@@ -23,6 +23,7 @@ class SettingsFaults {
     by_line_.emplace(line, file_ + ":" + std::to_string(line) + ": " + text);
   }
 
+  std::size_t count() const { return by_line_.size(); }
   std::vector<std::string> in_order() const;
 
  private:

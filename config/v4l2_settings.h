@@ -26,4 +26,7 @@ struct V4l2Settings {
   std::vector<Control> controls;  ///< in the order in which they are set, at most 32
 };
 
+/// The lines of `instepd --check` say it so.
+std::string describe(const V4l2Settings& settings);
+
 }  // namespace instep

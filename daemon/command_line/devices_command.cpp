@@ -1,4 +1,8 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,11 +23,19 @@ void add_devices_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
   command->footer(std::string("Says what the settings need to name a device: serial number, place "
-                              "on the bus, line,\nids. Takes no device from who uses it.\n\n") +
+                              "on the bus, line,\nids. Takes no device from who uses it; OpenNI2 "
+                              "sensors that nobody uses are opened\n"
+                              "for a second, for their serial numbers.\n\n") +
                   kEnvironmentHelp);
   command->callback([format, &exit_code] {
+    constexpr std::chrono::seconds kOpenniLimit{10};
     const Settings settings = station_settings();
-    const auto inventory = take_inventory(settings, {}, linux_video_system());
+    if (const auto found = find_station_settings(); !found) {
+      fmt::print(stderr, "instep: nothing is known to be configured: {}\n", found.error().line());
+    }
+    const auto openni =
+        look_through_openni(settings, running_program_folder() / "instep-openni", kOpenniLimit);
+    const auto inventory = take_inventory(settings, {}, linux_video_system(), openni);
     exit_code = finish_command(*format == "json" ? print_json(to_json(inventory, settings))
                                                  : print_text(to_text(inventory, settings)));
   });

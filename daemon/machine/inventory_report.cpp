@@ -24,12 +24,13 @@ Json camera_json(const PluggedCamera& camera) {
   return {{"kind", camera.kind},
           {"product", device.product},
           {"serial", or_null(device.address.serial)},
-          {"bus_path", device.address.bus_path},
+          {"bus_path", or_null(device.address.bus_path)},
           {"nodes", std::move(nodes)},
           {"link_mbps", device.link_mbps},
           {"could_be_faster", device.could_be_faster},
           {"modes", std::move(modes)},
-          {"configured_as", or_null(camera.configured_as)}};
+          {"configured_as", or_null(camera.configured_as)},
+          {"trouble", or_null(camera.trouble)}};
 }
 
 Json chip_json(const GpioChipState& chip, const PedalSettings& pedal) {
@@ -57,6 +58,7 @@ Json switch_json(const InputNode& node, const PedalSettings& pedal) {
 }
 
 std::string link_text(const UsbDevice& device) {
+  if (device.address.bus_path.empty()) return "not on USB";
   if (device.link_mbps == 0) return "unknown link";
   return fmt::format("{} Mbit/s{}", device.link_mbps,
                      device.could_be_faster ? " (it could be faster: use a USB 3 socket)" : "");
@@ -67,6 +69,7 @@ std::string camera_text(const PluggedCamera& camera) {
       "  {}\n    kind \"{}\", {}{}\n", camera.device.text(), camera.kind, link_text(camera.device),
       camera.configured_as.empty() ? "" : ", configured as " + camera.configured_as);
   for (const auto& node : camera.nodes) text += "    " + node.string() + "\n";
+  if (!camera.trouble.empty()) text += "    cannot be opened: " + camera.trouble + "\n";
   for (const auto& mode : camera.modes) {
     text += fmt::format("    {:<4} {}\n", mode.format, fmt::join(mode.sizes, " "));
   }
@@ -109,7 +112,10 @@ Json to_json(const Inventory& inventory, const Settings& settings) {
   for (const auto& node : inventory.foot_switches) {
     switches.push_back(switch_json(node, settings.pedal));
   }
+  Json troubles = Json::array();
+  for (const auto& trouble : inventory.openni_troubles) troubles.push_back(trouble.line());
   return {{"cameras", std::move(cameras)},
+          {"openni_troubles", std::move(troubles)},
           {"gpio_chips", std::move(chips)},
           {"input_devices", std::move(switches)}};
 }
@@ -117,6 +123,9 @@ Json to_json(const Inventory& inventory, const Settings& settings) {
 std::string to_text(const Inventory& inventory, const Settings& settings) {
   std::string cameras;
   for (const auto& camera : inventory.cameras) cameras += camera_text(camera);
+  for (const auto& trouble : inventory.openni_troubles) {
+    cameras += "  OpenNI2 lists no sensors: " + trouble.line() + "\n";
+  }
   std::string chips;
   for (const auto& chip : inventory.gpio_chips) chips += chip_text(chip, settings.pedal);
   std::string switches;

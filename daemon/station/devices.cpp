@@ -1,15 +1,18 @@
 #include "daemon/station/devices.h"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <utility>
 
 #include "config/settings_search.h"
+#include "daemon/machine/inventory.h"
 #include "drivers/evdev/evdev_pedal.h"
 #include "drivers/gpio/gpio_pedal.h"
 #include "drivers/openni2/openni_camera.h"
 #include "drivers/recording/recording_camera.h"
 #include "drivers/recording/recording_reader.h"
+#include "drivers/usb/usb_devices.h"
 #include "drivers/v4l2/v4l2_camera.h"
 #include "sim/fault_script.h"
 #include "sim/simulated_station.h"
@@ -119,6 +122,7 @@ Result<void> add_openni(const OpenniSettings& chosen, Devices& devices) {
   }
   devices.simulated = devices.simulated || (*camera)->description().simulated;
   devices.calibration = "as the settings say";
+  if (const auto usb = usb_address_of(chosen, {})) devices.usb[chosen.placement.name] = *usb;
   devices.cameras.push_back(std::move(*camera));
   return {};
 }
@@ -163,6 +167,16 @@ Result<void> check_names(const Devices& devices) {
                 "name each source once among the [[camera]] tables");
   }
   return {};
+}
+
+/// The error, with the cameras that have none.
+Error with_waiting(Error trouble, const Devices& devices) {
+  std::string names;
+  for (const auto& camera : devices.cameras) {
+    names += (names.empty() ? "" : ", ") + camera->description().geometry.id;
+  }
+  if (!names.empty()) trouble.message += " (no fault so far: " + names + ")";
+  return trouble;
 }
 
 GpioBias bias_of(PedalBias bias) {
@@ -215,8 +229,21 @@ std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodie
   return truth;
 }
 
+std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
+                                         const DeviceFolders& folders) {
+  if (sensor.serial.empty()) return std::nullopt;
+  const auto plugged = list_usb_devices(folders.sysfs, folders.dev);
+  const auto is_it = [&](const auto& one) { return one.device.address.serial == sensor.serial; };
+  const auto found = std::find_if(plugged.begin(), plugged.end(), is_it);
+  if (found == plugged.end() || !is_openni_sensor(found->vendor)) return std::nullopt;
+  // What has the same number may be a disk, and would be reset in the sensor's stead.
+  if (std::count_if(plugged.begin(), plugged.end(), is_it) > 1) return std::nullopt;
+  return UsbAddress{.bus_path = {}, .serial = sensor.serial};
+}
+
 Result<Devices> open_devices(const Settings& settings) {
   Devices devices;
+  std::optional<Error> trouble;
   for (const auto& camera : settings.cameras) {
     Result<void> added;
     switch (camera.kind) {
@@ -233,8 +260,15 @@ Result<Devices> open_devices(const Settings& settings) {
         added = add_v4l2(camera.v4l2, devices);
         break;
     }
-    if (!added) return tl::make_unexpected(added.error());
+    if (added) continue;
+    // One that is away does not hide what is wrong with another.
+    if (trouble) {
+      trouble->message += "; " + added.error().message;
+    } else {
+      trouble = added.error();
+    }
   }
+  if (trouble) return tl::make_unexpected(with_waiting(*trouble, devices));
   if (const auto distinct = check_names(devices); !distinct) {
     return tl::make_unexpected(distinct.error());
   }

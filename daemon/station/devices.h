@@ -12,6 +12,7 @@
 #include "drivers/depth_camera.h"
 #include "drivers/pedal.h"
 #include "drivers/usb/usb_device.h"
+#include "drivers/v4l2/video_nodes.h"
 #include "sim/simulated_station.h"
 
 namespace instep {
@@ -33,9 +34,16 @@ struct Devices {
 std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies);
 
 /// The one place that knows the camera families: a new one is a new case here. May take some
-/// seconds (a simulated station builds its foot). Fails with what the family says; worth another
-/// try later, since a camera that is away at boot may come.
+/// seconds (a simulated station builds its foot). Fails with what the family says, of each
+/// source that cannot be opened, and closes the others again; worth another try later, since a
+/// camera that is away at boot may come.
 Result<Devices> open_devices(const Settings& settings);
+
+/// Where a sensor is on USB, to be watched and reset there; nothing if the bus does not show it by
+/// that serial number (its descriptor may have none, or another than it tells OpenNI2), or shows
+/// something else by it as well.
+std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
+                                         const DeviceFolders& folders);
 
 /// The pedal, or nullptr if the settings say that there is none.
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings);

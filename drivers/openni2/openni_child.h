@@ -6,12 +6,12 @@
 #include <string>
 
 #include "core/result.h"
+#include "drivers/files/wake_up.h"
 #include "drivers/openni2/child_messages.h"
 #include "drivers/openni2/child_process.h"
 #include "drivers/openni2/frame_ring.h"
 #include "drivers/openni2/mode_choice.h"
 #include "drivers/openni2/openni_program.h"
-#include "drivers/openni2/wake_up.h"
 
 namespace instep {
 

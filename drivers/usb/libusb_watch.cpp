@@ -148,13 +148,24 @@ Result<void> reset_usb_device(const UsbAddress& address) {
   const auto count = libusb_get_device_list(context->get(), &list);
   Result<void> outcome =
       fail(ErrorCode::kDeviceGone, "the device to reset is not there", "plug it in");
+  std::optional<UsbDevice> found;
+  libusb_device* place = nullptr;
   for (ssize_t i = 0; i < count; ++i) {
     const std::string name = sysfs_name(list[i]);
     const auto device = name.empty() ? std::nullopt : describe(name);
     if (!device || !device->is_meant_by(address)) continue;
-    outcome = reset(list[i], *device);
-    break;
+    if (found) {
+      // The other may be anything: a disk, the keyboard.
+      found.reset();
+      outcome = fail(ErrorCode::kInvalidInput, Remedy::kOperator,
+                     "several USB devices have the serial " + address.serial + ": none is reset",
+                     "set bus_path too, as instep devices shows it, or unplug the others");
+      break;
+    }
+    found = device;
+    place = list[i];
   }
+  if (found) outcome = reset(place, *found);
   if (count >= 0) libusb_free_device_list(list, 1);
   return outcome;
 }

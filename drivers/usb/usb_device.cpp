@@ -39,7 +39,7 @@ bool UsbDevice::is_meant_by(const UsbAddress& wanted) const {
 
 std::string UsbDevice::text() const {
   return "\"" + product + "\"" + (address.serial.empty() ? "" : ", serial " + address.serial) +
-         ", at " + address.bus_path;
+         (address.bus_path.empty() ? "" : ", at " + address.bus_path);
 }
 
 std::optional<UsbDevice> read_usb_device(const fs::path& folder) {

@@ -1,8 +1,6 @@
 #include "drivers/v4l2/v4l2_camera.h"
 
 #include <fmt/format.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -38,13 +36,16 @@ Result<void> check(const V4l2Camera::Settings& settings) {
 
 Result<std::unique_ptr<V4l2Camera>> V4l2Camera::create(Settings settings, VideoSystem& system) {
   if (const auto sound = check(settings); !sound) return tl::make_unexpected(sound.error());
-  const int wake_up = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (wake_up < 0) return tl::make_unexpected(video_error(errno, "making an eventfd"));
-  return std::unique_ptr<V4l2Camera>(new V4l2Camera(std::move(settings), system, wake_up));
+  std::unique_ptr<V4l2Camera> camera(new V4l2Camera(std::move(settings), system));
+  if (!camera->interrupt_.is_open()) {
+    return fail(ErrorCode::kIo, "there is no descriptor left for the camera",
+                "raise the limit of open files");
+  }
+  return camera;
 }
 
-V4l2Camera::V4l2Camera(Settings settings, VideoSystem& system, int wake_up)
-    : settings_(std::move(settings)), system_(system), wake_up_(wake_up) {
+V4l2Camera::V4l2Camera(Settings settings, VideoSystem& system)
+    : settings_(std::move(settings)), system_(system) {
   description_.geometry = settings_.geometry;
   description_.model = "V4L2 depth camera";
   description_.serial = settings_.address.serial;
@@ -52,8 +53,7 @@ V4l2Camera::V4l2Camera(Settings settings, VideoSystem& system, int wake_up)
 }
 
 Result<void> V4l2Camera::start() {
-  std::uint64_t interrupts = 0;
-  [[maybe_unused]] const auto cleared = ::read(wake_up_.number(), &interrupts, sizeof interrupts);
+  interrupt_.clear();
   if (stream_) return {};
   const auto nodes = find_video_nodes(settings_.address, settings_.folders);
   if (!nodes) return tl::make_unexpected(nodes.error());
@@ -92,7 +92,7 @@ Result<DepthFrame> V4l2Camera::next_frame(milliseconds limit) {
 }
 
 Result<void> V4l2Camera::wait_until(steady_clock::time_point deadline) {
-  std::array<pollfd, 2> waiting{pollfd{wake_up_.number(), POLLIN, 0},
+  std::array<pollfd, 2> waiting{pollfd{interrupt_.descriptor(), POLLIN, 0},
                                 pollfd{stream_->descriptor(), POLLIN, 0}};
   const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
   constexpr milliseconds::rep kLongestWait = 60000;
@@ -136,9 +136,7 @@ void V4l2Camera::stop() {
 }
 
 void V4l2Camera::interrupt() {
-  const std::uint64_t one = 1;
-  // A full counter already wakes; there is nothing else that this write could fail of.
-  [[maybe_unused]] const auto written = ::write(wake_up_.number(), &one, sizeof one);
+  interrupt_.set();
 }
 
 }  // namespace instep

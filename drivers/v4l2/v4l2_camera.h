@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drivers/depth_camera.h"
-#include "drivers/files/descriptor.h"
+#include "drivers/files/wake_up.h"
 #include "drivers/usb/usb_device.h"
 #include "drivers/v4l2/camera_controls.h"
 #include "drivers/v4l2/depth_format.h"
@@ -53,7 +53,7 @@ class V4l2Camera final : public DepthCamera {
   void interrupt() override;
 
  private:
-  V4l2Camera(Settings settings, VideoSystem& system, int wake_up);
+  V4l2Camera(Settings settings, VideoSystem& system);
 
   Result<void> begin(std::unique_ptr<VideoStream> stream);
   /// Until an image may wait, the deadline at the latest. Fails with kCancelled, or with what is
@@ -64,7 +64,7 @@ class V4l2Camera final : public DepthCamera {
   const Settings settings_;
   VideoSystem& system_;
   CameraDescription description_;
-  Descriptor wake_up_;  ///< an eventfd, readable from interrupt() until start()
+  WakeUp interrupt_;  ///< set from interrupt() until start()
   std::unique_ptr<VideoStream> stream_;
 };
 

@@ -97,12 +97,6 @@ INSTANTIATE_TEST_SUITE_P(
                     "did you mean camera.serial?"},
         CameraFault{"[[camera]]\nkind = \"simulated\"\nserial = \"A1\"",
                     "no setting camera.serial"},
-        CameraFault{camera_table("serial = \"A1\"\nname = \"left\"\n" + std::string(kPose)) +
-                        camera_table("serial = \"A1\"\nname = \"right\"\n" + std::string(kPose)),
-                    "two [[camera]] have the serial A1"},
-        CameraFault{camera_table("name = \"left\"\n" + std::string(kPose)) +
-                        camera_table("name = \"right\"\n" + std::string(kPose)),
-                    "have no serial: give each its own"},
         CameraFault{"[[camera]]\nkind = \"openi2\"", "did you mean \"openni2\"?"}));
 
 }  // namespace

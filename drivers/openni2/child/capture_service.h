@@ -1,9 +1,9 @@
 #pragma once
 
 #include "drivers/files/descriptor.h"
+#include "drivers/files/wake_up.h"
 #include "drivers/openni2/frame_ring.h"
 #include "drivers/openni2/openni_child.h"
-#include "drivers/openni2/wake_up.h"
 
 namespace instep {
 

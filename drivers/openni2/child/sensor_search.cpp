@@ -84,7 +84,7 @@ Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial) {
     return fail(ErrorCode::kInvalidInput,
                 fmt::format("there are {} OpenNI2 sensors, and it is not said which one is meant",
                             places.size()),
-                "give the serial number that instep-openni --list shows");
+                "give the serial number that instep devices shows");
   }
   sort_newest_first(places);
   std::unique_ptr<DepthSensor> found;

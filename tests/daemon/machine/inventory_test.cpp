@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "daemon/machine/inventory_report.h"
 #include "tests/support/fake_usb_bus.h"
+#include "tests/support/openni_bus.h"
 
 namespace instep {
 namespace {
@@ -28,7 +30,7 @@ class InventoryOfAMachine : public testing::Test {
   }
 
   Inventory take() const {
-    return take_inventory(settings_, {bus_.sysfs(), bus_.dev()}, linux_video_system());
+    return take_inventory(settings_, {bus_.sysfs(), bus_.dev()}, linux_video_system(), openni_);
   }
 
   void write(const std::filesystem::path& file, const std::string& text) const {
@@ -47,8 +49,30 @@ class InventoryOfAMachine : public testing::Test {
     write(bus_.dev() / "input" / name, "");
   }
 
+  void write_openni_sensor(const std::string& port, const std::string& number) const {
+    write(bus_.usb_folder(port) / "idVendor", "1d27");
+    write(bus_.usb_folder(port) / "busnum", "1");
+    write(bus_.usb_folder(port) / "devnum", number);
+  }
+  static OpenniDevice told(const std::string& uri) {
+    OpenniDevice sensor;
+    sensor.uri = uri;
+    return sensor;
+  }
+  static OpenniDevice in_use(const std::string& uri) {
+    OpenniDevice sensor = told(uri);
+    sensor.trouble = "it is in use";
+    return sensor;
+  }
+  void configure_openni(const std::string& serial) {
+    settings_.cameras[0].kind = CameraKind::kOpenni;
+    settings_.cameras[0].openni.serial = serial;
+    settings_.cameras[0].openni.placement.name = "heel";
+  }
+
   test::FakeUsbBus bus_;
   Settings settings_;
+  OpenniSight openni_;
 };
 
 TEST_F(InventoryOfAMachine, PutsTheNodesOfACameraTogetherAndNamesTheConfiguredOne) {
@@ -62,13 +86,72 @@ TEST_F(InventoryOfAMachine, PutsTheNodesOfACameraTogetherAndNamesTheConfiguredOn
 }
 
 TEST_F(InventoryOfAMachine, KnowsSensorsOfOpenniByTheirMaker) {
-  write(bus_.usb_folder("2") / "idVendor", "1d27");
-  write(bus_.usb_folder("2") / "busnum", "1");
-  write(bus_.usb_folder("2") / "devnum", "12");
+  write_openni_sensor("2", "12");
   const auto inventory = take();
   ASSERT_EQ(inventory.cameras.size(), 3U);
   EXPECT_EQ(inventory.cameras[2].kind, "openni2");
   EXPECT_THAT(inventory.cameras[2].nodes, ElementsAre(bus_.dev() / "bus/usb/001/012"));
+}
+
+// The number in the descriptor, "A1" and "B2" here, is not always the one that OpenNI2 tells.
+TEST_F(InventoryOfAMachine, KnowsTheConfiguredSensorByTheNumberThatOpenniTells) {
+  write_openni_sensor("2", "12");
+  write_openni_sensor("4.3", "7");
+  configure_openni("1210240012");
+  openni_.sensors = {told("1d27/0609@1/7"), in_use("1d27/0609@1/12")};
+  openni_.sensors[0].serial = "1210240012";
+  openni_.sensors[0].modes = {{640, 480, 30, 0.1}, {640, 480, 25, 0.1}, {320, 240, 30, 1.0}};
+  const auto inventory = take();
+  ASSERT_EQ(inventory.cameras.size(), 4U);
+  const auto& busy = inventory.cameras[2];
+  EXPECT_EQ(busy.device.address, (UsbAddress{"usb-0000:00:14.0-2", "A1"}));
+  EXPECT_EQ(busy.trouble, "it is in use");
+  EXPECT_EQ(busy.configured_as, "");
+  const auto& heel = inventory.cameras[3];
+  EXPECT_EQ(heel.device.address, (UsbAddress{"usb-0000:00:14.0-4.3", "1210240012"}));
+  EXPECT_EQ(heel.configured_as, "heel");
+  ASSERT_EQ(heel.modes.size(), 2U);
+  EXPECT_EQ(heel.modes[0].format, "0.1 mm");
+  EXPECT_THAT(heel.modes[0].sizes, ElementsAre("640x480"));
+  const auto text = to_text(inventory, settings_);
+  EXPECT_THAT(text, HasSubstr("    cannot be opened: it is in use\n"));
+  EXPECT_THAT(text, HasSubstr("kind \"openni2\", 480 Mbit/s (it could be faster: use a USB 3 "
+                              "socket), configured as heel\n"));
+}
+
+// While the daemon has its sensor nobody else can ask it for its number.
+TEST_F(InventoryOfAMachine, KnowsASensorInUseByItsDescriptorOrAsTheOnlyOne) {
+  write_openni_sensor("2", "12");
+  openni_.sensors = {in_use("1d27/0609@1/12")};
+  configure_openni("A1");
+  EXPECT_EQ(take().cameras.back().configured_as, "heel");
+  configure_openni("");
+  EXPECT_EQ(take().cameras.back().configured_as, "heel");
+  write_openni_sensor("4.3", "7");
+  EXPECT_EQ(take().cameras[2].configured_as, "");
+  EXPECT_EQ(take().cameras[3].configured_as, "");
+}
+
+TEST_F(InventoryOfAMachine, ShowsWhatTheRealLibrarySeesAndWhyItSeesNothing) {
+  test::OpenniBus openni_bus;
+  openni_bus.plug_in({.serial = "S7"});
+  configure_openni("S7");
+  settings_.cameras[0].openni.library_folder = openni_bus.folder();
+  settings_.cameras.push_back(settings_.cameras[0]);
+  settings_.cameras[1].openni.library_folder = "/nowhere";
+  openni_ = look_through_openni(settings_, openni_bus.program().file, std::chrono::seconds(20));
+  const auto inventory = take();
+  const auto sensor =
+      std::find_if(inventory.cameras.begin(), inventory.cameras.end(),
+                   [](const auto& one) { return one.device.address.serial == "S7"; });
+  ASSERT_NE(sensor, inventory.cameras.end());
+  EXPECT_EQ(sensor->configured_as, "heel");
+  EXPECT_FALSE(sensor->modes.empty());
+  const auto json = to_json(inventory, settings_);
+  EXPECT_THAT(json["openni_troubles"].dump(), HasSubstr("there is no libOpenNI2.so.0 in /nowhere"));
+  const auto text = to_text(inventory, settings_);
+  EXPECT_THAT(text, HasSubstr(", serial S7\n    kind \"openni2\", not on USB, configured as heel"));
+  EXPECT_THAT(text, HasSubstr("  OpenNI2 lists no sensors: there is no libOpenNI2.so.0"));
 }
 
 TEST_F(InventoryOfAMachine, ListsInputDevicesOnUsbThatHaveKeys) {
@@ -106,7 +189,8 @@ TEST_F(InventoryOfAMachine, IsReportedForProgramsAndForPeople) {
 }
 
 TEST_F(InventoryOfAMachine, IsEmptyWhereTheKernelShowsNothing) {
-  const auto inventory = take_inventory(settings_, {"/nowhere", "/nowhere"}, linux_video_system());
+  const auto inventory =
+      take_inventory(settings_, {"/nowhere", "/nowhere"}, linux_video_system(), {});
   EXPECT_TRUE(inventory.cameras.empty());
   EXPECT_TRUE(inventory.gpio_chips.empty());
   EXPECT_TRUE(inventory.foot_switches.empty());

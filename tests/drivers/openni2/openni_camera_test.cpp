@@ -136,7 +136,7 @@ TEST(OpenniCamera, TakesTheOnlySensorIfNoneIsNamed) {
   bus.plug_in({.serial = "B2"});
   const auto unclear = OpenniCamera::open(bus.settings(""));
   ASSERT_FALSE(unclear);
-  EXPECT_THAT(unclear.error().line(), HasSubstr("instep-openni --list"));
+  EXPECT_THAT(unclear.error().line(), HasSubstr("instep devices"));
 }
 
 TEST(OpenniCamera, OpensBesideOthersThatLookForTheirsAtTheSameTime) {

@@ -18,7 +18,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 Inventory take(const Settings& settings) {
-  return take_inventory(settings, {}, linux_video_system());
+  return take_inventory(settings, {}, linux_video_system(), {});
 }
 
 TEST(InventoryOfTheKernel, ShowsGpioLinesWithTheirHolders) {

@@ -86,5 +86,20 @@ TEST_F(UsbWatchTest, ResetsADeviceThatIsThere) {
   EXPECT_EQ(absent.error().code, ErrorCode::kDeviceGone);
 }
 
+// What shares the number of a camera may be a disk.
+TEST_F(UsbWatchTest, ResetsNothingWhereTwoDevicesHaveTheNumber) {
+  UsbDepthCamera one({.port = 1, .serial = "E5"}, dark());
+  UsbDepthCamera other({.port = 2, .serial = "E5"}, dark());
+  one.plug();
+  ASSERT_TRUE(next("E5"));
+  other.plug();
+  ASSERT_TRUE(next("E5"));
+  const auto unclear = reset_usb_device({"", "E5"});
+  ASSERT_FALSE(unclear);
+  EXPECT_EQ(unclear.error().code, ErrorCode::kInvalidInput);
+  const auto clear = reset_usb_device({other.bus_path(), "E5"});
+  EXPECT_TRUE(clear) << clear.error().line();
+}
+
 }  // namespace
 }  // namespace instep::test
