@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/geometry/point_index.h"
@@ -153,10 +152,14 @@ std::vector<StandingPlane> likely_planes(const Points& sample) {
 bool is_closed(const Points& near_plane, const StandingPlane& plane) {
   constexpr double kCellMm = 10.0;
   const auto flat = touching(near_plane, plane, 1e300);
-  std::set<std::pair<long, long>> cells;
+  std::vector<std::pair<double, double>> cells;
+  cells.reserve(flat.size());
   for (const auto& point : flat) {
-    cells.emplace(std::lround(point.x() / kCellMm), std::lround(point.y() / kCellMm));
+    cells.emplace_back(std::floor(point.x() / kCellMm + 0.5),
+                       std::floor(point.y() / kCellMm + 0.5));
   }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   const double area = std::abs(signed_area(convex_hull(flat)));
   return static_cast<double>(cells.size()) * kCellMm * kCellMm > kFlatShare * area;
 }
