@@ -58,11 +58,13 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
                             [](const Local& a, double value) { return a.x() < value; });
   };
   const double last = sorted.back().x();
+  std::vector<Local> strip;
+  std::vector<Local> close;
   for (double place = std::ceil(sorted.front().x() / kStepMm) * kStepMm; place <= last;
        place += kStepMm) {
     for (double wider = 1.0; wider <= kWidestWindow; wider *= std::sqrt(2.0)) {
       const double window = wider * kWindowMm;
-      std::vector<Local> strip;
+      strip.clear();
       const auto end = from(place + window);
       const double thin = 0.5 * window;
       for (auto point = from(place - thin); point != end && point->x() < place + thin; ++point) {
@@ -71,7 +73,7 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
       }
       const auto start = start_of(strip);
       if (!start) continue;
-      std::vector<Local> close;
+      close.clear();
       for (auto point = from(place - window); point != end; ++point) {
         if (std::abs(point->y() - start->y()) > window) continue;
         if (point->z() < start->z() - kDeepestMm) continue;
