@@ -88,18 +88,25 @@ std::optional<double> BorderProfile::reach(double place) const {
                        [](const Sample& sample, double value) { return sample.place < value; });
   if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
   Eigen::Vector3d fitted(-1e300, 0.0, 0.0);
+  std::vector<char> is_short(static_cast<std::size_t>(end - begin), 0);
   for (int round = 0; round < kEnvelopeRounds; ++round) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    bool has_changed = round == 0;
     for (auto sample = begin; sample != end; ++sample) {
       const double offset = (sample->place - place) / smoothing_mm_;
       const Eigen::Vector3d terms(1.0, offset, offset * offset);
-      const double nearness = std::pow(1.0 - offset * offset, 2) + 1e-9;
-      const bool falls_short = sample->reach < fitted.dot(terms);
-      const double weight = nearness * (falls_short ? kShortSampleWeight : 1.0);
+      const double inwards = 1.0 - offset * offset;
+      const double nearness = inwards * inwards + 1e-9;
+      const char falls_short = sample->reach < fitted.dot(terms) ? 1 : 0;
+      char& was_short = is_short[static_cast<std::size_t>(sample - begin)];
+      has_changed = has_changed || falls_short != was_short;
+      was_short = falls_short;
+      const double weight = nearness * (falls_short != 0 ? kShortSampleWeight : 1.0);
       normal += weight * terms * terms.transpose();
       right += weight * sample->reach * terms;
     }
+    if (!has_changed) break;
     fitted = normal.ldlt().solve(right);
     if (!fitted.allFinite()) return std::nullopt;
   }

@@ -250,13 +250,16 @@ StandingPlane plane_below(const Points& points, const Vector3d& up) {
 
 StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) {
   StandingPlane sole = plane;
+  double checked = 0.0;  // a thickness is tried again only to settle
   // What stands up from a flat sole, its rim and arch, goes step by step.
   for (const double thickness : {6.0, 4.0, 2.5, 1.5, 1.5, 1.5}) {
     Points near_plane;
     for (const auto& point : points) {
       if (std::abs(sole.up.dot(point) - sole.height_mm) < thickness) near_plane.push_back(point);
     }
-    if (near_plane.size() < kFewestOfSole || !is_closed(near_plane, sole)) return plane;
+    if (near_plane.size() < kFewestOfSole) return plane;
+    if (thickness != checked && !is_closed(near_plane, sole)) return plane;
+    checked = thickness;
     const auto [up, height] = fitted_plane(near_plane, plane.up);
     if (up.cross(plane.up).norm() > kLargestTilt) return plane;
     sole = {up, height};
