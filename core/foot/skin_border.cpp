@@ -143,6 +143,8 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
   const auto begin = bound(along - smoothing_mm_);
   const auto end = bound(along + smoothing_mm_);
   if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
+  // Beyond the last sample a quadratic runs away.
+  if (along < begin->along - kStepMm || along > (end - 1)->along + kStepMm) return std::nullopt;
   Eigen::Matrix<double, 3, 2> fitted;
   double limit = 1e300;
   for (int round = 0; round < 2; ++round) {
