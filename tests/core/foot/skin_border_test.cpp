@@ -39,7 +39,7 @@ TEST(SkinBorder, EndsWithItsPoints) {
   std::erase_if(points, [](const Vector3d& point) { return point.x() > 60.0; });
   const SkinBorder border(points, kFromAbove, 9.0);
   EXPECT_NEAR(border.reach(58.0).value(), true_reach(58.0), 0.3);
-  EXPECT_FALSE(border.reach(64.5));
+  EXPECT_FALSE(border.reach(62.5));
 }
 
 TEST(SkinBorder, IsNotPulledOutwardsByNoise) {
