@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
+#include <utility>
 
 namespace instep {
 namespace {
@@ -17,41 +17,63 @@ constexpr int kEnvelopeRounds = 4;
 constexpr double kSearchStepMm = 0.5;
 constexpr std::size_t kFewestSamples = 4;
 
-double strip_width(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along,
-                   double narrowest_mm) {
-  if (points.empty()) return narrowest_mm;
-  double from = along.dot(points.front());
-  double to = from;
+struct Extent {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+Extent extent(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along) {
+  Extent extent{1e300, -1e300};
   for (const auto& point : points) {
-    from = std::min(from, along.dot(point));
-    to = std::max(to, along.dot(point));
+    const double place = along.dot(point);
+    extent.from = std::min(extent.from, place);
+    extent.to = std::max(extent.to, place);
   }
-  return std::max(narrowest_mm, kPointsInStrip * (to - from) / static_cast<double>(points.size()));
+  return extent;
 }
 
-Eigen::Vector2d furthest_point(std::vector<Eigen::Vector2d>& points) {
-  const std::size_t count = std::min<std::size_t>(2, points.size());
-  std::partial_sort(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count),
-                    points.end(), [](const auto& a, const auto& b) { return a.y() > b.y(); });
-  const bool is_stray = count == 2 && points[0].y() - points[1].y() > kStrayMm;
-  return points[is_stray ? 1 : 0];
-}
+/// The two furthest points of a strip.
+struct Strip {
+  Eigen::Vector2d furthest{0.0, -1e300};
+  Eigen::Vector2d next{0.0, -1e300};
+
+  void add(const Eigen::Vector2d& point) {
+    if (point.y() > furthest.y()) {
+      next = std::exchange(furthest, point);
+    } else if (point.y() > next.y()) {
+      next = point;
+    }
+  }
+
+  bool is_empty() const { return furthest.y() == -1e300; }
+
+  const Eigen::Vector2d& sample() const {
+    const bool is_stray = next.y() > -1e300 && furthest.y() - next.y() > kStrayMm;
+    return is_stray ? next : furthest;
+  }
+};
 
 }  // namespace
 
 BorderProfile::BorderProfile(const std::vector<Eigen::Vector2d>& points,
                              const Eigen::Vector2d& along, const Eigen::Vector2d& reach,
                              double smoothing_mm, double strip_mm) {
-  const double width = strip_width(points, along, strip_mm);
+  if (points.empty()) return;
+  const Extent places = extent(points, along);
+  const double width = std::max(
+      strip_mm, kPointsInStrip * (places.to - places.from) / static_cast<double>(points.size()));
   smoothing_mm_ = std::max(smoothing_mm, kNarrowestSmoothingInStrips * width);
-  std::map<long, std::vector<Eigen::Vector2d>> strips;
+  const double first = std::floor(places.from / width + 0.5);
+  const auto strip_of = [&](double place) {
+    return static_cast<std::size_t>(std::floor(place / width + 0.5) - first);
+  };
+  std::vector<Strip> strips(strip_of(places.to) + 1);
   for (const auto& point : points) {
     const double place = along.dot(point);
-    strips[std::lround(place / width)].emplace_back(place, reach.dot(point));
+    strips[strip_of(place)].add({place, reach.dot(point)});
   }
-  for (auto& [number, strip] : strips) {
-    const Eigen::Vector2d sample = furthest_point(strip);
-    samples_.push_back({sample.x(), sample.y()});
+  for (const auto& strip : strips) {
+    if (!strip.is_empty()) samples_.push_back({strip.sample().x(), strip.sample().y()});
   }
   std::sort(samples_.begin(), samples_.end(),
             [](const Sample& a, const Sample& b) { return a.place < b.place; });
@@ -66,18 +88,25 @@ std::optional<double> BorderProfile::reach(double place) const {
                        [](const Sample& sample, double value) { return sample.place < value; });
   if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
   Eigen::Vector3d fitted(-1e300, 0.0, 0.0);
+  std::vector<char> is_short(static_cast<std::size_t>(end - begin), 0);
   for (int round = 0; round < kEnvelopeRounds; ++round) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    bool has_changed = round == 0;
     for (auto sample = begin; sample != end; ++sample) {
       const double offset = (sample->place - place) / smoothing_mm_;
       const Eigen::Vector3d terms(1.0, offset, offset * offset);
-      const double nearness = std::pow(1.0 - offset * offset, 2) + 1e-9;
-      const bool falls_short = sample->reach < fitted.dot(terms);
-      const double weight = nearness * (falls_short ? kShortSampleWeight : 1.0);
+      const double inwards = 1.0 - offset * offset;
+      const double nearness = inwards * inwards + 1e-9;
+      const char falls_short = sample->reach < fitted.dot(terms) ? 1 : 0;
+      char& was_short = is_short[static_cast<std::size_t>(sample - begin)];
+      has_changed = has_changed || falls_short != was_short;
+      was_short = falls_short;
+      const double weight = nearness * (falls_short != 0 ? kShortSampleWeight : 1.0);
       normal += weight * terms * terms.transpose();
       right += weight * sample->reach * terms;
     }
+    if (!has_changed) break;
     fitted = normal.ldlt().solve(right);
     if (!fitted.allFinite()) return std::nullopt;
   }

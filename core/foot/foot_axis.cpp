@@ -13,8 +13,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-constexpr int kMostRounds = 12;
-constexpr double kStandsStillRad = 1e-4;
+// A round leaves some 0.4 of the turn that is left.
+constexpr int kMostRounds = 8;
+constexpr double kStandsStillRad = 3e-4;
 
 Points outline_points(const Points& points, double length) {
   Points low;
@@ -38,23 +39,23 @@ Points moved(const RigidTransform& transform, Points points) {
   return points;
 }
 
-/// The rearmost point of the heel and the foremost of the toes, for the x axis of `points`.
-struct Ends {
-  Vector3d rear;
-  Vector3d front;
-};
-
-Ends find_ends(const Points& points, double length) {
-  const Points heel = beyond(points, -Vector3d::UnitX(), -0.15 * length);
-  const Points toes = beyond(points, Vector3d::UnitX(), 0.75 * length);
-  return {robust_extreme(heel, -Vector3d::UnitX()), robust_extreme(toes, Vector3d::UnitX())};
+Vector3d rearmost(const Points& points, double length) {
+  const Vector3d back = -Vector3d::UnitX();
+  return robust_extreme(beyond(points, back, -0.15 * length), back);
 }
 
-/// The outline seen from above with the medial side on +y.
-std::vector<Vector2d> as_right_foot(const Points& points, double medial_sign) {
+Vector3d foremost(const Points& points, double from) {
+  return robust_extreme(beyond(points, Vector3d::UnitX(), from), Vector3d::UnitX());
+}
+
+/// The outline seen from above, counted from the heel, with the medial side on +y.
+std::vector<Vector2d> as_right_foot(const Points& points, const Vector3d& heel,
+                                    double medial_sign) {
   std::vector<Vector2d> outline;
   outline.reserve(points.size());
-  for (const auto& point : points) outline.emplace_back(point.x(), medial_sign * point.y());
+  for (const auto& point : points) {
+    outline.emplace_back(point.x() - heel.x(), medial_sign * (point.y() - heel.y()));
+  }
   return outline;
 }
 
@@ -65,20 +66,23 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
   FootAxis axis;
   axis.foot_from_standing = start.axis_from_standing();
   const Points low = outline_points(standing_points, start.length_mm);
+  double turn = 0.0;
+  double share = 1.0;
   for (int round = 0; round < kMostRounds; ++round) {
-    Points points = moved(axis.foot_from_standing, low);
-    const Vector3d rear = find_ends(points, start.length_mm).rear;
-    const RigidTransform to_heel(Eigen::Translation3d(-rear.x(), -rear.y(), 0.0));
-    points = moved(to_heel, std::move(points));
-    const auto toe = find_second_toe(as_right_foot(points, medial_sign), start.length_mm);
-    axis.foot_from_standing = to_heel * axis.foot_from_standing;
-    const Ends ends = find_ends(points, start.length_mm);
-    axis.pternion = ends.rear;
-    axis.acropodion = ends.front;
+    const Points points = moved(axis.foot_from_standing, low);
+    const Vector3d rear = rearmost(points, start.length_mm);
+    const Vector3d heel(rear.x(), rear.y(), 0.0);
+    axis.foot_from_standing = RigidTransform(Eigen::Translation3d(-heel)) * axis.foot_from_standing;
+    axis.pternion = rear - heel;
+    axis.acropodion = foremost(points, rear.x() + 0.75 * start.length_mm) - heel;
+    const auto toe = find_second_toe(as_right_foot(points, heel, medial_sign), start.length_mm);
     if (!toe) break;
     axis.is_second_toe_resolved = toe->is_resolved;
-    axis.toe2_tip = {toe->tip.x(), medial_sign * toe->tip.y(), ends.front.z()};
-    const double turn = std::atan2(axis.toe2_tip.y(), axis.toe2_tip.x());
+    axis.toe2_tip = {toe->tip.x(), medial_sign * toe->tip.y(), axis.acropodion.z()};
+    const double wanted = std::atan2(axis.toe2_tip.y(), axis.toe2_tip.x());
+    // Where the tip jumps to and fro between two toes or rules, the axis comes to rest between.
+    if (wanted * turn < 0.0) share *= 0.5;
+    turn = share * wanted;
     if (std::abs(turn) < kStandsStillRad) break;
     axis.foot_from_standing =
         RigidTransform(Eigen::AngleAxisd(-turn, Vector3d::UnitZ())) * axis.foot_from_standing;

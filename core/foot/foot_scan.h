@@ -30,10 +30,17 @@ struct RedrawnLandmarks {
   RigidTransform foot_from_redrawn = RigidTransform::Identity();
 };
 
-/// All redraws: the cloud was parted, maybe several times, into `parts` of equal size, and the
-/// redraws of one parting follow each other.
-struct Redraws {
+/// How the points are parted for redraws: at random into `parts` of equal size, of which each is
+/// taken alone or, where points are few, left out alone.
+struct Parting {
   std::size_t parts = 0;
+  bool is_part_left_out = false;
+};
+
+/// All redraws: the cloud was parted, maybe several times, and the redraws of one parting, one for
+/// each part, follow each other.
+struct Redraws {
+  Parting parting;
   std::vector<RedrawnLandmarks> landmarks;
 };
 

@@ -153,7 +153,7 @@ template <typename Taker>
 std::optional<double> spread_over_redraws(const FootScan& foot, const Taker& taken) {
   std::vector<std::optional<double>> values;
   for (const auto& redrawn : foot.redraws.landmarks) values.push_back(taken(redrawn));
-  const auto u95 = u95_of_redraws(values, foot.redraws.parts);
+  const auto u95 = u95_of_redraws(values, foot.redraws.parting);
   return u95 ? std::optional(kSharedDoubt * *u95) : std::nullopt;
 }
 

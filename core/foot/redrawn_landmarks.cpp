@@ -16,8 +16,9 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kRedraws = 8;
 constexpr std::size_t kMostParts = 8;
-constexpr std::size_t kPointsOfPart = 7000;
-constexpr std::size_t kFewestDegrees = 3;
+constexpr std::size_t kPointsOfPart = 6000;
+constexpr Parting kOfFewPoints{4, true};
+constexpr std::size_t kFewestDegrees = 2;
 
 /// Student's 97.5 % points for 1 to 8 degrees of freedom.
 constexpr std::array<double, 8> kStudent{12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31};
@@ -47,27 +48,43 @@ RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>
   return {std::move(part.landmarks), part.foot_from_input.inverse()};
 }
 
+Parting parting_of(std::size_t points) {
+  if (points < 2 * kPointsOfPart) return kOfFewPoints;
+  return {std::min(points / kPointsOfPart, kMostParts), false};
+}
+
+/// Variance of what all points give over that between the redraws of a parting.
+double variance_share(const Parting& parting) {
+  const auto parts = static_cast<double>(parting.parts);
+  return parting.is_part_left_out ? (parts - 1.0) * (parts - 1.0) / parts : 1.0 / parts;
+}
+
 }  // namespace
 
 Redraws redraw_landmarks(const FootScan& foot) {
   Redraws redraws;
-  redraws.parts = std::clamp<std::size_t>(foot.cloud.size() / kPointsOfPart, 2, kMostParts);
-  const std::size_t partings = (kRedraws + redraws.parts - 1) / redraws.parts;
+  redraws.parting = parting_of(foot.cloud.size());
+  const auto [parts, is_part_left_out] = redraws.parting;
+  const std::size_t partings = (kRedraws + parts / 2) / parts;
   std::vector<std::uint64_t> hashes;
   hashes.reserve(foot.cloud.size());
   for (const auto& point : foot.cloud.positions) hashes.push_back(hash_of(point));
   for (std::size_t parting = 0; parting < partings; ++parting) {
-    std::vector<std::vector<std::size_t>> parts(redraws.parts);
-    for (std::size_t i = 0; i < hashes.size(); ++i) {
-      parts[(hashes[i] >> (8 * parting)) % redraws.parts].push_back(i);
+    for (std::size_t part = 0; part < parts; ++part) {
+      std::vector<std::size_t> taken;
+      for (std::size_t i = 0; i < hashes.size(); ++i) {
+        const bool is_of_part = (hashes[i] >> (8 * parting)) % parts == part;
+        if (is_of_part != is_part_left_out) taken.push_back(i);
+      }
+      redraws.landmarks.push_back(redrawn_on(foot, taken));
     }
-    for (const auto& part : parts) redraws.landmarks.push_back(redrawn_on(foot, part));
   }
   return redraws;
 }
 
 std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& values,
-                                     std::size_t parts) {
+                                     const Parting& parting) {
+  const std::size_t parts = parting.parts;
   double squares = 0.0;
   std::size_t degrees = 0;
   for (std::size_t first = 0; first + parts <= values.size(); first += parts) {
@@ -85,7 +102,7 @@ std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& v
     degrees += static_cast<std::size_t>(count) - 1;
   }
   if (degrees < kFewestDegrees) return std::nullopt;
-  const double variance = squares / static_cast<double>(degrees * parts);
+  const double variance = variance_share(parting) * squares / static_cast<double>(degrees);
   return kStudent[std::min(degrees, kStudent.size()) - 1] * std::sqrt(variance);
 }
 
@@ -102,7 +119,7 @@ void set_radii(FootScan& foot) {
                 ? std::nullopt
                 : std::optional((redrawn.foot_from_redrawn * found->second.position_mm)(axis)));
       }
-      const auto own = u95_of_redraws(values, foot.redraws.parts);
+      const auto own = u95_of_redraws(values, foot.redraws.parting);
       is_known = is_known && own.has_value();
       squared += std::pow(own.value_or(0.0), 2);
     }

@@ -11,18 +11,23 @@ namespace instep {
 /// and all rules anew, so that whatever hangs on whatever is counted with it.
 ///
 /// The points are parted by a hash of their coordinates into two to eight parts, as many as leave
-/// 7000 points to each, as often as it takes to have eight parts or more. What one of k parts
+/// 6000 points to each, as often as it takes to have about eight redraws. What one of k parts
 /// leaves open has k times the variance of what all points together do, as far as that falls with
-/// their number; noise and sampling do. What all parts share, such as a hole, a fault of the
-/// calibration or a rule that is not what was meant, does not show. `foot` has its landmarks. One
-/// to four times the cost of landmarks.
+/// their number; noise and sampling do. Clouds of fewer than 12,000 points would leave parts that
+/// show no toe or ball any more, so that each of four parts is left out instead, in two partings:
+/// a jackknife, whose variance of the whole is (k - 1)^2 / k times that between redraws (Efron,
+/// Tibshirani: An introduction to the bootstrap, 1993, section 11.5).
+///
+/// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
+/// meant, does not show. `foot` has its landmarks. One to four times the cost of landmarks; six
+/// times where parts are left out.
 Redraws redraw_landmarks(const FootScan& foot);
 
 /// Half-width of the 95 % interval of a value from what the redraws gave for it, in their order
-/// (nothing where one gave nothing), by Student's distribution: few parts say little about their
-/// own spread. Nothing where that leaves fewer than three degrees of freedom.
+/// (nothing where one gave nothing), by Student's distribution: few redraws say little about their
+/// own spread. Nothing where that leaves fewer than two degrees of freedom.
 std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& values,
-                                     std::size_t parts);
+                                     const Parting& parting);
 
 /// The landmarks' 95 % radii, from FootScan::redraws.
 void set_radii(FootScan& foot);

@@ -18,6 +18,9 @@ constexpr double kNarrowestMm = 3.0;
 /// The patch reaches so far, as a share of the skin's radius there: on a toe's tip a wider one is
 /// no quadratic any more.
 constexpr double kShareOfRadius = 0.7;
+/// Where points are few, as the corners of a coarse mesh, it is widened up to so many times.
+constexpr double kWidenedAtMost = 2.0;
+constexpr double kWider = 1.25;
 /// Deeper points are of another face: the sole behind the edge of a toe.
 constexpr double kDeepestMm = 4.0;
 constexpr std::size_t kFewestForSummit = 12;
@@ -40,6 +43,16 @@ SkinPatch within(const SkinPatch& patch, const Vector2d& middle, double radius) 
     if (offset.squaredNorm() < radius * radius) {
       close.emplace_back(offset.x(), offset.y(), point.z());
     }
+  }
+  return close;
+}
+
+/// The points round a place, of as narrow a circle as holds enough of them; fewer where none does.
+SkinPatch enough_within(const SkinPatch& patch, const Vector2d& middle, double& radius) {
+  SkinPatch close = within(patch, middle, radius);
+  if (close.size() < kFewestForSummit) radius = kWidestMm;
+  for (; close.size() < kFewestForSummit && radius < kWidenedAtMost * kWidestMm; radius *= kWider) {
+    close = within(patch, middle, radius);
   }
   return close;
 }
@@ -69,7 +82,7 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
   SkinPatch patch;
   for (const auto& point : points) {
     const Vector3d offset = point - start;
-    if (offset.squaredNorm() > 4.0 * kWidestMm * kWidestMm) continue;
+    if (offset.norm() > kWidenedAtMost * kWidestMm) continue;
     if (direction.dot(offset) < -kDeepestMm) continue;
     patch.emplace_back(across.dot(offset), upright.dot(offset), direction.dot(offset));
   }
@@ -77,8 +90,7 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
   double radius = kWidestMm;
   std::optional<double> reach;
   for (int round = 0; round < kRounds; ++round) {
-    SkinPatch close = within(patch, middle, radius);
-    if (close.size() < kFewestForSummit) close = within(patch, middle, radius = kWidestMm);
+    const SkinPatch close = enough_within(patch, middle, radius);
     if (close.size() < kFewestForSummit) break;
     const auto skin = QuadraticSkin::through(close);
     if (!skin) break;

@@ -20,6 +20,13 @@ constexpr std::size_t kFewestSectors = 24;
 /// Points in a sector that lie deeper than this under its outermost are of another face.
 constexpr double kDeepestMm = 8.0;
 
+struct SectionPoint {
+  Vector2d place;
+  double weight = 0.0;
+  std::size_t sector = 0;
+  double distance = 0.0;  ///< from the middle
+};
+
 struct Sector {
   double furthest = 0.0;
   double weight = 0.0;
@@ -30,13 +37,13 @@ struct Sector {
 
 std::optional<double> rough_tape(const std::vector<Eigen::Vector3d>& points,
                                  const TapePlane& plane) {
-  std::vector<std::pair<Vector2d, double>> section;
+  std::vector<SectionPoint> section;
   Eigen::AlignedBox2d box;
   for (const auto& point : points) {
     const double off = plane.distance(point) / kBandMm;
     if (std::abs(off) >= 1.0) continue;
-    section.emplace_back(plane.project(point), 1.0 - off * off);
-    box.extend(section.back().first);
+    section.push_back({plane.project(point), 1.0 - off * off});
+    box.extend(section.back().place);
   }
   if (section.size() < kFewestSectors) return std::nullopt;
   const Vector2d middle = box.center();
@@ -46,15 +53,17 @@ std::optional<double> rough_tape(const std::vector<Eigen::Vector3d>& points,
     return std::min(kSectors - 1, static_cast<std::size_t>(turn * kSectors));
   };
   std::array<Sector, kSectors> sectors;
-  for (const auto& [place, weight] : section) {
-    auto& sector = sectors[sector_of(place)];
-    sector.furthest = std::max(sector.furthest, (place - middle).norm());
+  for (auto& point : section) {
+    point.sector = sector_of(point.place);
+    point.distance = (point.place - middle).norm();
+    auto& furthest = sectors[point.sector].furthest;
+    furthest = std::max(furthest, point.distance);
   }
-  for (const auto& [place, weight] : section) {
-    auto& sector = sectors[sector_of(place)];
-    if ((place - middle).norm() < sector.furthest - kDeepestMm) continue;
-    sector.weight += weight;
-    sector.sum += weight * place;
+  for (const auto& point : section) {
+    auto& sector = sectors[point.sector];
+    if (point.distance < sector.furthest - kDeepestMm) continue;
+    sector.weight += point.weight;
+    sector.sum += point.weight * point.place;
   }
   std::vector<Vector2d> ring;
   for (const auto& sector : sectors) {

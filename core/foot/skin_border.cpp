@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -36,6 +37,48 @@ std::optional<Local> start_of(const std::vector<Local>& strip) {
   return furthest[count / 2];
 }
 
+/// Drops what lies too deep under the furthest points near by to have a say in any place; most of a
+/// body does.
+void drop_deep(std::vector<Local>& points, const BorderView& view) {
+  constexpr double kBinMm = 2.0;
+  constexpr long kReachBins = 9;  // of a window at its widest, its strip, and a bin at either end
+  double from = 1e300;
+  double to = -1e300;
+  for (const auto& point : points) {
+    from = std::min(from, point.x());
+    to = std::max(to, point.x());
+  }
+  const auto bin_of = [&](const Local& point) {
+    return static_cast<std::size_t>((point.x() - from) / kBinMm);
+  };
+  // A strip is wider than two bins, so that it holds one whole: its start, and all that it is told
+  // from, lies no lower than what is found here for the lowest bin near by.
+  std::array<double, kFurthest> none;
+  none.fill(-1e300);
+  std::vector<std::array<double, kFurthest>> furthest(
+      static_cast<std::size_t>((to - from) / kBinMm) + 1, none);
+  for (const auto& point : points) {
+    if (point.y() < view.across_from_mm || point.y() > view.across_to_mm) continue;
+    auto& own = furthest[bin_of(point)];
+    if (point.z() <= own.back()) continue;
+    own.back() = point.z();
+    for (std::size_t i = kFurthest - 1; i > 0 && own[i] > own[i - 1]; --i) {
+      std::swap(own[i], own[i - 1]);
+    }
+  }
+  std::vector<double> deepest(furthest.size());
+  const auto bins = static_cast<long>(furthest.size());
+  for (long bin = 0; bin < bins; ++bin) {
+    double least = 1e300;
+    for (long near = std::max(0L, bin - kReachBins); near <= std::min(bins - 1, bin + kReachBins);
+         ++near) {
+      least = std::min(least, furthest[static_cast<std::size_t>(near)].back());
+    }
+    deepest[static_cast<std::size_t>(bin)] = least - kDeepestMm;
+  }
+  std::erase_if(points, [&](const Local& point) { return point.z() < deepest[bin_of(point)]; });
+}
+
 }  // namespace
 
 SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& view,
@@ -51,6 +94,7 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
     if (is_near) sorted.push_back(local);
   }
   if (sorted.empty()) return;
+  drop_deep(sorted, view);
   std::sort(sorted.begin(), sorted.end(),
             [](const Local& a, const Local& b) { return a.x() < b.x(); });
   const auto from = [&](double place) {
@@ -58,11 +102,13 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
                             [](const Local& a, double value) { return a.x() < value; });
   };
   const double last = sorted.back().x();
+  std::vector<Local> strip;
+  std::vector<Local> close;
   for (double place = std::ceil(sorted.front().x() / kStepMm) * kStepMm; place <= last;
        place += kStepMm) {
     for (double wider = 1.0; wider <= kWidestWindow; wider *= std::sqrt(2.0)) {
       const double window = wider * kWindowMm;
-      std::vector<Local> strip;
+      strip.clear();
       const auto end = from(place + window);
       const double thin = 0.5 * window;
       for (auto point = from(place - thin); point != end && point->x() < place + thin; ++point) {
@@ -71,7 +117,7 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
       }
       const auto start = start_of(strip);
       if (!start) continue;
-      std::vector<Local> close;
+      close.clear();
       for (auto point = from(place - window); point != end; ++point) {
         if (std::abs(point->y() - start->y()) > window) continue;
         if (point->z() < start->z() - kDeepestMm) continue;
@@ -97,6 +143,8 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
   const auto begin = bound(along - smoothing_mm_);
   const auto end = bound(along + smoothing_mm_);
   if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
+  // Beyond the last sample a quadratic runs away.
+  if (along < begin->along - kStepMm || along > (end - 1)->along + kStepMm) return std::nullopt;
   Eigen::Matrix<double, 3, 2> fitted;
   double limit = 1e300;
   for (int round = 0; round < 2; ++round) {

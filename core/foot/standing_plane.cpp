@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "core/geometry/point_index.h"
@@ -153,10 +152,14 @@ std::vector<StandingPlane> likely_planes(const Points& sample) {
 bool is_closed(const Points& near_plane, const StandingPlane& plane) {
   constexpr double kCellMm = 10.0;
   const auto flat = touching(near_plane, plane, 1e300);
-  std::set<std::pair<long, long>> cells;
+  std::vector<std::pair<double, double>> cells;
+  cells.reserve(flat.size());
   for (const auto& point : flat) {
-    cells.emplace(std::lround(point.x() / kCellMm), std::lround(point.y() / kCellMm));
+    cells.emplace_back(std::floor(point.x() / kCellMm + 0.5),
+                       std::floor(point.y() / kCellMm + 0.5));
   }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
   const double area = std::abs(signed_area(convex_hull(flat)));
   return static_cast<double>(cells.size()) * kCellMm * kCellMm > kFlatShare * area;
 }
@@ -247,13 +250,16 @@ StandingPlane plane_below(const Points& points, const Vector3d& up) {
 
 StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) {
   StandingPlane sole = plane;
+  double checked = 0.0;  // a thickness is tried again only to settle
   // What stands up from a flat sole, its rim and arch, goes step by step.
   for (const double thickness : {6.0, 4.0, 2.5, 1.5, 1.5, 1.5}) {
     Points near_plane;
     for (const auto& point : points) {
       if (std::abs(sole.up.dot(point) - sole.height_mm) < thickness) near_plane.push_back(point);
     }
-    if (near_plane.size() < kFewestOfSole || !is_closed(near_plane, sole)) return plane;
+    if (near_plane.size() < kFewestOfSole) return plane;
+    if (thickness != checked && !is_closed(near_plane, sole)) return plane;
+    checked = thickness;
     const auto [up, height] = fitted_plane(near_plane, plane.up);
     if (up.cross(plane.up).norm() > kLargestTilt) return plane;
     sole = {up, height};

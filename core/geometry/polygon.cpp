@@ -1,6 +1,7 @@
 #include "core/geometry/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -27,9 +28,36 @@ void append_chain(Iterator begin, Iterator end, std::vector<Eigen::Vector2d>& hu
   hull.pop_back();  // the next chain begins with it
 }
 
+/// Drops points well inside the furthest ones in eight directions: they are on no hull, and most
+/// points of a crowd are such (Akl, Toussaint: A fast convex hull algorithm, 1978).
+void drop_inner(std::vector<Eigen::Vector2d>& points) {
+  constexpr std::size_t kWorthwhile = 64;
+  if (points.size() < kWorthwhile) return;
+  const std::array<Eigen::Vector2d, 8> directions{
+      {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+  std::array<Eigen::Vector2d, 8> corners;
+  corners.fill(points.front());
+  for (const auto& point : points) {
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      if (directions[i].dot(point) > directions[i].dot(corners[i])) corners[i] = point;
+    }
+  }
+  std::erase_if(points, [&](const Eigen::Vector2d& point) {
+    bool is_inner = false;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d edge = corners[(i + 1) % corners.size()] - corners[i];
+      if (edge.isZero(0.0)) continue;  // one corner is furthest in two directions
+      is_inner = cross(edge, point - corners[i]) > 0.0;
+      if (!is_inner) return false;
+    }
+    return is_inner;
+  });
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
+  drop_inner(points);
   std::sort(points.begin(), points.end(), left_of);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;

@@ -14,7 +14,7 @@ using Values = std::vector<std::optional<double>>;
 TEST(Redraws, GiveStudentsIntervalOfTheWhole) {
   // Four partings into halves of +1 and -1: a part has variance 2, the whole 1, with four degrees.
   const Values values{1.0, -1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0};
-  EXPECT_NEAR(u95_of_redraws(values, 2).value(), 2.776, 0.01);
+  EXPECT_NEAR(u95_of_redraws(values, {2, false}).value(), 2.776, 0.01);
 }
 
 TEST(Redraws, HoldTheMeanOfThePartsInNineteenOfTwentyCases) {
@@ -28,15 +28,30 @@ TEST(Redraws, HoldTheMeanOfThePartsInNineteenOfTwentyCases) {
       parts.emplace_back(random.normal());
       mean += *parts.back() / 8.0;
     }
-    if (std::abs(mean) <= u95_of_redraws(parts, 8).value()) ++held;
+    if (std::abs(mean) <= u95_of_redraws(parts, {8, false}).value()) ++held;
+  }
+  EXPECT_NEAR(static_cast<double>(held) / kCases, 0.95, 0.012);
+}
+
+TEST(Redraws, ThatLeaveOutPartsHoldTheMeanInNineteenOfTwentyCases) {
+  test::RandomNumbers random(6);
+  constexpr int kCases = 4000;
+  int held = 0;
+  for (int i = 0; i < kCases; ++i) {
+    double sum = 0.0;
+    std::vector<double> parts;
+    for (int k = 0; k < 8; ++k) sum += parts.emplace_back(random.normal());
+    Values without;
+    for (const double part : parts) without.emplace_back((sum - part) / 7.0);
+    if (std::abs(sum / 8.0) <= u95_of_redraws(without, {8, true}).value()) ++held;
   }
   EXPECT_NEAR(static_cast<double>(held) / kCases, 0.95, 0.012);
 }
 
 TEST(Redraws, SayNothingFromTooFew) {
-  EXPECT_FALSE(u95_of_redraws({}, 2));
-  EXPECT_FALSE(u95_of_redraws(Values{1.0, 2.0}, 2));
-  EXPECT_FALSE(u95_of_redraws(Values{1.0, std::nullopt, 2.0, 3.0, std::nullopt, 1.0}, 2));
+  EXPECT_FALSE(u95_of_redraws({}, {2, false}));
+  EXPECT_FALSE(u95_of_redraws(Values{1.0, 2.0}, {2, false}));
+  EXPECT_FALSE(u95_of_redraws(Values{1.0, std::nullopt, 2.0, std::nullopt}, {4, true}));
 }
 
 }  // namespace

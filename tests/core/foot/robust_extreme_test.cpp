@@ -43,6 +43,15 @@ TEST(RobustExtreme, IsWithinAThirdOfAMillimetreOnHeelAndToe) {
   }
 }
 
+TEST(RobustExtreme, FindsTheSkinBetweenTheFarCornersOfACoarseMesh) {
+  for (const double radius : {12.0, 30.0}) {
+    const auto points = sphere(radius, 4.0);
+    for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0.6, -0.8, 0)}) {
+      EXPECT_NEAR(direction.dot(robust_extreme(points, direction)), radius, 0.15) << radius;
+    }
+  }
+}
+
 TEST(RobustExtreme, IgnoresTwoStrays) {
   auto points = sphere(30.0, 1.0);
   const double clean = robust_extreme(points, Vector3d::UnitX()).x();

@@ -34,6 +34,14 @@ double true_reach(double x) {
   return 45.0 * std::sqrt(1.0 - x * x / (120.0 * 120.0));
 }
 
+TEST(SkinBorder, EndsWithItsPoints) {
+  auto points = ellipsoid(0.3, 30000, 3);
+  std::erase_if(points, [](const Vector3d& point) { return point.x() > 60.0; });
+  const SkinBorder border(points, kFromAbove, 9.0);
+  EXPECT_NEAR(border.reach(58.0).value(), true_reach(58.0), 0.3);
+  EXPECT_FALSE(border.reach(62.5));
+}
+
 TEST(SkinBorder, IsNotPulledOutwardsByNoise) {
   for (const double sigma : {0.0, 0.3, 0.6}) {
     const SkinBorder border(ellipsoid(sigma, 30000, 3), kFromAbove, 9.0);

@@ -61,6 +61,7 @@ TEST(ConvexHull, ContainsAllRandomPoints) {
 TEST(ConvexHull, GivesBackWhatHasNoArea) {
   EXPECT_TRUE(convex_hull({}).empty());
   EXPECT_EQ(convex_hull({{1, 1}, {1, 1}}).size(), 1U);
+  EXPECT_EQ(convex_hull(std::vector<Vector2d>(100, {1, 1})).size(), 1U);
   const auto segment = convex_hull({{0, 0}, {3, 0}, {1, 0}, {2, 0}});
   EXPECT_DOUBLE_EQ(perimeter(segment), 6.0);
 }
