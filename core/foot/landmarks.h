@@ -41,7 +41,7 @@ namespace instep {
 ///
 /// A landmark for which the cloud has no points at all is left out, with a warning; measures that
 /// need it are then withheld. Fails with kInvalidInput if `foot` lacks the landmarks of
-/// align_foot(). O(n): some 20 ms for 50,000 points, and one to six times as much for the redraws.
+/// align_foot(). O(n), most of it for the redraws; tests/bench/feet prints the time.
 Result<FootScan> find_landmarks(FootScan foot);
 
 /// The rules alone, without redraws and radii.
