@@ -142,10 +142,8 @@ const std::vector<GirthRule>& girth_rules() {
   return rules;
 }
 
-// What all redraws share, holes and the rules' own roundings, does not show in their scatter. Over
-// drawn feet (tests/bench/feet) intervals so much wider hold as often as they should, and heights
-// are out by half a millimetre with the floor that they are counted from.
-constexpr double kSharedDoubt = 1.25;
+// Over drawn feet (tests/bench/feet) heights are out by half a millimetre with the floor that they
+// are counted from, which the scatter of the redraws does not show.
 constexpr double kFloorDoubtMm = 0.5;
 
 /// What each redraw of the landmarks gives; nothing where it gives nothing.

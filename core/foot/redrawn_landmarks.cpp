@@ -123,7 +123,7 @@ void set_radii(FootScan& foot) {
       is_known = is_known && own.has_value();
       squared += std::pow(own.value_or(0.0), 2);
     }
-    if (is_known) landmark.radius_mm = std::sqrt(squared);
+    if (is_known) landmark.radius_mm = kSharedDoubt * std::sqrt(squared);
   }
 }
 
