@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
-constexpr double kSeenToe = 0.5;          ///< confidence of a second toe that was seen as one
 constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
@@ -44,20 +43,20 @@ tl::unexpected<Error> too_few(std::size_t points) {
               "give at least " + std::to_string(kFewestPoints) + " points of one foot");
 }
 
-std::vector<std::string> doubts(const FootScan& foot, bool is_second_toe_resolved) {
+std::vector<std::string> doubts(const FootScan& foot) {
   std::vector<std::string> warnings;
   if (foot.side_confidence < kSureSide) {
     warnings.emplace_back("the shape hardly tells left from right: check the side");
   }
-  if (!is_second_toe_resolved) {
+  if (!foot.has_seen_toes()) {
     warnings.emplace_back(
         "the toes cannot be told apart: the second toe's tip is placed by proportion");
   }
   return warnings;
 }
 
-/// Moves the foot into the frame of an axis and sets its ends; true if the second toe was seen.
-bool take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& standing_from_cloud) {
+/// Moves the foot into the frame of an axis and sets its ends.
+void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& standing_from_cloud) {
   const RigidTransform foot_from_cloud = axis.foot_from_standing * standing_from_cloud;
   foot.foot_from_input = foot_from_cloud * foot.foot_from_input;
   foot.cloud = transformed(foot_from_cloud, foot.cloud);
@@ -69,7 +68,6 @@ bool take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
       axis.is_second_toe_resolved
           ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
           : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
-  return axis.is_second_toe_resolved;
 }
 
 /// A foot's cloud put into its own frame, if it stands on a plane.
@@ -87,9 +85,8 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 
   foot.is_floor_known = options.standing_plane.has_value();
-  const bool is_second_toe_resolved =
-      take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
-  foot.warnings = doubts(foot, is_second_toe_resolved);
+  take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
+  foot.warnings = doubts(foot);
   if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
 }
@@ -110,7 +107,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
-  const bool is_doubtful = !found || found->landmarks.at("toe2_tip").confidence < kSeenToe;
+  const bool is_doubtful = !found || !found->has_seen_toes();
   if (is_doubtful && !options.standing_plane && !options.up) {
     // A last has no flat sole to be found by; files of lasts have z up.
     const auto upright = plane_below(foot.cloud.positions, Eigen::Vector3d::UnitZ());

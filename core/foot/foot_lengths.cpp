@@ -50,7 +50,9 @@ Result<Vector3d> position_of(const Landmarks& landmarks, const std::string& name
   const auto found = landmarks.find(name);
   if (found == landmarks.end()) {
     return fail(ErrorCode::kInsufficientData, "the landmark " + name + " was not found",
-                "scan the foot again, from all sides");
+                name == "junction" || name == "medial_malleolus"
+                    ? "let the scan reach higher up the leg"
+                    : "scan the foot again, from all sides");
   }
   return found->second.position_mm;
 }

@@ -35,8 +35,8 @@ Result<double> instep_height(const Landmarks& landmarks);
 Result<double> ball_height(const Landmarks& landmarks);
 Result<double> toe1_height(const Landmarks& landmarks);
 
-/// Fails as well where the underside is under 3 mm over the floor: a flat foot, or a sole that the scanner
-/// closed without seeing it, cannot be told apart.
+/// Fails as well where the underside is under 3 mm over the floor: a flat foot, and a sole that the
+/// scanner closed without seeing it, cannot be told apart.
 Result<double> arch_height(const Landmarks& landmarks);
 
 /// By how many degrees the first toe turns towards the others: between the line from the heel's

@@ -19,6 +19,9 @@ struct Landmark {
   std::string rule;                                       ///< how it was found, in a few words
   /// Within this of the true place with 95 % probability, as far as the points tell.
   std::optional<double> radius_mm = std::nullopt;
+
+  /// Nothing of it was seen on the cloud.
+  bool is_placed_by_proportion() const { return confidence < 0.35; }
 };
 
 using Landmarks = std::map<std::string, Landmark>;
@@ -59,6 +62,12 @@ struct FootScan {
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;
+
+  /// Whether the second toe was told from its neighbours, which aligning a foot finds out.
+  bool has_seen_toes() const {
+    const auto toe = landmarks.find("toe2_tip");
+    return toe != landmarks.end() && toe->second.confidence > 0.5;
+  }
 
   /// +1 where medial is +y (right foot), -1 where it is -y (left foot).
   double medial_sign() const { return side == Side::kRight ? 1.0 : -1.0; }

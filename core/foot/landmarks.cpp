@@ -17,8 +17,6 @@
 namespace instep {
 namespace {
 
-constexpr double kPoorConfidence = 0.35;
-
 /// Collects landmarks of the right-foot form into a foot, in its own frame.
 class Marking {
  public:
@@ -29,7 +27,7 @@ class Marking {
       foot_.warnings.push_back(std::string(name) + " not found: the cloud has no points there");
       return landmark;
     }
-    if (landmark->confidence < kPoorConfidence) {
+    if (landmark->is_placed_by_proportion()) {
       foot_.warnings.push_back(std::string(name) + " is placed by proportion: " + landmark->rule);
     }
     Landmark own = *landmark;
@@ -41,12 +39,6 @@ class Marking {
  private:
   FootScan& foot_;
 };
-
-/// Where points had to be put under a foot, nobody saw its arch.
-bool is_underside_seen(const FootScan& foot) {
-  return std::none_of(foot.cloud.origins.begin(), foot.cloud.origins.end(),
-                      [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
-}
 
 void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landmark& fibulare,
                Marking& marking) {
@@ -93,7 +85,8 @@ void mark(FootScan& foot) {
   }
   mark_forefoot(outline, !is_last, marking);
   mark_hindfoot(outline, !is_last, marking);
-  if (!is_last && is_underside_seen(foot)) {
+  // Where points had to be put under a foot, nobody saw its arch.
+  if (!is_last && !foot.cloud.stands_on_platform()) {
     marking.add("arch_point", find_arch_point(outline));
   }
 }

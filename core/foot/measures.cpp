@@ -18,7 +18,6 @@
 namespace instep {
 namespace {
 
-constexpr double kPoorConfidence = 0.35;
 // Girths of feet are 0.85 to 1.2 of their length; far beyond that the surface went astray.
 constexpr double kLeastGirthShare = 0.65;
 constexpr double kMostGirthShare = 1.65;
@@ -28,8 +27,7 @@ struct LengthRule {
   Result<double> (*length)(const Landmarks&);
   std::vector<const char*> landmarks;
   const char* definition;
-  bool is_angle = false;
-  bool is_height = false;
+  enum class Kind { kLength, kHeight, kAngle } kind = Kind::kLength;
 };
 
 struct GirthRule {
@@ -73,39 +71,35 @@ const std::vector<LengthRule>& length_rules() {
        instep_height,
        {},
        "height over the floor of the foot's back at 0.50 of its length",
-       false,
-       true},
+       LengthRule::Kind::kHeight},
       {"ball_height",
        ball_height,
        {"metatarsale_tibiale", "metatarsale_fibulare"},
        "greatest height over the floor of the section of the ball girth",
-       false,
-       true},
+       LengthRule::Kind::kHeight},
       {"arch_height",
        arch_height,
        {},
        "greatest height over the floor of the underside a quarter of the breadth from the medial "
        "border, in 0.35-0.60 of the foot's length",
-       false,
-       true},
+       LengthRule::Kind::kHeight},
       {"toe1_height",
        toe1_height,
        {},
        "height over the floor of the first toe 15 mm behind its tip",
-       false,
-       true},
+       LengthRule::Kind::kHeight},
       {"toe1_angle",
        toe1_angle,
        {"metatarsale_tibiale"},
        "between the line from the heel's medial point to metatarsale tibiale and the line from "
        "there to where a ruler touches the first toe; positive towards the other toes",
-       true},
+       LengthRule::Kind::kAngle},
       {"toe5_angle",
        toe5_angle,
        {"metatarsale_fibulare"},
        "between the line from the heel's lateral point to metatarsale fibulare and the line from "
        "there to where a ruler touches the little toe; positive towards the other toes",
-       true},
+       LengthRule::Kind::kAngle},
   };
   return rules;
 }
@@ -175,7 +169,7 @@ std::vector<std::string> doubts(const FootScan& foot, const std::vector<const ch
   std::vector<std::string> warnings;
   for (const char* name : landmarks) {
     const auto found = foot.landmarks.find(name);
-    if (found != foot.landmarks.end() && found->second.confidence < kPoorConfidence) {
+    if (found != foot.landmarks.end() && found->second.is_placed_by_proportion()) {
       warnings.push_back(std::string(name) + " is placed by proportion");
     }
   }
@@ -188,8 +182,9 @@ Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
   Measure measure;
   measure.id = rule.id;
   auto u95 = u95_of(rule, foot);
-  if (u95 && rule.is_height && !foot.is_floor_known) u95 = std::hypot(*u95, kFloorDoubtMm);
-  if (rule.is_angle) {
+  if (u95 && rule.kind == LengthRule::Kind::kHeight && !foot.is_floor_known)
+    u95 = std::hypot(*u95, kFloorDoubtMm);
+  if (rule.kind == LengthRule::Kind::kAngle) {
     measure.value_mm = std::numeric_limits<double>::quiet_NaN();
     measure.value_deg = *length;
     measure.u95_deg = u95;
@@ -201,11 +196,6 @@ Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
   measure.definition = rule.definition;
   measure.warnings = doubts(foot, rule.landmarks);
   return measure;
-}
-
-bool stands_on_platform(const PointCloud& cloud) {
-  return std::any_of(cloud.origins.begin(), cloud.origins.end(),
-                     [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
 }
 
 /// What a tape may be wrong by for running over skin that was not seen and is taken to go on from
@@ -239,7 +229,7 @@ Result<Measure> take(const GirthRule& rule, const FootScan& foot, const MeasureO
   if (!plane) return tl::unexpected(plane.error());
   auto girth = options.girth(foot.cloud, *plane, options.girth_options);
   if (!girth) return tl::unexpected(girth.error());
-  if (stands_on_platform(foot.cloud)) girth = standing_girth(*std::move(girth), *plane);
+  if (foot.cloud.stands_on_platform()) girth = standing_girth(*std::move(girth), *plane);
   if (auto sane = check_share(girth->stretched_mm, foot); !sane) {
     return tl::unexpected(sane.error());
   }

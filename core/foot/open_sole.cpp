@@ -1,6 +1,5 @@
 #include "core/foot/open_sole.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "core/fusion/close_sole.h"
+#include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 
@@ -39,14 +39,9 @@ std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points, double l
   normals.reserve(points.size());
   for (const auto& point : points) {
     const auto close = index.nearest(point, kNeighbours);
-    Vector3d mean = Vector3d::Zero();
-    for (const auto& one : close) mean += points[one.index];
-    mean /= static_cast<double>(close.size());
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const auto& one : close) {
-      spread += (points[one.index] - mean) * (points[one.index] - mean).transpose();
-    }
-    Vector3d normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+    Moments moments;
+    for (const auto& one : close) moments.add(points[one.index] - point);
+    Vector3d normal = moments.flattest();
     const Vector3d middle(std::clamp(point.x(), 0.12 * length, 0.85 * length), 0.0, point.z());
     if (normal.dot(point - middle) < 0.0) normal = -normal;
     normals.push_back(normal);
@@ -57,10 +52,7 @@ std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points, double l
 }  // namespace
 
 bool is_sole_open(const FootScan& foot) {
-  const bool has_platform =
-      std::any_of(foot.cloud.origins.begin(), foot.cloud.origins.end(),
-                  [](PointOrigin origin) { return origin == PointOrigin::kPlatform; });
-  if (has_platform) return false;
+  if (foot.cloud.stands_on_platform()) return false;
   // Walls stand on the border of the ground that is covered, so that only ground further in tells.
   std::map<Cell, bool> ground;
   std::map<long, std::pair<long, long>> rows;

@@ -9,6 +9,7 @@
 #include "core/foot/robust_extreme.h"
 #include "core/geometry/plane_vectors.h"
 #include "core/geometry/polygon.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -90,11 +91,7 @@ double height_of(const Points& points, const Chooser& chosen) {
   for (const auto& point : points) {
     if (chosen(point)) heights.push_back(point.z());
   }
-  if (heights.empty()) return 0.0;
-  const auto rank =
-      static_cast<std::ptrdiff_t>((1.0 - kStrayShare) * static_cast<double>(heights.size() - 1));
-  std::nth_element(heights.begin(), heights.begin() + rank, heights.end());
-  return heights[static_cast<std::size_t>(rank)];
+  return quantile(std::move(heights), 1.0 - kStrayShare);
 }
 
 Result<void> check_size(const Extent& along, const Extent& across) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <span>
 
+#include "core/foot/shoe_last.h"
+
 namespace instep {
 namespace {
 
@@ -127,6 +129,14 @@ ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules) {
   add_widths(foot, sizes);
   for (const auto& table : rules.shop_tables) sizes.shop.push_back(choose(table, foot));
   return sizes;
+}
+
+ShoeSizes shoe_sizes(const FootScan& foot, const MeasureSet& measures, const SizeRules& rules) {
+  if (!is_shoe_last(foot)) return shoe_sizes(sized_foot(measures), rules);
+  ShoeSizes none;
+  none.allowance_mm = rules.allowance_mm;
+  none.notes.emplace_back("this is a shoe last: sizes are told from feet");
+  return none;
 }
 
 }  // namespace instep

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/foot/foot_scan.h"
 #include "core/foot/measure_set.h"
 
 namespace instep {
@@ -88,5 +89,9 @@ struct ShoeSizes {
 /// Of a shop's table, the first row that takes the length, and the ball girth where the row has a
 /// limit for it. If the girth was not measured, the length alone decides, and the note says so.
 ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules = {});
+
+/// Of what was measured. A shoe last has none, since it is longer than the foot it is for, and the
+/// notes say so.
+ShoeSizes shoe_sizes(const FootScan& foot, const MeasureSet& measures, const SizeRules& rules = {});
 
 }  // namespace instep

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -79,15 +81,11 @@ double support(const Points& sample, const StandingPlane& plane) {
 
 /// The plane of a set of points by least squares, its normal on the side of `up`.
 std::pair<Vector3d, double> fitted_plane(const Points& points, const Vector3d& up) {
-  Vector3d mean = Vector3d::Zero();
-  for (const auto& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& point : points) covariance += (point - mean) * (point - mean).transpose();
-  Vector3d normal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+  Moments moments;
+  for (const auto& point : points) moments.add(point - points.front());
+  Vector3d normal = moments.flattest();
   if (normal.dot(up) < 0.0) normal = -normal;
-  return {normal, normal.dot(mean)};
+  return {normal, normal.dot(points.front() + moments.middle())};
 }
 
 /// Tilts the plane until it fits what touches it.
@@ -243,9 +241,7 @@ StandingPlane plane_below(const Points& points, const Vector3d& up) {
   std::vector<double> heights;
   heights.reserve(points.size());
   for (const auto& point : points) heights.push_back(up.dot(point));
-  const auto strays = static_cast<std::ptrdiff_t>(kStrayShare * static_cast<double>(points.size()));
-  std::nth_element(heights.begin(), heights.begin() + strays, heights.end());
-  return {up, heights[static_cast<std::size_t>(strays)]};
+  return {up, quantile(std::move(heights), kStrayShare)};
 }
 
 StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) {

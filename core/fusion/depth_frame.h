@@ -50,9 +50,9 @@ struct DepthFrame {
   std::uint64_t sequence = 0;
   int width = 0;
   int height = 0;
-  double depth_unit_mm = 1.0;      ///< millimetres in one unit of `raw`
-  std::vector<std::uint16_t> raw;  ///< width * height values, row by row; 0 = no data
-  std::chrono::microseconds device_time{0};        ///< the camera's own clock
+  double depth_unit_mm = 1.0;                ///< millimetres in one unit of `raw`
+  std::vector<std::uint16_t> raw;            ///< width * height values, row by row; 0 = no data
+  std::chrono::microseconds device_time{0};  ///< the camera's own clock
   std::chrono::steady_clock::time_point host_time{};  ///< when it reached this machine
   FrameStatus status = FrameStatus::kGood;
 };

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/fusion/working_view.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -221,10 +222,7 @@ void estimate_standing_height(const std::vector<ViewedCloud>& feet, FusedScene& 
   for (const auto& foot : feet) {
     for (const auto& point : foot.cloud.positions) heights.push_back(point.z());
   }
-  const auto rank = heights.begin() +
-                    static_cast<std::ptrdiff_t>(kLowestShare * static_cast<double>(heights.size()));
-  std::nth_element(heights.begin(), rank, heights.end());
-  scene.standing_height_mm = *rank;
+  scene.standing_height_mm = quantile(std::move(heights), kLowestShare);
   scene.warnings.push_back(
       "no camera saw the platform; its height is taken from the lowest points of the feet");
 }

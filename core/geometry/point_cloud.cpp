@@ -1,5 +1,6 @@
 #include "core/geometry/point_cloud.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -38,6 +39,10 @@ tl::unexpected<Error> bad_point(std::size_t index, const std::string& what) {
 }
 
 }  // namespace
+
+bool PointCloud::stands_on_platform() const {
+  return std::find(origins.begin(), origins.end(), PointOrigin::kPlatform) != origins.end();
+}
 
 bool PointCloud::is_consistent() const {
   return empty_or_sized(normals, size()) && empty_or_sized(sigma_mm, size()) &&

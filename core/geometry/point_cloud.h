@@ -44,6 +44,8 @@ struct PointCloud {
   bool was_seen(std::size_t index) const {
     return origins.empty() || origins[index] == PointOrigin::kSeen;
   }
+  /// Whether points were put under it where it stands, unseen. O(n).
+  bool stands_on_platform() const;
 
   bool is_consistent() const;
 

@@ -13,8 +13,8 @@ struct DoctorCheck {
   std::string remedy;  ///< empty if good
 };
 
-/// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes nothing.
-/// Takes up to some seconds: if no daemon runs, the cameras are opened.
+/// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes
+/// nothing. Takes up to some seconds: if no daemon runs, the cameras are opened.
 std::vector<DoctorCheck> examine_machine();
 
 }  // namespace instep

@@ -71,7 +71,7 @@ Result<void> run(const MeasureCommand& command) {
 
   ScanRecord record;
   record.foot = std::move(*foot);
-  record.sizes = shoe_sizes(sized_foot(*measures), station_settings().sizes);
+  record.sizes = shoe_sizes(record.foot, *measures, station_settings().sizes);
   record.measures = std::move(*measures);
   if (!command.report.empty()) {
     if (auto written = write_report(record, command); !written) return written;

@@ -1,15 +1,15 @@
 #include "daemon/loop/event_loop.h"
 
 #include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <systemd/sd-event.h>
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
 #include <mutex>
 #include <utility>
+
+#include "drivers/files/wake_up.h"
 
 namespace instep {
 namespace {
@@ -27,30 +27,23 @@ std::uint64_t microseconds(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-/// What other threads have posted, and the eventfd that tells of it.
+/// What other threads have posted, and what tells of it.
 struct EventLoop::Mailbox {
-  int descriptor = -1;
+  WakeUp mail;
   std::mutex mutex;
   std::vector<std::function<void()>> tasks;
   bool closed = false;
-
-  ~Mailbox() {
-    if (descriptor >= 0) ::close(descriptor);
-  }
 
   void put(std::function<void()> task) {
     const std::lock_guard lock(mutex);
     if (closed) return;
     tasks.push_back(std::move(task));
-    const std::uint64_t one = 1;
-    // A full counter already rings; there is nothing else that this write could fail of.
-    [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
+    mail.set();
   }
 
   std::vector<std::function<void()>> take() {
     const std::lock_guard lock(mutex);
-    std::uint64_t count = 0;
-    [[maybe_unused]] const auto got = ::read(descriptor, &count, sizeof count);
+    mail.clear();
     return std::exchange(tasks, {});
   }
 };
@@ -79,14 +72,14 @@ Result<std::unique_ptr<EventLoop>> EventLoop::create() {
     return tl::make_unexpected(refused(failed));
   }
   loop->mailbox_ = std::make_shared<Mailbox>();
-  loop->mailbox_->descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-  if (loop->mailbox_->descriptor < 0) return tl::make_unexpected(refused(-errno));
+  if (!loop->mailbox_->mail.is_open()) return tl::make_unexpected(refused(-errno));
   const std::weak_ptr<Mailbox> weak = loop->mailbox_;
-  loop->mail_watch_ = loop->watch(loop->mailbox_->descriptor, EPOLLIN, [weak](std::uint32_t) {
-    const auto mailbox = weak.lock();
-    if (!mailbox) return;
-    for (auto& task : mailbox->take()) task();
-  });
+  loop->mail_watch_ =
+      loop->watch(loop->mailbox_->mail.descriptor(), EPOLLIN, [weak](std::uint32_t) {
+        const auto mailbox = weak.lock();
+        if (!mailbox) return;
+        for (auto& task : mailbox->take()) task();
+      });
   return loop;
 }
 

@@ -112,7 +112,7 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   record.simulated = capture.simulated;
   record.truth = truth_of(capture, foot.side);
   record.foot = std::move(foot);
-  record.sizes = shoe_sizes(sized_foot(measures), settings.sizes);
+  record.sizes = shoe_sizes(record.foot, measures, settings.sizes);
   record.measures = std::move(measures);
   return record;
 }

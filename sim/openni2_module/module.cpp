@@ -16,7 +16,6 @@
 
 #include <Driver/OniDriverAPI.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/inotify.h>
 #include <unistd.h>
 
@@ -28,6 +27,7 @@
 #include <thread>
 #include <vector>
 
+#include "drivers/files/wake_up.h"
 #include "sim/openni2_module/module_parts.h"
 
 namespace instep {
@@ -60,7 +60,6 @@ class Module final : public oni::driver::DriverBase {
                        void* cookie) override {
     DriverBase::initialize(connected, disconnected, state_changed, cookie);
     changes_ = ::inotify_init1(IN_CLOEXEC | IN_NONBLOCK);
-    end_ = ::eventfd(0, EFD_CLOEXEC);
     ::inotify_add_watch(changes_, folder_.c_str(),
                         IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVED_FROM | IN_DELETE);
     look_at_bus();
@@ -70,11 +69,9 @@ class Module final : public oni::driver::DriverBase {
 
   void shutdown() override {
     if (!watcher_.joinable()) return;
-    const std::uint64_t one = 1;
-    if (::write(end_, &one, sizeof one) != sizeof one) std::abort();
+    end_.set();
     watcher_.join();
     ::close(changes_);
-    ::close(end_);
   }
 
   oni::driver::DeviceBase* deviceOpen(const char* uri, const char*) override {
@@ -102,7 +99,7 @@ class Module final : public oni::driver::DriverBase {
 
   void watch() {
     while (true) {
-      std::array<pollfd, 2> waited{{{changes_, POLLIN, 0}, {end_, POLLIN, 0}}};
+      std::array<pollfd, 2> waited{{{changes_, POLLIN, 0}, {end_.descriptor(), POLLIN, 0}}};
       ::poll(waited.data(), waited.size(), -1);
       if (waited[1].revents != 0) return;
       alignas(inotify_event) std::array<char, 4096> events;
@@ -162,7 +159,7 @@ class Module final : public oni::driver::DriverBase {
   std::mutex mutex_;
   std::map<std::string, std::shared_ptr<Plug>> plugs_;  ///< by the file that plugs it in
   int changes_ = -1;
-  int end_ = -1;
+  WakeUp end_;
   std::thread watcher_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace instep {
 namespace {
 
@@ -16,6 +18,15 @@ TEST(Median, OfAnEvenNumberIsTheHigherOfTheTwo) {
 
 TEST(Median, OfNothingIsZero) {
   EXPECT_EQ(median<double>({}), 0.0);
+}
+
+TEST(Quantile, HasThatShareOfTheOthersBelowIt) {
+  const std::vector<int> values{40, 10, 50, 20, 30};
+  EXPECT_EQ(quantile(values, 0.0), 10);
+  EXPECT_EQ(quantile(values, 0.25), 20);
+  EXPECT_EQ(quantile(values, 0.6), 30);
+  EXPECT_EQ(quantile(values, 1.0), 50);
+  EXPECT_EQ(quantile<double>({}, 0.5), 0.0);
 }
 
 }  // namespace

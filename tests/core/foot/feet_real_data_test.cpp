@@ -8,6 +8,7 @@
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
 #include "core/foot/shoe_last.h"
+#include "core/foot/shoe_sizes.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/places.h"
 #include "tests/support/shape_files.h"
@@ -117,6 +118,9 @@ TEST_F(RealFeet, AreToldFromLasts) {
   for (const char* name : {"Uomo_STD_T10_42.ply", "Uomo_STD_T25_43.ply", "Donna_STD_38_T30.ply"}) {
     const auto last = measured(test::read_shape(test::trial_data() / "lasts" / name).cloud);
     EXPECT_TRUE(is_shoe_last(last.foot)) << name;
+    const auto sizes = shoe_sizes(last.foot, last.set);
+    EXPECT_FALSE(sizes.eu || sizes.mondopoint_mm) << name;
+    EXPECT_EQ(sizes.notes.size(), 1U) << name;
     EXPECT_NE(last.set.find("ball_girth"), nullptr) << name;
     EXPECT_EQ(last.set.find("toe1_angle"), nullptr) << name;
     EXPECT_EQ(last.set.find("ankle_girth"), nullptr) << name;

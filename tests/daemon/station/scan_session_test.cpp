@@ -88,7 +88,7 @@ TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
   EXPECT_EQ(whole.steps_of_stage.at("fuse frames"), 1U + 3 * 2);
   // Three cameras twice, 40 iterations at least, the stages between, one foot.
   EXPECT_GE(whole.steps_of_stage.at("fuse views"), 1U + 2 * 3 + 40 + 3 + 1);
-  EXPECT_EQ(whole.steps_of_stage.at("girths"), 1U + 18);  // one for each measure
+  EXPECT_EQ(whole.steps_of_stage.at("girths"), 1U + 18);     // one for each measure
   EXPECT_EQ(whole.told_stages, 1 + std::size(kStages) + 2);  // capture, ..., store, done
 }
 

@@ -1,0 +1,57 @@
+#include "core/geometry/moments.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/geometry/principal_frame.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Vector3d> flat_points(const Vector3d& normal, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  const Vector3d along = normal.unitOrthogonal();
+  const Vector3d across = normal.cross(along);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 40; ++i) {
+    points.push_back(Vector3d(3, -2, 5) + random.uniform(-1, 1) * along +
+                     random.uniform(-1, 1) * across + 0.01 * random.normal() * normal);
+  }
+  return points;
+}
+
+Moments moments_of(const std::vector<Vector3d>& points, std::size_t from, std::size_t to,
+                   const Vector3d& origin) {
+  Moments moments;
+  for (std::size_t i = from; i < to; ++i) moments.add(points[i] - origin);
+  return moments;
+}
+
+TEST(Moments, HaveTheMiddleAndTheNormalOfFlatPoints) {
+  const Vector3d normal = Vector3d(1, 2, -2).normalized();
+  const auto points = flat_points(normal, 1);
+  const auto moments = moments_of(points, 0, points.size(), points.front());
+  const Vector3d middle = points.front() + moments.middle();
+  EXPECT_NEAR((middle - spread_of(points).mean).norm(), 0.0, 1e-12);
+  EXPECT_GT(std::abs(moments.flattest().dot(normal)), 0.999);
+}
+
+TEST(Moments, OfPartsRoundTheirOwnOriginsAddUp) {
+  const auto points = flat_points(Vector3d::UnitY(), 2);
+  const Vector3d first = points[0];
+  const Vector3d second = points[30];
+  Moments sum = moments_of(points, 0, 15, first);
+  sum.add(moments_of(points, 15, points.size(), second), second - first);
+  const auto whole = moments_of(points, 0, points.size(), first);
+  EXPECT_EQ(sum.count, whole.count);
+  EXPECT_NEAR((sum.sum - whole.sum).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((sum.squares - whole.squares).norm(), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace instep
