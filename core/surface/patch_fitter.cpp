@@ -1,5 +1,6 @@
 #include "core/surface/patch_fitter.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -49,6 +50,8 @@ constexpr double kStrayRise = 0.7;
 /// part of the body.
 constexpr double kBandwidths = 2.0;
 constexpr double kWidest = 0.10;
+/// Points seen along the normal within a patch's width lie within this many widths in space.
+constexpr double kRoundBends = 1.1;
 /// It is fitted again, narrower, if it turns out rougher than thought.
 constexpr int kMostAttempts = 5;
 constexpr double kTooWide = 1.5;
@@ -64,6 +67,14 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& point : points) sum += point.position;
   return sum / static_cast<double>(points.size());
+}
+
+/// How far a point is from a place, seen along `outward`. Seen in space, noise would choose the
+/// points at the rim: on a bent surface those that stand out are nearer than those that lie low,
+/// and a patch of them lies too low by about the variance over the radius of curvature.
+double beside(const Eigen::Vector3d& place, const Eigen::Vector3d& point,
+              const Eigen::Vector3d& outward) {
+  return outward.cross(point - place).norm();
 }
 
 }  // namespace
@@ -146,13 +157,14 @@ void PatchFitter::drop_twins(std::vector<std::size_t>& members, double nearest) 
 PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
                                              const Eigen::Vector3d& place, double width) const {
   const bool wider = width > surroundings.reach;
-  const auto found = wider ? index_.around(place, width) : surroundings.nearest;
+  const auto found = wider ? index_.around(place, kRoundBends * width) : surroundings.nearest;
   Members members;
   members.radius = std::max(width, surroundings.reach);
   members.all.reserve(found.size());
   for (const auto& neighbour : found) {
     const OrientedPoint& point = points_[neighbour.index];
     if (point.normal.dot(surroundings.outward) < kBehind) continue;
+    if (wider && beside(place, point.position, surroundings.outward) > width) continue;
     members.all.push_back(neighbour.index);
     members.outward += point.normal;
   }
@@ -163,9 +175,9 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
   for (const auto i : members.all) {
     if (points_[i].normal.dot(members.outward) < kFacing) continue;
     members.front.push_back(i);
-    farthest = std::max(farthest, (points_[i].position - place).squaredNorm());
+    farthest = std::max(farthest, beside(place, points_[i].position, surroundings.outward));
   }
-  members.front_radius = std::sqrt(farthest);
+  members.front_radius = farthest;
   return members;
 }
 

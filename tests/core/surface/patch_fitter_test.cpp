@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -68,6 +70,17 @@ std::set<std::size_t> points_within(const OrientedPoints& points, const Vector3d
   return within;
 }
 
+/// The same, seen along `outward`.
+std::set<std::size_t> points_beside(const OrientedPoints& points, const Vector3d& place,
+                                    double radius, const Vector3d& outward) {
+  std::set<std::size_t> within;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double off = outward.cross(points[i].position - place).norm();
+    if (off <= radius * (1.0 + 1e-12)) within.insert(i);
+  }
+  return within;
+}
+
 Vector3d middle_of(const OrientedPoints& points, const std::vector<std::size_t>& members) {
   Vector3d sum = Vector3d::Zero();
   for (const auto i : members) sum += points[i].position;
@@ -89,7 +102,7 @@ TEST(PatchFitter, MakesOneSmoothSheetOfAPlane) {
       const auto sheet = patch->sheet_at(place);
       EXPECT_EQ(sheet.patch, std::get_if<HeightPatch>(&patch->field));
       EXPECT_TRUE(sheet.is_same(patch->sheet_at(place + Vector3d(0.01, 0.02, -0.03))));
-      EXPECT_EQ(members_of(sheet), points_within(points, place, patch->radius));
+      EXPECT_EQ(members_of(sheet), points_beside(points, place, patch->radius, Vector3d::UnitZ()));
       EXPECT_GE(sheet.size(), 60U);
       EXPECT_NEAR((patch->middle - middle_of(points, patch->members)).norm(), 0.0, 1e-12);
     }
@@ -159,6 +172,37 @@ TEST(PatchFitter, SeesNoEdgeInASphere) {
     ASSERT_TRUE(patch);
     EXPECT_TRUE(std::holds_alternative<HeightPatch>(patch->field));
   }
+}
+
+/// A bowl turned over, which a patch's quadratic is exactly, with noise along z alone, which moves
+/// it to neither side. Were the points chosen by their distance in space, those that noise brings
+/// nearer would move the patch inwards.
+TEST(PatchFitter, LiesOnAverageNeitherInsideNorOutsideABowl) {
+  constexpr double kRadius = 0.35;
+  constexpr double kSigma = 0.009;
+  constexpr int kBowls = 4000;
+  test::RandomNumbers random(5);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int bowl = 0; bowl < kBowls; ++bowl) {
+    OrientedPoints points;
+    for (int i = 0; i < 400; ++i) {
+      const double x = random.uniform(-0.18, 0.18);
+      const double y = random.uniform(-0.18, 0.18);
+      const double z = -(x * x + y * y) / (2.0 * kRadius);
+      points.push_back({{x, y, z + kSigma * random.normal()},
+                        Vector3d(x, y, kRadius).normalized(),
+                        kSigma * kSigma});
+    }
+    const auto patch = fitter_of(points).fit(Vector3d::Zero());
+    ASSERT_TRUE(patch);
+    const double off = patch->at(Vector3d::Zero()).value;
+    sum += off;
+    squares += off * off;
+  }
+  constexpr double kSecondOrder = kSigma * kSigma / kRadius;
+  EXPECT_LT(std::abs(sum / kBowls), 0.5 * kSecondOrder);
+  EXPECT_LT(std::sqrt(squares) / kBowls, 0.2 * kSecondOrder) << "tells too little";
 }
 
 TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
