@@ -255,7 +255,10 @@ Result<void> export_scan(const std::string& id, const std::filesystem::path& out
 Result<void> delete_scan(const std::string& id) {
   const auto answer = ask_daemon("delete", id);
   if (!answer) return tl::make_unexpected(answer.error());
-  return {};
+  const auto pair = text(*answer, "pair");
+  if (pair.empty()) return {};
+  return print_text("the scan of the other foot still holds the numbers of both: instep delete " +
+                    pair + "\n");
 }
 
 Result<void> cancel_scan() {

@@ -1,6 +1,10 @@
 #include "daemon/control/store_requests.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
+
+#include "daemon/report/json_fields.h"
+#include "daemon/store/scan_id.h"
 
 namespace instep {
 namespace {
@@ -26,6 +30,19 @@ Result<json> show(const ResultStore& store, const std::string& id) {
   return json{{"id", id}, {"folder", store.folder_of(id).string()}, {"result", std::move(result)}};
 }
 
+/// Of a pair, the scan of the other foot, if it is still there. It holds the numbers of both.
+std::optional<std::string> pair_of(const ResultStore& store, const std::string& id) {
+  const auto text = store.read_result_json(id);
+  if (!text) return std::nullopt;
+  const json result = json::parse(*text, nullptr, false);
+  const auto pair = result.is_object() ? result.value("pair", json()) : json();
+  for (const char* side : {"left", "right"}) {
+    const std::string other = string_at(pair, side);
+    if (other != id && is_scan_id(other) && store.find(other)) return other;
+  }
+  return std::nullopt;
+}
+
 Result<json> answer(ResultStore& store, const Request& request) {
   if (request.verb == "list") return list(store);
   const auto id = store.find(request.id);
@@ -36,9 +53,12 @@ Result<json> answer(ResultStore& store, const Request& request) {
                 {"folder", store.folder_of(*id).string()},
                 {"files", {"result.json", "cloud.ply", "sections.svg", "report.svg"}}};
   }
+  const auto pair = pair_of(store, *id);
   const auto removed = store.remove(*id);
   if (!removed) return tl::make_unexpected(removed.error());
-  return json{{"id", *id}};
+  json deleted{{"id", *id}};
+  if (pair) deleted["pair"] = *pair;
+  return deleted;
 }
 
 }  // namespace
