@@ -34,10 +34,6 @@ bool is_exact(const HeightKriging& kriging) {
   return !(kriging.level() > kExactVariance);
 }
 
-double smoothing(const HeightKriging& kriging, double roughness) {
-  return is_exact(kriging) ? kLeastSmoothing : kriging.level() / roughness + kLeastSmoothing;
-}
-
 Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
   Eigen::Vector3d along(-outward.y(), outward.x(), 0.0);
   if (along.squaredNorm() < 1e-12) along = Eigen::Vector3d::UnitX();
@@ -48,24 +44,24 @@ Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
   return axes;
 }
 
-/// Twice the negative log likelihood, with the coefficients integrated over.
-double misfit_of(const HeightKriging& kriging, const HeightKriging::Solution& solution,
-                 double roughness) {
+/// What the polynomial adds to twice the negative log likelihood, with its coefficients integrated
+/// over.
+double misfit_of_polynomial(const HeightKriging& kriging, Eigen::Index samples) {
+  const auto terms = static_cast<double>(samples - kriging.free());
+  return kriging.log_determined() + terms * std::log(kCoefficientVariance);
+}
+
+/// Twice the negative log likelihood of exact heights over theirs.
+double misfit_of_exact(const HeightKriging& kriging, const HeightKriging::Solution& solution) {
   const auto free = static_cast<double>(kriging.free());
-  const double terms = static_cast<double>(solution.on_null_space.size()) - free;
-  const double volume = kriging.log_determined() + terms * std::log(kCoefficientVariance);
-  if (is_exact(kriging)) {
-    const double even = std::max(solution.excess / free, kEven);
-    return volume + solution.log_volume + free * (std::log(even) + 1.0);
-  }
-  return volume + solution.log_volume + free * std::log(roughness) + solution.excess / roughness;
+  const double even = std::max(solution.excess / free, kEven);
+  return solution.log_volume + free * (std::log(even) + 1.0);
 }
 
 /// The roughness of the highest likelihood and of a prior round the usual one.
-double likeliest_roughness(const HeightKriging& kriging, double usual) {
-  return KrigingLikelihood(kriging).likeliest(kriging.level(), kRoughest * usual,
-                                              kSmoothest * usual, kRoughnessStep,
-                                              KrigingLikelihood::Prior{usual, kRoughnessSpread});
+double likeliest_roughness(const KrigingLikelihood& likelihood, double variance, double usual) {
+  return likelihood.likeliest(variance, kRoughest * usual, kSmoothest * usual, kRoughnessStep,
+                              KrigingLikelihood::Prior{usual, kRoughnessSpread});
 }
 
 }  // namespace
@@ -92,18 +88,23 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   if (!patch.kriging_) return std::nullopt;
   const HeightKriging& kriging = *patch.kriging_;
   const double usual = std::max(roughness * radius, 1e-12);
-  const double likeliest = is_exact(kriging) ? usual : likeliest_roughness(kriging, usual);
-  auto solution = kriging.solve(smoothing(kriging, likeliest));
-  if (!solution) return std::nullopt;
-  patch.roughness_ = likeliest / radius;
-  patch.misfit_ = misfit_of(kriging, *solution, likeliest);
-  patch.wander_ = likeliest;
+  patch.misfit_ = misfit_of_polynomial(kriging, samples.size());
+  double likeliest = usual;
+  std::optional<HeightKriging::Solution> solution;
   if (is_exact(kriging)) {
+    solution = kriging.solve(kLeastSmoothing);
+    if (!solution) return std::nullopt;
+    patch.misfit_ += misfit_of_exact(kriging, *solution);
     patch.wander_ = solution->excess / static_cast<double>(kriging.free());
   } else {
-    solution = kriging.solve(smoothing(kriging, kAllowance * likeliest));
+    const KrigingLikelihood likelihood(kriging);
+    likeliest = likeliest_roughness(likelihood, kriging.level(), usual);
+    patch.misfit_ += likelihood.misfit(kriging.level(), likeliest);
+    patch.wander_ = likeliest;
+    solution = kriging.solve(kriging.level() / (kAllowance * likeliest) + kLeastSmoothing);
     if (!solution) return std::nullopt;
   }
+  patch.roughness_ = likeliest / radius;
   patch.solution_ = std::move(*solution);
   patch.kriging_->forget_kernel();
   patch.weights_ = kriging.weights(patch.solution_);
@@ -122,7 +123,8 @@ HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
   }
   Sum sum;
   const Eigen::VectorXd influence = kriging_->influence(solution_, places, shares);
-  sum.variance = radius_ * radius_ * wander_ * kriging_->wandering(influence, places, shares);
+  sum.variance =
+      radius_ * radius_ * wander_ * kriging_->wandering(solution_, influence, places, shares);
   sum.influence = influence;
   if (cells_.empty()) return sum;
   sum.influence.resize(shares_.size());
