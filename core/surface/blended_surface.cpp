@@ -1,5 +1,6 @@
 #include "core/surface/blended_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -38,20 +39,30 @@ Weight wendland(const Eigen::Vector3d& offset, double reach) {
 
 BlendedSurface::BlendedSurface(PatchFitter fitter) : fitter_(std::move(fitter)) {}
 
+BlendedSurface::Zone::Zone(const SurfacePatch& patch) : centre(patch.centre), middle(patch.middle) {
+  const bool smooth = std::holds_alternative<HeightPatch>(patch.field);
+  const double square = patch.radius * patch.radius;
+  almost_there = kAlmostThere * kAlmostThere * square;
+  const double near = smooth ? kNearEnough : kNearEnoughAtEdges;
+  near_enough = near * near * square;
+  well_within = kWellWithin * kWellWithin * square;
+  reach = kReach * kReach * square;
+}
+
+bool BlendedSurface::Zone::serves(const Eigen::Vector3d& place) const {
+  const double off = (place - centre).squaredNorm();
+  if (off < almost_there) return true;
+  return off < near_enough && (place - middle).squaredNorm() < well_within;
+}
+
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
-  for (const auto& patch : patches_) {
-    const double off = (place - patch.centre).norm();
-    if (off < kAlmostThere * patch.radius) return true;
-    const bool smooth = std::holds_alternative<HeightPatch>(patch.field);
-    if (off < (smooth ? kNearEnough : kNearEnoughAtEdges) * patch.radius &&
-        (place - patch.middle).norm() < kWellWithin * patch.radius) {
-      return true;
-    }
-  }
+  const auto serves = [&](const Zone& zone) { return zone.serves(place); };
+  if (std::any_of(zones_.rbegin(), zones_.rend(), serves)) return true;
   if (patches_.size() >= kMostPatches) return false;
   auto patch = fitter_.fit(place);
   if (!patch) return false;
   patches_.push_back(std::move(*patch));
+  zones_.emplace_back(patches_.back());
   return true;
 }
 
@@ -59,7 +70,9 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
   double weights = 0.0;
   Eigen::Vector3d weights_gradient = Eigen::Vector3d::Zero();
   FieldValue sum;
-  for (const auto& patch : patches_) {
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if ((place - zones_[i].middle).squaredNorm() >= zones_[i].reach) continue;
+    const SurfacePatch& patch = patches_[i];
     const Weight weight = wendland(place - patch.middle, kReach * patch.radius);
     if (weight.value <= 0.0) continue;
     const FieldValue field = patch.at(place);
@@ -76,7 +89,9 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
 const SurfacePatch* BlendedSurface::leading_patch(const Eigen::Vector3d& place) const {
   const SurfacePatch* leading = nullptr;
   double most = 0.0;
-  for (const auto& patch : patches_) {
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if ((place - zones_[i].middle).squaredNorm() >= zones_[i].reach) continue;
+    const SurfacePatch& patch = patches_[i];
     const double weight = wendland(place - patch.middle, kReach * patch.radius).value;
     if (weight <= most) continue;
     most = weight;

@@ -107,11 +107,21 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   patch.roughness_ = likeliest / radius;
   patch.solution_ = std::move(*solution);
   patch.kriging_->forget_kernel();
-  patch.weights_ = kriging.weights(patch.solution_);
   patch.polynomial_ = kriging.polynomial(patch.solution_) + trend;
-  patch.x_ = samples.places.row(0);
-  patch.y_ = samples.places.row(1);
+  patch.set_columns(samples.places, kriging.weights(patch.solution_));
   return patch;
+}
+
+/// In whole groups: what fills up the last one has no weight.
+void HeightPatch::set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights) {
+  const Eigen::Index count = weights.size();
+  const Eigen::Index whole = (count + kGroup - 1) / kGroup * kGroup;
+  x_.setZero(whole);
+  y_.setZero(whole);
+  weights_.setZero(whole);
+  x_.head(count) = places.row(0);
+  y_.head(count) = places.row(1);
+  weights_.head(count) = weights;
 }
 
 HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
@@ -144,14 +154,22 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const double x = local.x();
   const double y = local.y();
   const Quadratic& c = polynomial_;
-  const Column along = x - x_;
-  const Column across = y - y_;
-  const Column squared = along.square() + across.square();
-  const Column weighted = weights_ * squared.sqrt();
-  const double height = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y +
-                        (weighted * squared).sum();
-  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * (weighted * along).sum();
-  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + 3.0 * (weighted * across).sum();
+  Group cubes = Group::Zero();
+  Group slopes_x = Group::Zero();
+  Group slopes_y = Group::Zero();
+  for (Eigen::Index i = 0; i < x_.size(); i += kGroup) {
+    const Group along = x - x_.segment<kGroup>(i);
+    const Group across = y - y_.segment<kGroup>(i);
+    const Group squared = along.square() + across.square();
+    const Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
+    cubes += weighted * squared;
+    slopes_x += weighted * along;
+    slopes_y += weighted * across;
+  }
+  const double height =
+      c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + cubes.sum();
+  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * slopes_x.sum();
+  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + 3.0 * slopes_y.sum();
   const Eigen::Vector3d gradient(-slope_x, -slope_y, 1.0);
   return {radius_ * (local.z() - height), axes_.transpose() * gradient};
 }

@@ -59,7 +59,14 @@ class HeightPatch {
   /// A number for each sample, kept in place: fields are read far more often than fitted.
   using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostHeightSamples, 1>;
 
+  /// So many samples at once.
+  static constexpr int kGroup = 4;
+  using Group = Eigen::Array<double, kGroup, 1>;
+  static_assert(kMostHeightSamples % kGroup == 0);
+
   HeightPatch() = default;
+
+  void set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights);
 
   Eigen::Vector3d centre_;
   Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards
