@@ -35,7 +35,7 @@ bool comes_before(const PointIndex::Neighbour& a, const PointIndex::Neighbour& b
   return a.index < b.index;
 }
 
-/// Keeps the nearest so many in a heap, the furthest on top. Full of points at the query itself it
+/// Keeps the nearest so many in order. Full of points at the query itself it
 /// wants no others: the library would look at every one more that lies there, and a crowd at one
 /// place would be searched whole for each of its points.
 class NearestFound {
@@ -48,25 +48,21 @@ class NearestFound {
   std::size_t size() const { return found_.size(); }
   double worstDist() const {
     if (!full()) return std::numeric_limits<double>::max();
-    const double worst = found_.front().squared_distance;
+    const double worst = found_.back().squared_distance;
     return worst > 0.0 ? worst : -1.0;
   }
   bool addPoint(double squared_distance, std::size_t index) {
-    if (full()) {
-      if (squared_distance >= found_.front().squared_distance) return true;
-      std::pop_heap(found_.begin(), found_.end(), comes_before);
-      found_.back() = {index, squared_distance};
-    } else {
-      found_.push_back({index, squared_distance});
-    }
-    std::push_heap(found_.begin(), found_.end(), comes_before);
+    // The library may not have heard yet how near the last one has come.
+    if (full() && squared_distance >= found_.back().squared_distance) return true;
+    if (full()) found_.pop_back();
+    const PointIndex::Neighbour neighbour{index, squared_distance};
+    found_.insert(std::upper_bound(found_.begin(), found_.end(), neighbour, comes_before),
+                  neighbour);
     return true;
   }
 
-  std::vector<PointIndex::Neighbour> in_order() && {
-    std::sort(found_.begin(), found_.end(), comes_before);
-    return std::move(found_);
-  }
+  /// Nearest first.
+  std::vector<PointIndex::Neighbour> take() && { return std::move(found_); }
 
  private:
   std::size_t count_;
@@ -96,7 +92,7 @@ std::vector<PointIndex::Neighbour> PointIndex::nearest(const Eigen::Vector3d& qu
   if (count == 0) return {};
   NearestFound nearest(count);
   tree_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
-  return std::move(nearest).in_order();
+  return std::move(nearest).take();
 }
 
 std::vector<PointIndex::Neighbour> PointIndex::within(const Eigen::Vector3d& query,

@@ -44,6 +44,20 @@ Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places, const Eigen::Arra
   return kernel;
 }
 
+/// The symmetric matrix, whose lower triangle is given, times a few columns.
+Eigen::MatrixXd both_triangles_times(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& columns) {
+  const Eigen::Index count = lower.cols();
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(count, columns.cols());
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::Index rest = count - j - 1;
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+      product(j, k) += lower.col(j).tail(rest + 1).dot(columns.col(k).tail(rest + 1));
+      product.col(k).tail(rest) += columns(j, k) * lower.col(j).tail(rest);
+    }
+  }
+  return product;
+}
+
 /// Takes a * b' + b * a' from the lower triangle.
 void subtract_both_ways(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                         Eigen::MatrixXd& matrix) {
@@ -118,11 +132,7 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
   if (rank < 3 || rank >= samples.size()) return std::nullopt;
 
   kriging.reduced_ = kernel_between(samples.places, kriging.scales_);
-  kriging.on_basis_.resize(samples.size(), rank);
-  for (Eigen::Index k = 0; k < rank; ++k) {
-    kriging.on_basis_.col(k).noalias() =
-        kriging.reduced_.selfadjointView<Eigen::Lower>() * basis.col(k);
-  }
+  kriging.on_basis_ = both_triangles_times(kriging.reduced_, basis);
   const Eigen::MatrixXd square = basis.transpose() * kriging.on_basis_;
   const Eigen::MatrixXd off =
       kriging.on_basis_ - 0.5 * basis * (square + Eigen::MatrixXd::Identity(rank, rank));
@@ -138,17 +148,18 @@ double HeightKriging::log_determined() const {
 }
 
 std::optional<HeightKriging::Solution> HeightKriging::solve(double ratio) const {
-  Solution solution;
-  solution.ratio = ratio;
   Eigen::MatrixXd system = reduced_;
   system.diagonal().array() += ratio;
-  solution.cholesky.compute(system);
-  if (solution.cholesky.info() != Eigen::Success) return std::nullopt;
-  solution.on_null_space = solution.cholesky.solve(free_heights_);
+  auto cholesky = SmallCholesky::of(std::move(system));
+  if (!cholesky) return std::nullopt;
+  Solution solution;
+  solution.ratio = ratio;
+  solution.on_null_space = cholesky->solve(free_heights_);
   if (!solution.on_null_space.allFinite()) return std::nullopt;
-  solution.log_volume = 2.0 * solution.cholesky.matrixLLT().diagonal().array().log().sum() -
-                        static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
+  solution.log_volume =
+      cholesky->log_volume() - static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
   solution.excess = free_heights_.dot(solution.on_null_space);
+  solution.cholesky = std::move(*cholesky);
   return solution;
 }
 
@@ -170,24 +181,13 @@ Quadratic HeightKriging::polynomial(const Solution& solution) const {
 }
 
 double HeightKriging::left_out(const Solution& solution) const {
-  const Eigen::Index count = places_.cols();
-  const Eigen::MatrixXd& lower = solution.cholesky.matrixLLT();
-  Eigen::VectorXd column(count);
+  // The inverse system without the ones that stand on the polynomials.
+  const Eigen::VectorXd own = solution.cholesky.inverse_diagonal() - basis_.rowwise().squaredNorm();
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    // A column of the inverse root, which is a triangle too.
-    auto rest = column.tail(count - i);
-    rest.setZero();
-    rest[0] = 1.0;
-    for (Eigen::Index j = i; j < count; ++j) {
-      column[j] /= lower(j, j);
-      column.tail(count - j - 1) -= column[j] * lower.col(j).tail(count - j - 1);
-    }
-    // The inverse system without the ones that stand on the polynomials.
-    const double own = rest.squaredNorm() - basis_.row(i).squaredNorm();
-    if (own > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own;
+  for (Eigen::Index i = 0; i < own.size(); ++i) {
+    if (own[i] > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own[i];
   }
-  return sum / static_cast<double>(count);
+  return sum / static_cast<double>(own.size());
 }
 
 Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::Matrix2Xd& places,
@@ -209,7 +209,7 @@ Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::
 double HeightKriging::kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const {
   const Eigen::VectorXd along = basis_.transpose() * scaled;
   const Eigen::VectorXd off = scaled - basis_ * along;
-  const Eigen::VectorXd rooted = solution.cholesky.matrixU() * off;
+  const Eigen::VectorXd rooted = solution.cholesky.rooted(off);
   const Eigen::VectorXd crossed = on_basis_ * along;
   return rooted.squaredNorm() - solution.ratio * off.squaredNorm() +
          crossed.dot(basis_ * along + 2.0 * off);

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <optional>
 
 #include "core/surface/height_samples.h"
+#include "core/surface/small_cholesky.h"
 
 namespace instep {
 
@@ -38,7 +38,7 @@ class HeightKriging {
   /// All that follows from one ratio of level() to roughness.
   struct Solution {
     double ratio = 0.0;
-    Eigen::LLT<Eigen::MatrixXd> cholesky;
+    SmallCholesky cholesky;
     Eigen::VectorXd on_null_space;
     double log_volume = 0.0;  ///< log determinant of kernel + ratio
     /// Squares of the heights over kernel + ratio. Divided by free(), the likeliest roughness.
