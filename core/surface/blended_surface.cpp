@@ -15,6 +15,8 @@ constexpr double kReach = 0.75;
 /// where it changes faster, a nearer one.
 constexpr double kNearEnough = 0.4;
 constexpr double kNearEnoughAtEdges = 0.3;
+/// And one of more points than it has samples a further one: it reads as well there.
+constexpr double kNearEnoughInCrowds = 0.6;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;
@@ -43,7 +45,8 @@ BlendedSurface::Zone::Zone(const SurfacePatch& patch) : centre(patch.centre), mi
   const bool smooth = std::holds_alternative<HeightPatch>(patch.field);
   const double square = patch.radius * patch.radius;
   almost_there = kAlmostThere * kAlmostThere * square;
-  const double near = smooth ? kNearEnough : kNearEnoughAtEdges;
+  const bool crowded = patch.members.size() > kMostHeightSamples;
+  const double near = smooth ? (crowded ? kNearEnoughInCrowds : kNearEnough) : kNearEnoughAtEdges;
   near_enough = near * near * square;
   well_within = kWellWithin * kWellWithin * square;
   reach = kReach * kReach * square;

@@ -17,13 +17,13 @@ using Eigen::VectorXd;
 /// Positive definite, of any size.
 MatrixXd some_matrix(Index count) {
   test::RandomNumbers random(static_cast<std::uint64_t>(count));
-  const MatrixXd root = MatrixXd::NullaryExpr(count, count, [&] { return random.normal(1.0); });
+  const MatrixXd root = MatrixXd::NullaryExpr(count, count, [&] { return random.normal(); });
   return root * root.transpose() + 0.1 * MatrixXd::Identity(count, count);
 }
 
 VectorXd some_vector(Index count) {
   test::RandomNumbers random(99);
-  return VectorXd::NullaryExpr(count, [&] { return random.normal(1.0); });
+  return VectorXd::NullaryExpr(count, [&] { return random.normal(); });
 }
 
 TEST(SmallCholesky, DoesAsDenseAlgebraDoes) {
