@@ -150,7 +150,7 @@ double HeightKriging::log_determined() const {
 std::optional<HeightKriging::Solution> HeightKriging::solve(double ratio) const {
   Eigen::MatrixXd system = reduced_;
   system.diagonal().array() += ratio;
-  auto cholesky = SmallCholesky::of(std::move(system));
+  auto cholesky = SmallCholesky::of(system);
   if (!cholesky) return std::nullopt;
   Solution solution;
   solution.ratio = ratio;

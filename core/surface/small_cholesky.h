@@ -13,12 +13,12 @@ class SmallCholesky {
 
   /// Of the symmetric matrix whose lower triangle is given. Nothing if it is not positive definite.
   /// O(n^3).
-  static std::optional<SmallCholesky> of(Eigen::MatrixXd matrix);
+  static std::optional<SmallCholesky> of(const Eigen::MatrixXd& matrix);
 
   Eigen::Index size() const { return lower_.cols(); }
 
   /// The matrix times this is `right`. O(n^2).
-  Eigen::VectorXd solve(Eigen::VectorXd right) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
   /// Root' times a vector, whose square is the vector's with the matrix between. O(n^2).
   Eigen::VectorXd rooted(const Eigen::VectorXd& vector) const;
@@ -30,7 +30,9 @@ class SmallCholesky {
   Eigen::VectorXd inverse_diagonal() const;
 
  private:
-  Eigen::MatrixXd lower_;  ///< the root; what stands over its diagonal means nothing
+  void solve_root(double* right) const;
+
+  Eigen::MatrixXd lower_;  ///< the root, its rows filled up with zeros to whole groups
 };
 
 }  // namespace instep
