@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/geometry/stray_points.h"
@@ -42,9 +43,14 @@ constexpr std::size_t kFewestNormalPoints = 16;
 double extent(const PointCloud& cloud, const TapePlane& plane) {
   Eigen::Matrix3d directions;
   directions << plane.u(), plane.v(), plane.normal();
-  Eigen::AlignedBox3d box;
-  for (const auto& position : cloud.positions) box.extend(directions.transpose() * position);
-  return box.diagonal().norm();
+  Eigen::Array3d least = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d most = -least;
+  for (const auto& position : cloud.positions) {
+    const Eigen::Array3d place = (directions.transpose() * position).array();
+    least = (place < least).select(place, least);
+    most = (place > most).select(place, most);
+  }
+  return (most - least).matrix().norm();
 }
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {

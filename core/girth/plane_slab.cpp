@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace {
 /// The first slab that is asked for is to tell how wide the others have to be.
 constexpr double kWiderThanFirst = 6.0;
 constexpr double kWiderThanOthers = 1.2;
+/// Few enough to be put in order one by one, where places lie evenly.
+constexpr std::size_t kPointsInAStrip = 4;
 
 /// A place by its first coordinate, to be put in order with little to move.
 struct Found {
@@ -42,16 +45,43 @@ PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double
   return slab;
 }
 
+/// Sorted into strips across the first coordinate, then within each.
+std::vector<Found> in_order(const PlaneSlab& slab) {
+  const std::size_t count = slab.places.size();
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const auto& place : slab.places) {
+    least = std::min(least, place.x());
+    most = std::max(most, place.x());
+  }
+  const std::size_t strips = 1 + count / kPointsInAStrip;
+  const auto strip_of = [&](const Eigen::Vector3d& place) {
+    const double part = most > least ? (place.x() - least) / (most - least) : 0.0;
+    return std::min(strips - 1, static_cast<std::size_t>(part * static_cast<double>(strips)));
+  };
+  std::vector<std::size_t> ends(strips + 1, 0);
+  for (const auto& place : slab.places) ++ends[strip_of(place) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Found> order(count);
+  const auto begins = ends;
+  for (std::size_t i = 0; i < count; ++i) {
+    order[ends[strip_of(slab.places[i])]++] = {slab.places[i].x(), i};
+  }
+  for (std::size_t strip = 0; strip < strips; ++strip) {
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begins[strip]),
+              order.begin() + static_cast<std::ptrdiff_t>(begins[strip + 1]),
+              [&](const Found& a, const Found& b) {
+                return a.x != b.x ? a.x < b.x : comes_before(slab, a.number, b.number);
+              });
+  }
+  return order;
+}
+
 }  // namespace
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
   const PlaneSlab found = unordered_slab(cloud, plane, half_width);
-  std::vector<Found> order;
-  order.reserve(found.places.size());
-  for (const auto& place : found.places) order.push_back({place.x(), order.size()});
-  std::sort(order.begin(), order.end(), [&](const Found& a, const Found& b) {
-    return a.x != b.x ? a.x < b.x : comes_before(found, a.number, b.number);
-  });
+  const std::vector<Found> order = in_order(found);
   PlaneSlab slab;
   slab.indices.reserve(order.size());
   slab.places.reserve(order.size());
