@@ -15,8 +15,12 @@ constexpr double kReach = 0.75;
 /// where it changes faster, a nearer one.
 constexpr double kNearEnough = 0.4;
 constexpr double kNearEnoughAtEdges = 0.3;
-/// And one of more points than it has samples a further one: it reads as well there.
+/// One of exact points, more than it has samples, may be centred further off, if the place has them
+/// on all sides: within a part of the radius this share at least of those that would lie there
+/// evenly. Where there is noise, more patches average more of it.
 constexpr double kNearEnoughInCrowds = 0.6;
+constexpr double kAllRound = 0.3;
+constexpr double kLeastAllRound = 0.6;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;
@@ -37,30 +41,46 @@ Weight wendland(const Eigen::Vector3d& offset, double reach) {
           -20.0 * rest * rest * rest / (reach * reach) * offset};
 }
 
+/// Whether a place amid a patch has the patch's points on all sides.
+bool is_amid(const Eigen::Vector3d& place, const SurfacePatch& patch,
+             const std::vector<OrientedPoint>& points) {
+  const double reach = kAllRound * patch.radius;
+  const auto found = std::count_if(patch.members.begin(), patch.members.end(), [&](auto member) {
+    return (points[member].position - place).squaredNorm() < reach * reach;
+  });
+  return static_cast<double>(found) >
+         kLeastAllRound * kAllRound * kAllRound * static_cast<double>(patch.members.size());
+}
+
 }  // namespace
 
 BlendedSurface::BlendedSurface(PatchFitter fitter) : fitter_(std::move(fitter)) {}
 
 BlendedSurface::Zone::Zone(const SurfacePatch& patch) : centre(patch.centre), middle(patch.middle) {
-  const bool smooth = std::holds_alternative<HeightPatch>(patch.field);
+  const auto* smooth = std::get_if<HeightPatch>(&patch.field);
+  const bool crowded = smooth && smooth->is_exact() && patch.members.size() > kMostHeightSamples;
+  const double near = smooth ? kNearEnough : kNearEnoughAtEdges;
   const double square = patch.radius * patch.radius;
   almost_there = kAlmostThere * kAlmostThere * square;
-  const bool crowded = patch.members.size() > kMostHeightSamples;
-  const double near = smooth ? (crowded ? kNearEnoughInCrowds : kNearEnough) : kNearEnoughAtEdges;
   near_enough = near * near * square;
+  near_enough_amid = crowded ? kNearEnoughInCrowds * kNearEnoughInCrowds * square : near_enough;
   well_within = kWellWithin * kWellWithin * square;
   reach = kReach * kReach * square;
 }
 
-bool BlendedSurface::Zone::serves(const Eigen::Vector3d& place) const {
-  const double off = (place - centre).squaredNorm();
-  if (off < almost_there) return true;
-  return off < near_enough && (place - middle).squaredNorm() < well_within;
+bool BlendedSurface::serves(std::size_t patch, const Eigen::Vector3d& place) const {
+  const Zone& zone = zones_[patch];
+  const double off = (place - zone.centre).squaredNorm();
+  if (off < zone.almost_there) return true;
+  if (off >= zone.near_enough_amid) return false;
+  if ((place - zone.middle).squaredNorm() >= zone.well_within) return false;
+  return off < zone.near_enough || is_amid(place, patches_[patch], points());
 }
 
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
-  const auto serves = [&](const Zone& zone) { return zone.serves(place); };
-  if (std::any_of(zones_.rbegin(), zones_.rend(), serves)) return true;
+  for (std::size_t i = patches_.size(); i-- > 0;) {
+    if (serves(i, place)) return true;
+  }
   if (patches_.size() >= kMostPatches) return false;
   auto patch = fitter_.fit(place);
   if (!patch) return false;

@@ -42,15 +42,17 @@ class BlendedSurface {
   /// asks it of all of them.
   struct Zone {
     explicit Zone(const SurfacePatch& patch);
-    bool serves(const Eigen::Vector3d& place) const;
 
     Eigen::Vector3d centre;
     Eigen::Vector3d middle;
-    double almost_there;  ///< from the centre: whatever the middle
-    double near_enough;   ///< from the centre
-    double well_within;   ///< from the middle
-    double reach;         ///< from the middle: beyond it the patch counts nothing
+    double almost_there;      ///< from the centre: whatever the middle
+    double near_enough;       ///< from the centre
+    double near_enough_amid;  ///< from the centre, for a place amid many points
+    double well_within;       ///< from the middle
+    double reach;             ///< from the middle: beyond it the patch counts nothing
   };
+
+  bool serves(std::size_t patch, const Eigen::Vector3d& place) const;
 
   PatchFitter fitter_;
   std::vector<SurfacePatch> patches_;

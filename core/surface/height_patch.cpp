@@ -30,7 +30,7 @@ constexpr double kCoefficientVariance = 0.1;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
-bool is_exact(const HeightKriging& kriging) {
+bool are_exact(const HeightKriging& kriging) {
   return !(kriging.level() > kExactVariance);
 }
 
@@ -91,7 +91,7 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   patch.misfit_ = misfit_of_polynomial(kriging, samples.size());
   double likeliest = usual;
   std::optional<HeightKriging::Solution> solution;
-  if (is_exact(kriging)) {
+  if (are_exact(kriging)) {
     solution = kriging.solve(kLeastSmoothing);
     if (!solution) return std::nullopt;
     patch.misfit_ += misfit_of_exact(kriging, *solution);
@@ -144,8 +144,12 @@ HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
   return sum;
 }
 
+bool HeightPatch::is_exact() const {
+  return are_exact(*kriging_);
+}
+
 double HeightPatch::fine_bending() const {
-  if (!is_exact(*kriging_) || !(wander_ > 0.0)) return 1.0;
+  if (!is_exact() || !(wander_ > 0.0)) return 1.0;
   return kriging_->left_out(solution_) / wander_;
 }
 

@@ -49,6 +49,9 @@ class HeightPatch {
   /// which hides it. O(samples^3).
   double fine_bending() const;
 
+  /// Whether the points carry no noise worth smoothing.
+  bool is_exact() const;
+
   /// The likeliest; for exact points the given one.
   double roughness() const { return roughness_; }
 
