@@ -18,7 +18,7 @@ constexpr double kNearEnoughAtEdges = 0.3;
 /// One of exact points, more than it has samples, may be centred further off, if the place has them
 /// on all sides: within a part of the radius this share at least of those that would lie there
 /// evenly. Where there is noise, more patches average more of it.
-constexpr double kNearEnoughInCrowds = 0.6;
+constexpr double kNearEnoughInCrowds = 0.5;
 constexpr double kAllRound = 0.3;
 constexpr double kLeastAllRound = 0.6;
 constexpr double kWellWithin = 0.6;

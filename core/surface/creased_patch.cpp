@@ -15,8 +15,6 @@ namespace {
 
 /// Sheets whose planes turn less (radians) are not worth a closer look.
 constexpr double kLeastTurn = 0.6;
-/// Nor do sheets become worth it whose planes turn less at first.
-constexpr double kLeastFirstTurn = 0.3;
 constexpr std::size_t kFewestOnASheet = 6;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
@@ -110,7 +108,6 @@ std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
     sheets.planes = planes_of(points, sheets.sides);
     const auto& [first, second] = sheets.planes;
     if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
-    if (round == 0 && sheets.turn() < kLeastFirstTurn) return std::nullopt;
     sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
     const Sides before = sheets.sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
