@@ -33,6 +33,12 @@ std::vector<T> pick(const std::vector<T>& list, const std::vector<std::size_t>& 
   return picked;
 }
 
+/// Also false for what is no number.
+bool is_near_origin(const Eigen::Vector3d& place) {
+  return std::abs(place.x()) <= kLargestCoordinateMm &&
+         std::abs(place.y()) <= kLargestCoordinateMm && std::abs(place.z()) <= kLargestCoordinateMm;
+}
+
 tl::unexpected<Error> bad_point(std::size_t index, const std::string& what) {
   return fail(ErrorCode::kInvalidInput, "point " + std::to_string(index) + " " + what,
               "repair or export the cloud again");
@@ -87,10 +93,12 @@ Result<void> check_cloud(const PointCloud& cloud) {
     return fail(ErrorCode::kInternal, "the lists of a cloud differ in length", "report this");
   }
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!cloud.positions[i].allFinite()) return bad_point(i, "has a coordinate that is no number");
-    if (cloud.positions[i].cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
-      return bad_point(i, "lies more than 100 m from the origin");
-    }
+    if (is_near_origin(cloud.positions[i])) continue;
+    return bad_point(i, cloud.positions[i].allFinite() ? "lies more than 100 m from the origin"
+                                                       : "has a coordinate that is no number");
+  }
+  if (!cloud.has_normals() && cloud.view_directions.empty() && !cloud.has_sigma()) return {};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.has_normals() && !(std::abs(cloud.normals[i].norm() - 1.0) < 1e-3)) {
       return bad_point(i, "has a normal that is not of unit length");
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 #include <utility>
 
@@ -29,23 +30,44 @@ using KdTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointsAdaptor>,
                                         PointsAdaptor, 3, std::size_t>;
 
-/// Full of points at the query itself it wants no others: the library would look at every one more
-/// that lies there, and a crowd at one place would be searched whole for each of its points.
-struct NearestFound : nanoflann::KNNResultSet<double, std::size_t, std::size_t> {
-  using KNNResultSet::KNNResultSet;
+bool comes_before(const PointIndex::Neighbour& a, const PointIndex::Neighbour& b) {
+  if (a.squared_distance != b.squared_distance) return a.squared_distance < b.squared_distance;
+  return a.index < b.index;
+}
 
+/// Keeps the nearest so many in order. Full of points at the query itself it
+/// wants no others: the library would look at every one more that lies there, and a crowd at one
+/// place would be searched whole for each of its points.
+class NearestFound {
+ public:
+  using DistanceType = double;
+
+  explicit NearestFound(std::size_t count) : count_(count) { found_.reserve(count); }
+
+  bool full() const { return found_.size() == count_; }
+  std::size_t size() const { return found_.size(); }
   double worstDist() const {
-    const double worst = KNNResultSet::worstDist();
+    if (!full()) return std::numeric_limits<double>::max();
+    const double worst = found_.back().squared_distance;
     return worst > 0.0 ? worst : -1.0;
   }
-};
+  bool addPoint(double squared_distance, std::size_t index) {
+    // The library may not have heard yet how near the last one has come.
+    if (full() && squared_distance >= found_.back().squared_distance) return true;
+    if (full()) found_.pop_back();
+    const PointIndex::Neighbour neighbour{index, squared_distance};
+    found_.insert(std::upper_bound(found_.begin(), found_.end(), neighbour, comes_before),
+                  neighbour);
+    return true;
+  }
 
-void order(std::vector<PointIndex::Neighbour>& found) {
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    if (a.squared_distance != b.squared_distance) return a.squared_distance < b.squared_distance;
-    return a.index < b.index;
-  });
-}
+  /// Nearest first.
+  std::vector<PointIndex::Neighbour> take() && { return std::move(found_); }
+
+ private:
+  std::size_t count_;
+  std::vector<PointIndex::Neighbour> found_;
+};
 
 }  // namespace
 
@@ -67,23 +89,16 @@ PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
 std::vector<PointIndex::Neighbour> PointIndex::nearest(const Eigen::Vector3d& query,
                                                        std::size_t count) const {
   count = std::min(count, tree_->adaptor.points.size());
-  std::vector<Neighbour> found;
-  if (count == 0) return found;
-  std::vector<std::size_t> indices(count);
-  std::vector<double> squared(count);
+  if (count == 0) return {};
   NearestFound nearest(count);
-  nearest.init(indices.data(), squared.data());
   tree_->tree.findNeighbors(nearest, query.data(), nanoflann::SearchParams());
-  found.reserve(nearest.size());
-  for (std::size_t i = 0; i < nearest.size(); ++i) found.push_back({indices[i], squared[i]});
-  order(found);
-  return found;
+  return std::move(nearest).take();
 }
 
 std::vector<PointIndex::Neighbour> PointIndex::within(const Eigen::Vector3d& query,
                                                       double radius) const {
   auto found = around(query, radius);
-  order(found);
+  std::sort(found.begin(), found.end(), comes_before);
   return found;
 }
 

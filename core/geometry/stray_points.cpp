@@ -22,15 +22,34 @@ double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
   return std::sqrt(nearest.back().squared_distance * std::numbers::pi / std::max(found, 1.0));
 }
 
-bool stands_alone(const PointIndex& index, std::size_t point) {
-  const auto& points = index.points();
-  const auto nearest = index.nearest(points[point], kNeighbours + 1);
-  std::vector<double> around;
-  for (const auto& neighbour : nearest) {
-    around.push_back(own_spacing(index.nearest(points[neighbour.index], kNeighbours + 1)));
+/// The spacings of points, each looked for once: points that stand apart ask for the same ones.
+class OwnSpacings {
+ public:
+  explicit OwnSpacings(const PointIndex& index)
+      : index_(index), known_(index.points().size(), kUnknown) {}
+
+  bool stands_alone(std::size_t point) {
+    const auto nearest = nearest_of(point);
+    const double own = known_[point] = own_spacing(nearest);
+    std::vector<double> around;
+    for (const auto& neighbour : nearest) {
+      double& spacing = known_[neighbour.index];
+      if (spacing == kUnknown) spacing = own_spacing(nearest_of(neighbour.index));
+      around.push_back(spacing);
+    }
+    return own > kStrayRatio * median(std::move(around));
   }
-  return own_spacing(nearest) > kStrayRatio * median(std::move(around));
-}
+
+ private:
+  static constexpr double kUnknown = -1.0;
+
+  std::vector<PointIndex::Neighbour> nearest_of(std::size_t point) const {
+    return index_.nearest(index_.points()[point], kNeighbours + 1);
+  }
+
+  const PointIndex& index_;
+  std::vector<double> known_;
+};
 
 }  // namespace
 
@@ -38,11 +57,12 @@ std::vector<bool> stray_points(const PointIndex& index, double spacing) {
   const auto& points = index.points();
   std::vector<bool> strays(points.size(), false);
   const VoxelGrid grid(points, kCellInSpacings * spacing);
+  OwnSpacings spacings(index);
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
     std::size_t company = 0;
-    for (const auto other : grid.neighbourhood(cell)) company += grid.members(other).size();
+    grid.each_near(cell, [&](std::size_t other) { company += grid.members(other).size(); });
     if (company >= kCompany) continue;
-    for (const auto member : grid.members(cell)) strays[member] = stands_alone(index, member);
+    for (const auto member : grid.members(cell)) strays[member] = spacings.stands_alone(member);
   }
   return strays;
 }

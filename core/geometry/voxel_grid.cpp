@@ -8,26 +8,12 @@ namespace instep {
 namespace {
 
 constexpr std::int64_t kHalf = 1 << 20;  // 21 bits an axis
-constexpr std::int64_t kSpan = 1 << 21;
 
 std::uint64_t axis_number(double coordinate, double cell_mm) {
   const double cell = std::floor(coordinate / cell_mm);
   const double bounded =
       std::clamp(cell, static_cast<double>(2 - kHalf), static_cast<double>(kHalf - 2));
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(bounded) + kHalf);
-}
-
-/// z counts in the lowest bits, so that cells above each other follow each other.
-std::uint64_t key_of(const Eigen::Vector3d& point, double cell_mm) {
-  constexpr auto kStep = static_cast<std::uint64_t>(kSpan);
-  return (axis_number(point.x(), cell_mm) * kStep + axis_number(point.y(), cell_mm)) * kStep +
-         axis_number(point.z(), cell_mm);
-}
-
-/// What to add to a key for the lowest cell of the row-th of the nine rows round it.
-std::uint64_t row_shift(std::size_t row) {
-  const auto number = static_cast<std::int64_t>(row);
-  return static_cast<std::uint64_t>(((number / 3 - 1) * kSpan + number % 3 - 1) * kSpan - 1);
 }
 
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t cell) {
@@ -39,6 +25,13 @@ std::size_t root_of(std::vector<std::size_t>& parents, std::size_t cell) {
 }
 
 }  // namespace
+
+/// z counts in the lowest bits, so that cells above each other follow each other.
+std::uint64_t VoxelGrid::key_of(const Eigen::Vector3d& point, double cell_mm) {
+  constexpr auto kStep = static_cast<std::uint64_t>(kSpan);
+  return (axis_number(point.x(), cell_mm) * kStep + axis_number(point.y(), cell_mm)) * kStep +
+         axis_number(point.z(), cell_mm);
+}
 
 VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(points.size());
@@ -79,11 +72,7 @@ void VoxelGrid::find_rows() {
 std::vector<std::size_t> VoxelGrid::neighbourhood(std::size_t cell) const {
   std::vector<std::size_t> found;
   found.reserve(kRows);
-  for (std::size_t row = 0; row < kRows; ++row) {
-    const std::uint64_t lowest = keys_[cell] + row_shift(row);
-    for (std::size_t at = rows_[cell][row]; at < cell_count() && keys_[at] <= lowest + 2; ++at)
-      found.push_back(at);
-  }
+  each_near(cell, [&](std::size_t near) { found.push_back(near); });
   return found;
 }
 

@@ -28,6 +28,16 @@ class VoxelGrid {
   /// The occupied cells among a cell and the 26 round it, the cell itself included, ascending.
   std::vector<std::size_t> neighbourhood(std::size_t cell) const;
 
+  /// Calls with each of them, in that order.
+  template <typename Visit>
+  void each_near(std::size_t cell, const Visit& visit) const {
+    for (std::size_t row = 0; row < kRows; ++row) {
+      const std::uint64_t lowest = keys_[cell] + row_shift(row);
+      for (std::size_t at = rows_[cell][row]; at < cell_count() && keys_[at] <= lowest + 2; ++at)
+        visit(at);
+    }
+  }
+
   /// The occupied cells among a cell and the six that share a face with it, the cell itself
   /// included, ascending.
   std::vector<std::size_t> face_neighbourhood(std::size_t cell) const;
@@ -41,7 +51,15 @@ class VoxelGrid {
 
  private:
   static constexpr std::size_t kRows = 9;
+  static constexpr std::int64_t kSpan = 1 << 21;  // of the cells on an axis
 
+  /// What to add to a key for the lowest cell of the row-th of the nine rows round it.
+  static std::uint64_t row_shift(std::size_t row) {
+    const auto number = static_cast<std::int64_t>(row);
+    return static_cast<std::uint64_t>(((number / 3 - 1) * kSpan + number % 3 - 1) * kSpan - 1);
+  }
+
+  static std::uint64_t key_of(const Eigen::Vector3d& point, double cell_mm);
   void find_rows();
 
   std::vector<std::uint64_t> keys_;     ///< of occupied cells, ascending

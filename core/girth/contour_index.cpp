@@ -1,37 +1,91 @@
 #include "core/girth/contour_index.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdlib>
+#include <limits>
 
 namespace instep {
 namespace {
 
-std::vector<Eigen::Vector3d> on_the_plane(const std::vector<Eigen::Vector2d>& points) {
-  std::vector<Eigen::Vector3d> places;
-  places.reserve(points.size());
-  for (const auto& point : points) places.emplace_back(point.x(), point.y(), 0.0);
-  return places;
+/// Cells across the contour: few corners share one, and few hold none between those that do.
+constexpr int kCells = 32;
+
+std::size_t number_of(int column, int row) {
+  return static_cast<std::size_t>(column * kCells + row);
 }
 
 }  // namespace
 
-ContourIndex::ContourIndex(const Contour& contour)
-    : corners_(on_the_plane(contour.points)), ways_{0.0} {
-  for (std::size_t i = 0; i < contour.points.size(); ++i) {
-    const auto& next = contour.points[(i + 1) % contour.points.size()];
-    ways_.push_back(ways_.back() + (next - contour.points[i]).norm());
+ContourIndex::ContourIndex(const Contour& contour) : corners_(contour.points), ways_{0.0} {
+  Eigen::AlignedBox2d box;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const auto& next = corners_[(i + 1) % corners_.size()];
+    ways_.push_back(ways_.back() + (next - corners_[i]).norm());
+    box.extend(corners_[i]);
+  }
+  origin_ = box.min();
+  side_ = std::max(box.sizes().maxCoeff() / kCells, std::numeric_limits<double>::min());
+
+  begins_.assign(number_of(kCells, 0) + 1, 0);
+  const auto cell_number = [&](const Eigen::Vector2d& corner) {
+    const Cell cell = cell_of(corner);
+    return number_of(cell.x(), cell.y());
+  };
+  for (const auto& corner : corners_) ++begins_[cell_number(corner) + 1];
+  for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+  members_.resize(corners_.size());
+  auto ends = begins_;
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    members_[ends[cell_number(corners_[i])]++] = static_cast<std::uint32_t>(i);
   }
 }
 
+/// Points beyond the cells belong to the nearest one.
+ContourIndex::Cell ContourIndex::cell_of(const Eigen::Vector2d& point) const {
+  const Eigen::Array2d cell = (point - origin_).array() / side_;
+  return cell.max(0.0).min(kCells - 1.0).cast<int>();
+}
+
+/// Looks at the cells in squares round the point's own, until none further out can hold a nearer
+/// corner.
+std::size_t ContourIndex::nearest_corner(const Eigen::Vector2d& point) const {
+  const Cell middle = cell_of(point);
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look_at = [&](int column, int row) {
+    const std::size_t cell = number_of(column, row);
+    for (std::uint32_t at = begins_[cell]; at < begins_[cell + 1]; ++at) {
+      const double squared = (corners_[members_[at]] - point).squaredNorm();
+      if (squared > least || (squared == least && members_[at] > nearest)) continue;
+      least = squared;
+      nearest = members_[at];
+    }
+  };
+  for (int ring = 0; ring < kCells; ++ring) {
+    const double looked_at = (ring - 1) * side_;
+    if (ring > 1 && least < looked_at * looked_at) break;
+    const Cell from = (middle - ring).max(0);
+    const Cell to = (middle + ring).min(kCells - 1);
+    for (int column = from.x(); column <= to.x(); ++column) {
+      const bool is_side = std::abs(column - middle.x()) == ring;
+      for (int row = from.y(); row <= to.y(); ++row) {
+        if (is_side || std::abs(row - middle.y()) == ring) look_at(column, row);
+      }
+    }
+  }
+  return nearest;
+}
+
 ContourIndex::Foot ContourIndex::foot_of(const Eigen::Vector2d& point) const {
-  const auto& corners = corners_.points();
-  const std::size_t count = corners.size();
-  const std::size_t nearest = corners_.nearest({point.x(), point.y(), 0.0}, 1).front().index;
-  Foot best{(corners[nearest].head<2>() - point).norm(), ways_[nearest]};
+  const std::size_t count = corners_.size();
+  const std::size_t nearest = nearest_corner(point);
+  Foot best{(corners_[nearest] - point).norm(), ways_[nearest]};
   for (const std::size_t from : {(nearest + count - 1) % count, nearest}) {
     const double length = ways_[from + 1] - ways_[from];
     if (!(length > 0.0)) continue;
-    const Eigen::Vector2d start = corners[from].head<2>();
-    const Eigen::Vector2d along = (corners[(from + 1) % count].head<2>() - start) / length;
+    const Eigen::Vector2d start = corners_[from];
+    const Eigen::Vector2d along = (corners_[(from + 1) % count] - start) / length;
     const double part = std::clamp(along.dot(point - start), 0.0, length);
     const double distance = (start + part * along - point).norm();
     if (distance < best.distance) best = {distance, ways_[from] + part};

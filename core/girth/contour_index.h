@@ -1,15 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "core/geometry/point_index.h"
 #include "core/girth/contour_trace.h"
 
 namespace instep {
 
 /// Finds where on a traced contour a point of the plane is nearest. The contour's corners lie close
 /// and evenly, as trace_contour() puts them; at least one. Keeps what it needs of the contour.
+/// Near the contour a query looks at a few corners only.
 class ContourIndex {
  public:
   explicit ContourIndex(const Contour& contour);
@@ -24,8 +26,18 @@ class ContourIndex {
   double length() const { return ways_.back(); }
 
  private:
-  PointIndex corners_;
+  /// Of a square cell: from 0 to below kCells, in both directions.
+  using Cell = Eigen::Array2i;
+
+  Cell cell_of(const Eigen::Vector2d& point) const;
+  std::size_t nearest_corner(const Eigen::Vector2d& point) const;
+
+  std::vector<Eigen::Vector2d> corners_;
   std::vector<double> ways_;  ///< to each corner, and to the first one again
+  Eigen::Vector2d origin_;    ///< of the cells
+  double side_ = 1.0;
+  std::vector<std::uint32_t> begins_;   ///< of each cell in members_, and the end of the last
+  std::vector<std::uint32_t> members_;  ///< corners, cell by cell
 };
 
 }  // namespace instep

@@ -131,6 +131,7 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
   Contour contour;
   Place here = *first;
   double way = 0.0;
+  double leeway = 0.0;  // so far the line may go before it can be too far from all points
   int corners = 0;
   const auto most = static_cast<std::size_t>(kMostSteps * longest / step);
   while (way < longest && contour.points.size() < most) {
@@ -149,8 +150,10 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
     if (!next) return std::nullopt;
     const double length = (next->point - here.point).norm();
     way += length;
-    if (surface.distance_to_data({next->point.x(), next->point.y(), 0.0}) > reach) {
-      return std::nullopt;
+    leeway -= length;
+    if (leeway < 0.0) {
+      leeway = reach - surface.distance_to_data({next->point.x(), next->point.y(), 0.0});
+      if (leeway < 0.0) return std::nullopt;
     }
     const Eigen::Vector2d home = first->point - here.point;
     const Eigen::Vector2d along = (next->point - here.point) / length;

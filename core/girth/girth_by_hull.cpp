@@ -64,16 +64,6 @@ Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane&
               "give control points on the body, or a denser cloud");
 }
 
-PlaneSlab within(const PlaneSlab& slab, double half_width) {
-  PlaneSlab band;
-  for (std::size_t i = 0; i < slab.places.size(); ++i) {
-    if (std::abs(slab.places[i].z()) > half_width) continue;
-    band.indices.push_back(slab.indices[i]);
-    band.places.push_back(slab.places[i]);
-  }
-  return band;
-}
-
 /// Half-width of the band in which enough points lie.
 double half_width_of_band(const Neighbourhood& about) {
   double half_width = kNarrowestBandInSpacings * about.spacing;

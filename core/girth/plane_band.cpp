@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/geometry/stray_points.h"
@@ -40,12 +41,16 @@ constexpr std::size_t kFewestNormalPoints = 16;
 
 /// Size of the cloud as the plane sees it, so that it turns with the two.
 double extent(const PointCloud& cloud, const TapePlane& plane) {
-  Eigen::AlignedBox3d box;
+  Eigen::Matrix3d directions;
+  directions << plane.u(), plane.v(), plane.normal();
+  Eigen::Array3d least = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array3d most = -least;
   for (const auto& position : cloud.positions) {
-    const Eigen::Vector2d place = plane.project(position);
-    box.extend(Eigen::Vector3d(place.x(), place.y(), plane.distance(position)));
+    const Eigen::Array3d place = (directions.transpose() * position).array();
+    least = (place < least).select(place, least);
+    most = (place > most).select(place, most);
   }
-  return box.diagonal().norm();
+  return (most - least).matrix().norm();
 }
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
@@ -70,12 +75,11 @@ struct Probe {
   double spacing = 0.0;  ///< in the unit
 };
 
-/// Widens a slab until it is a ring of points that tells their spacing.
-Result<Probe> probe(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = extent(cloud, plane);
+/// Widens a slab until it is a ring of points that tells their spacing. `size`: of the cloud.
+Result<Probe> probe(SlabSource& slabs, double size) {
   bool found_some = false;
   for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
-    PlaneSlab slab = slab_of(cloud, plane, half_width);
+    PlaneSlab slab = slabs.slab(half_width);
     if (slab.places.size() < kFewestPoints) continue;
     found_some = true;
     const Eigen::AlignedBox2d box = section_box(slab.places);
@@ -90,9 +94,8 @@ Result<Probe> probe(const PointCloud& cloud, const TapePlane& plane) {
 }
 
 /// The points within `half_width` of the plane; lengths in the probe's unit.
-PlaneBand gather(const PointCloud& cloud, const TapePlane& plane, const Probe& found,
-                 double half_width) {
-  PlaneSlab slab = slab_of(cloud, plane, half_width * found.unit_mm);
+PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
+  PlaneSlab slab = slabs.slab(half_width * found.unit_mm);
   for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
   PlaneBand band{found.unit_mm,
                  found.middle_mm.head<2>(),
@@ -110,11 +113,10 @@ PlaneBand gather(const PointCloud& cloud, const TapePlane& plane, const Probe& f
 }
 
 /// As wide a band as its grain asks for.
-PlaneBand gather_enough(const PointCloud& cloud, const TapePlane& plane, const Probe& found,
-                        double sigma) {
+PlaneBand gather_enough(SlabSource& slabs, const Probe& found, double sigma) {
   double half_width = kBandInGrains * grain_of(found.spacing, sigma);
   for (int round = 0;; ++round) {
-    PlaneBand band = gather(cloud, plane, found, half_width);
+    PlaneBand band = gather(slabs, found, half_width);
     band.grain = grain_of(band.spacing, sigma);
     if (round == kMostRounds || kBandInGrains * band.grain < kWideEnough * half_width) return band;
     half_width = kBandInGrains * band.grain;
@@ -210,9 +212,10 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
                 "scan again");
   }
-  const auto found = probe(cloud, plane);
+  SlabSource slabs(cloud, plane);
+  const auto found = probe(slabs, extent(cloud, plane));
   if (!found) return tl::make_unexpected(found.error());
-  PlaneBand band = gather_enough(cloud, plane, *found, 0.0);
+  PlaneBand band = gather_enough(slabs, *found, 0.0);
   drop_strays(band);
   if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return no_surface();
 
@@ -220,7 +223,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   if (own_sigma) sigma_mm = usual_sigma(cloud, band);
   NoiseEstimate noise = noise_of(band, sigma_mm);
   if (grain_of(band.spacing, noise.sigma) > band.grain) {
-    band = gather_enough(cloud, plane, *found, noise.sigma);
+    band = gather_enough(slabs, *found, noise.sigma);
     drop_strays(band);
     if (band.sources.size() < kFewestPoints) return no_surface();
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -12,40 +13,105 @@
 namespace instep {
 namespace {
 
-/// A place of the cloud with its distance from the plane, to be put in order by the place alone.
-struct Found {
-  Eigen::Vector3d place;
-  std::size_t index;
+/// The first slab that is asked for is to tell how wide the others have to be.
+constexpr double kWiderThanFirst = 6.0;
+constexpr double kWiderThanOthers = 1.2;
+/// Few enough to be put in order one by one, where places lie evenly.
+constexpr std::size_t kPointsInAStrip = 4;
 
-  bool operator<(const Found& other) const {
-    if (place.x() != other.place.x()) return place.x() < other.place.x();
-    return std::tuple(place.y(), place.z(), index) <
-           std::tuple(other.place.y(), other.place.z(), other.index);
-  }
+/// A place by its first coordinate, to be put in order with little to move.
+struct Found {
+  double x;
+  std::size_t number;
 };
 
-}  // namespace
+/// Whether a place comes before another in the order of all slabs, the first of copies first.
+bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
+  const Eigen::Vector3d& one = slab.places[a];
+  const Eigen::Vector3d& other = slab.places[b];
+  return std::tuple(one.x(), one.y(), one.z(), a) < std::tuple(other.x(), other.y(), other.z(), b);
+}
 
-PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  std::vector<Found> found;
+/// As they come.
+PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+  PlaneSlab slab;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double height = plane.distance(cloud.positions[i]);
     if (std::abs(height) > half_width) continue;
     const Eigen::Vector2d place = plane.project(cloud.positions[i]);
-    found.push_back({{place.x(), place.y(), height}, i});
+    slab.indices.push_back(i);
+    slab.places.emplace_back(place.x(), place.y(), height);
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end(),
-                          [](const Found& a, const Found& b) { return a.place == b.place; }),
-              found.end());
+  return slab;
+}
+
+/// Sorted into strips across the first coordinate, then within each.
+std::vector<Found> in_order(const PlaneSlab& slab) {
+  const std::size_t count = slab.places.size();
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (const auto& place : slab.places) {
+    least = std::min(least, place.x());
+    most = std::max(most, place.x());
+  }
+  const std::size_t strips = 1 + count / kPointsInAStrip;
+  const auto strip_of = [&](const Eigen::Vector3d& place) {
+    const double part = most > least ? (place.x() - least) / (most - least) : 0.0;
+    return std::min(strips - 1, static_cast<std::size_t>(part * static_cast<double>(strips)));
+  };
+  std::vector<std::size_t> ends(strips + 1, 0);
+  for (const auto& place : slab.places) ++ends[strip_of(place) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Found> order(count);
+  const auto begins = ends;
+  for (std::size_t i = 0; i < count; ++i) {
+    order[ends[strip_of(slab.places[i])]++] = {slab.places[i].x(), i};
+  }
+  for (std::size_t strip = 0; strip < strips; ++strip) {
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begins[strip]),
+              order.begin() + static_cast<std::ptrdiff_t>(begins[strip + 1]),
+              [&](const Found& a, const Found& b) {
+                return a.x != b.x ? a.x < b.x : comes_before(slab, a.number, b.number);
+              });
+  }
+  return order;
+}
+
+}  // namespace
+
+PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+  const PlaneSlab found = unordered_slab(cloud, plane, half_width);
+  const std::vector<Found> order = in_order(found);
   PlaneSlab slab;
-  slab.indices.reserve(found.size());
-  slab.places.reserve(found.size());
-  for (const auto& [place, index] : found) {
-    slab.indices.push_back(index);
+  slab.indices.reserve(order.size());
+  slab.places.reserve(order.size());
+  for (const auto& [x, number] : order) {
+    const Eigen::Vector3d& place = found.places[number];
+    if (!slab.places.empty() && slab.places.back() == place) continue;
+    slab.indices.push_back(found.indices[number]);
     slab.places.push_back(place);
   }
   return slab;
+}
+
+PlaneSlab within(const PlaneSlab& slab, double half_width) {
+  PlaneSlab part;
+  part.indices.reserve(slab.indices.size());
+  part.places.reserve(slab.places.size());
+  for (std::size_t i = 0; i < slab.places.size(); ++i) {
+    if (std::abs(slab.places[i].z()) > half_width) continue;
+    part.indices.push_back(slab.indices[i]);
+    part.places.push_back(slab.places[i]);
+  }
+  return part;
+}
+
+PlaneSlab SlabSource::slab(double half_width) {
+  if (half_width > half_width_) {
+    half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
+    widest_ = slab_of(cloud_, plane_, half_width_);
+  }
+  return within(widest_, half_width);
 }
 
 bool is_cut(const std::vector<Eigen::Vector3d>& places) {

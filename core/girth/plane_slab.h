@@ -19,6 +19,25 @@ struct PlaneSlab {
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width);
 
+/// Those of a slab that lie at most `half_width` from the plane, in the same order.
+PlaneSlab within(const PlaneSlab& slab, double half_width);
+
+/// Slabs of one cloud at one plane, of widths that only what they hold can tell: looks through the
+/// cloud for more than is asked for, and seldom again. Borrows the cloud.
+class SlabSource {
+ public:
+  SlabSource(const PointCloud& cloud, const TapePlane& plane) : cloud_(cloud), plane_(plane) {}
+
+  /// As slab_of() gives it.
+  PlaneSlab slab(double half_width);
+
+ private:
+  const PointCloud& cloud_;
+  TapePlane plane_;
+  PlaneSlab widest_;
+  double half_width_ = -1.0;  ///< of it
+};
+
 /// False where the plane only touches what the points are of: hardly one of them lies on the plane
 /// or beyond it.
 bool is_cut(const std::vector<Eigen::Vector3d>& places);

@@ -1,5 +1,6 @@
 #include "core/surface/blended_surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -14,6 +15,12 @@ constexpr double kReach = 0.75;
 /// where it changes faster, a nearer one.
 constexpr double kNearEnough = 0.4;
 constexpr double kNearEnoughAtEdges = 0.3;
+/// One of exact points, more than it has samples, may be centred further off, if the place has them
+/// on all sides: within a part of the radius this share at least of those that would lie there
+/// evenly. Where there is noise, more patches average more of it.
+constexpr double kNearEnoughInCrowds = 0.5;
+constexpr double kAllRound = 0.3;
+constexpr double kLeastAllRound = 0.6;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;
@@ -34,24 +41,51 @@ Weight wendland(const Eigen::Vector3d& offset, double reach) {
           -20.0 * rest * rest * rest / (reach * reach) * offset};
 }
 
+/// Whether a place amid a patch has the patch's points on all sides.
+bool is_amid(const Eigen::Vector3d& place, const SurfacePatch& patch,
+             const std::vector<OrientedPoint>& points) {
+  const double reach = kAllRound * patch.radius;
+  const auto found = std::count_if(patch.members.begin(), patch.members.end(), [&](auto member) {
+    return (points[member].position - place).squaredNorm() < reach * reach;
+  });
+  return static_cast<double>(found) >
+         kLeastAllRound * kAllRound * kAllRound * static_cast<double>(patch.members.size());
+}
+
 }  // namespace
 
 BlendedSurface::BlendedSurface(PatchFitter fitter) : fitter_(std::move(fitter)) {}
 
+BlendedSurface::Zone::Zone(const SurfacePatch& patch) : centre(patch.centre), middle(patch.middle) {
+  const auto* smooth = std::get_if<HeightPatch>(&patch.field);
+  const bool crowded = smooth && smooth->is_exact() && patch.members.size() > kMostHeightSamples;
+  const double near = smooth ? kNearEnough : kNearEnoughAtEdges;
+  const double square = patch.radius * patch.radius;
+  almost_there = kAlmostThere * kAlmostThere * square;
+  near_enough = near * near * square;
+  near_enough_amid = crowded ? kNearEnoughInCrowds * kNearEnoughInCrowds * square : near_enough;
+  well_within = kWellWithin * kWellWithin * square;
+  reach = kReach * kReach * square;
+}
+
+bool BlendedSurface::serves(std::size_t patch, const Eigen::Vector3d& place) const {
+  const Zone& zone = zones_[patch];
+  const double off = (place - zone.centre).squaredNorm();
+  if (off < zone.almost_there) return true;
+  if (off >= zone.near_enough_amid) return false;
+  if ((place - zone.middle).squaredNorm() >= zone.well_within) return false;
+  return off < zone.near_enough || is_amid(place, patches_[patch], points());
+}
+
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
-  for (const auto& patch : patches_) {
-    const double off = (place - patch.centre).norm();
-    if (off < kAlmostThere * patch.radius) return true;
-    const bool smooth = std::holds_alternative<HeightPatch>(patch.field);
-    if (off < (smooth ? kNearEnough : kNearEnoughAtEdges) * patch.radius &&
-        (place - patch.middle).norm() < kWellWithin * patch.radius) {
-      return true;
-    }
+  for (std::size_t i = patches_.size(); i-- > 0;) {
+    if (serves(i, place)) return true;
   }
   if (patches_.size() >= kMostPatches) return false;
   auto patch = fitter_.fit(place);
   if (!patch) return false;
   patches_.push_back(std::move(*patch));
+  zones_.emplace_back(patches_.back());
   return true;
 }
 
@@ -59,7 +93,9 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
   double weights = 0.0;
   Eigen::Vector3d weights_gradient = Eigen::Vector3d::Zero();
   FieldValue sum;
-  for (const auto& patch : patches_) {
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if ((place - zones_[i].middle).squaredNorm() >= zones_[i].reach) continue;
+    const SurfacePatch& patch = patches_[i];
     const Weight weight = wendland(place - patch.middle, kReach * patch.radius);
     if (weight.value <= 0.0) continue;
     const FieldValue field = patch.at(place);
@@ -76,7 +112,9 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
 const SurfacePatch* BlendedSurface::leading_patch(const Eigen::Vector3d& place) const {
   const SurfacePatch* leading = nullptr;
   double most = 0.0;
-  for (const auto& patch : patches_) {
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    if ((place - zones_[i].middle).squaredNorm() >= zones_[i].reach) continue;
+    const SurfacePatch& patch = patches_[i];
     const double weight = wendland(place - patch.middle, kReach * patch.radius).value;
     if (weight <= most) continue;
     most = weight;

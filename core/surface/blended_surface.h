@@ -38,8 +38,25 @@ class BlendedSurface {
   std::size_t patches() const { return patches_.size(); }
 
  private:
+  /// Where a patch serves, as squares of distances: beside the patches themselves, for every place
+  /// asks it of all of them.
+  struct Zone {
+    explicit Zone(const SurfacePatch& patch);
+
+    Eigen::Vector3d centre;
+    Eigen::Vector3d middle;
+    double almost_there;      ///< from the centre: whatever the middle
+    double near_enough;       ///< from the centre
+    double near_enough_amid;  ///< from the centre, for a place amid many points
+    double well_within;       ///< from the middle
+    double reach;             ///< from the middle: beyond it the patch counts nothing
+  };
+
+  bool serves(std::size_t patch, const Eigen::Vector3d& place) const;
+
   PatchFitter fitter_;
   std::vector<SurfacePatch> patches_;
+  std::vector<Zone> zones_;  ///< of the patches
 };
 
 }  // namespace instep

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace instep {
 namespace {
@@ -12,10 +14,18 @@ constexpr double kLeastDetermined = 1e-3;
 /// say in how rough the surface is.
 constexpr double kLargestScale = 1e3;
 
-Eigen::ArrayXd cubed_distances(const Eigen::Matrix2Xd& places, const Eigen::Vector2d& place) {
-  const Eigen::ArrayXd squared =
-      (places.row(0).array() - place.x()).square() + (places.row(1).array() - place.y()).square();
-  return squared * squared.sqrt();
+/// Sum of the kernels round `places` times `shares`, at each of `samples`.
+Eigen::ArrayXd kernels_at(const Eigen::Matrix2Xd& samples, const Eigen::Matrix2Xd& places,
+                          const Eigen::VectorXd& shares) {
+  const Eigen::ArrayXd x = samples.row(0);
+  const Eigen::ArrayXd y = samples.row(1);
+  Eigen::ArrayXd squared(samples.cols());
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(samples.cols());
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+    squared = (x - places(0, i)).square() + (y - places(1, i)).square();
+    sum += shares[i] * squared * squared.sqrt();
+  }
+  return sum;
 }
 
 /// Its lower triangle; both sides scaled.
@@ -34,6 +44,20 @@ Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places, const Eigen::Arra
   return kernel;
 }
 
+/// The symmetric matrix, whose lower triangle is given, times a few columns.
+Eigen::MatrixXd both_triangles_times(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& columns) {
+  const Eigen::Index count = lower.cols();
+  Eigen::MatrixXd product = Eigen::MatrixXd::Zero(count, columns.cols());
+  for (Eigen::Index j = 0; j < count; ++j) {
+    const Eigen::Index rest = count - j - 1;
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+      product(j, k) += lower.col(j).tail(rest + 1).dot(columns.col(k).tail(rest + 1));
+      product.col(k).tail(rest) += columns(j, k) * lower.col(j).tail(rest);
+    }
+  }
+  return product;
+}
+
 /// Takes a * b' + b * a' from the lower triangle.
 void subtract_both_ways(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                         Eigen::MatrixXd& matrix) {
@@ -47,12 +71,49 @@ void subtract_both_ways(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
 
 /// A quadratic along one line has as many terms as a plane.
 bool span_a_plane(const Eigen::Matrix2Xd& places) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(monomials(places, 3));
-  qr.setThreshold(kLeastDetermined);
-  return qr.rank() == 3;
+  const Eigen::Matrix2Xd arms = places.colwise() - places.rowwise().mean();
+  const Eigen::Matrix2d spread = arms * arms.transpose();
+  const double middle = 0.5 * spread.trace();
+  const double narrowest = middle - std::hypot(0.5 * (spread(0, 0) - spread(1, 1)), spread(0, 1));
+  const auto widest = std::max(static_cast<double>(places.cols()), 2.0 * middle);
+  return narrowest > kLeastDetermined * kLeastDetermined * widest;
 }
 
 }  // namespace
+
+/// Gram's and Schmidt's way, the longest column first and each made square to the earlier ones
+/// twice, so that rounding leaves nothing over.
+void HeightKriging::span(Eigen::MatrixXd columns) {
+  const Eigen::Index terms = columns.cols();
+  std::iota(order_.begin(), order_.end(), Eigen::Index{0});
+  upper_ = Eigen::MatrixXd::Zero(terms, terms);
+  double first = 0.0;
+  Eigen::Index rank = 0;
+  for (; rank < terms; ++rank) {
+    Eigen::Index longest = 0;
+    columns.rightCols(terms - rank).colwise().squaredNorm().maxCoeff(&longest);
+    longest += rank;
+    columns.col(rank).swap(columns.col(longest));
+    upper_.col(rank).swap(upper_.col(longest));
+    std::swap(order_[static_cast<std::size_t>(rank)], order_[static_cast<std::size_t>(longest)]);
+    auto column = columns.col(rank);
+    for (Eigen::Index k = 0; k < rank; ++k) {
+      const double left = columns.col(k).dot(column);
+      column -= left * columns.col(k);
+      upper_(k, rank) += left;
+    }
+    const double length = column.norm();
+    if (rank == 0) first = length;
+    if (!(length > kLeastDetermined * first)) break;
+    column /= length;
+    upper_(rank, rank) = length;
+    for (Eigen::Index k = rank + 1; k < terms; ++k) {
+      upper_(rank, k) = column.dot(columns.col(k));
+      columns.col(k) -= upper_(rank, k) * column;
+    }
+  }
+  basis_ = columns.leftCols(rank);
+}
 
 std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eigen::Index terms) {
   if (samples.size() < 4 || !span_a_plane(samples.places)) return std::nullopt;
@@ -65,16 +126,13 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
     kriging.scales_ = (most / samples.variances.array()).sqrt().min(kLargestScale);
   }
   const Eigen::VectorXd scales = kriging.scales_;
-  kriging.qr_.compute(scales.asDiagonal() * monomials(samples.places, terms));
-  kriging.qr_.setThreshold(kLeastDetermined);
-  const Eigen::Index rank = kriging.qr_.rank();
-  if (rank < 3 || rank >= samples.size()) return std::nullopt;
-  kriging.basis_ = Eigen::MatrixXd::Identity(samples.size(), rank);
-  kriging.basis_.applyOnTheLeft(kriging.qr_.householderQ().setLength(rank));
-
+  kriging.span(scales.asDiagonal() * monomials(samples.places, terms));
   const Eigen::MatrixXd& basis = kriging.basis_;
+  const Eigen::Index rank = basis.cols();
+  if (rank < 3 || rank >= samples.size()) return std::nullopt;
+
   kriging.reduced_ = kernel_between(samples.places, kriging.scales_);
-  kriging.on_basis_ = kriging.reduced_.selfadjointView<Eigen::Lower>() * basis;
+  kriging.on_basis_ = both_triangles_times(kriging.reduced_, basis);
   const Eigen::MatrixXd square = basis.transpose() * kriging.on_basis_;
   const Eigen::MatrixXd off =
       kriging.on_basis_ - 0.5 * basis * (square + Eigen::MatrixXd::Identity(rank, rank));
@@ -85,21 +143,23 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
 }
 
 double HeightKriging::log_determined() const {
-  return 2.0 * qr_.matrixQR().diagonal().head(basis_.cols()).array().abs().log().sum() -
+  return 2.0 * upper_.diagonal().head(basis_.cols()).array().log().sum() -
          2.0 * scales_.log().sum();
 }
 
 std::optional<HeightKriging::Solution> HeightKriging::solve(double ratio) const {
-  Solution solution;
   Eigen::MatrixXd system = reduced_;
   system.diagonal().array() += ratio;
-  solution.cholesky.compute(system);
-  if (solution.cholesky.info() != Eigen::Success) return std::nullopt;
-  solution.on_null_space = solution.cholesky.solve(free_heights_);
+  auto cholesky = SmallCholesky::of(system);
+  if (!cholesky) return std::nullopt;
+  Solution solution;
+  solution.ratio = ratio;
+  solution.on_null_space = cholesky->solve(free_heights_);
   if (!solution.on_null_space.allFinite()) return std::nullopt;
-  solution.log_volume = 2.0 * solution.cholesky.matrixLLT().diagonal().array().log().sum() -
-                        static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
+  solution.log_volume =
+      cholesky->log_volume() - static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
   solution.excess = free_heights_.dot(solution.on_null_space);
+  solution.cholesky = std::move(*cholesky);
   return solution;
 }
 
@@ -109,61 +169,59 @@ Eigen::VectorXd HeightKriging::weights(const Solution& solution) const {
 
 Quadratic HeightKriging::polynomial(const Solution& solution) const {
   const Eigen::Index rank = basis_.cols();
-  Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(qr_.cols());
-  coefficients.head(rank) =
-      qr_.matrixQR()
-          .topLeftCorner(rank, rank)
+  const Eigen::VectorXd coefficients =
+      upper_.topLeftCorner(rank, rank)
           .triangularView<Eigen::Upper>()
           .solve(basis_.transpose() * heights_ - on_basis_.transpose() * solution.on_null_space);
   Quadratic polynomial = Quadratic::Zero();
-  polynomial.head(qr_.cols()) = qr_.colsPermutation() * coefficients;
+  for (Eigen::Index k = 0; k < rank; ++k) {
+    polynomial[order_[static_cast<std::size_t>(k)]] = coefficients[k];
+  }
   return polynomial;
 }
 
 double HeightKriging::left_out(const Solution& solution) const {
-  const Eigen::Index count = places_.cols();
-  const Eigen::MatrixXd root =
-      solution.cholesky.matrixL().solve(Eigen::MatrixXd::Identity(count, count));
+  // The inverse system without the ones that stand on the polynomials.
+  const Eigen::VectorXd own = solution.cholesky.inverse_diagonal() - basis_.rowwise().squaredNorm();
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    // The inverse system without the ones that stand on the polynomials.
-    const double own = root.col(i).squaredNorm() - basis_.row(i).squaredNorm();
-    if (own > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own;
+  for (Eigen::Index i = 0; i < own.size(); ++i) {
+    if (own[i] > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own[i];
   }
-  return sum / static_cast<double>(count);
+  return sum / static_cast<double>(own.size());
 }
 
 Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::Matrix2Xd& places,
                                          const Eigen::VectorXd& shares) const {
   const Eigen::Index rank = basis_.cols();
-  Eigen::ArrayXd kernels = Eigen::ArrayXd::Zero(places_.cols());
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
-    kernels += shares[i] * cubed_distances(places_, places.col(i));
-  }
-  const Eigen::VectorXd terms = monomials(places, qr_.cols()).transpose() * shares;
-  const Eigen::VectorXd sought = qr_.colsPermutation().transpose() * terms;
-  const Eigen::VectorXd along = qr_.matrixQR()
-                                    .topLeftCorner(rank, rank)
-                                    .triangularView<Eigen::Upper>()
-                                    .transpose()
-                                    .solve(sought.head(rank));
-  Eigen::VectorXd right = (scales_ * kernels).matrix() - on_basis_ * along;
+  const Eigen::VectorXd terms = monomials(places, upper_.cols()).transpose() * shares;
+  Eigen::VectorXd along(rank);
+  for (Eigen::Index k = 0; k < rank; ++k) along[k] = terms[order_[static_cast<std::size_t>(k)]];
+  upper_.topLeftCorner(rank, rank).triangularView<Eigen::Upper>().transpose().solveInPlace(along);
+  Eigen::VectorXd right =
+      (scales_ * kernels_at(places_, places, shares)).matrix() - on_basis_ * along;
   right -= basis_ * (basis_.transpose() * right).eval();
   const Eigen::VectorXd scaled = basis_ * along + solution.cholesky.solve(right);
   return scales_ * scaled.array();
 }
 
-double HeightKriging::wandering(const Eigen::VectorXd& influence, const Eigen::Matrix2Xd& places,
+/// The weighed kernel times `scaled` from both sides, by its parts on the polynomials and off them;
+/// off them it is what was solved, less the ratio.
+double HeightKriging::kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const {
+  const Eigen::VectorXd along = basis_.transpose() * scaled;
+  const Eigen::VectorXd off = scaled - basis_ * along;
+  const Eigen::VectorXd rooted = solution.cholesky.rooted(off);
+  const Eigen::VectorXd crossed = on_basis_ * along;
+  return rooted.squaredNorm() - solution.ratio * off.squaredNorm() +
+         crossed.dot(basis_ * along + 2.0 * off);
+}
+
+double HeightKriging::wandering(const Solution& solution, const Eigen::VectorXd& influence,
+                                const Eigen::Matrix2Xd& places,
                                 const Eigen::VectorXd& shares) const {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
-    sum += shares[i] * (cubed_distances(places, places.col(i)).matrix().dot(shares) -
-                        2.0 * cubed_distances(places_, places.col(i)).matrix().dot(influence));
-  }
-  for (Eigen::Index j = 0; j < influence.size(); ++j) {
-    sum += influence[j] * cubed_distances(places_, places_.col(j)).matrix().dot(influence);
-  }
-  return std::max(sum, 0.0);
+  const double between = kernels_at(places, places, shares).matrix().dot(shares);
+  const double across = kernels_at(places_, places, shares).matrix().dot(influence);
+  const Eigen::VectorXd scaled = influence.array() / scales_;
+  return std::max(between - 2.0 * across + kernel_square(solution, scaled), 0.0);
 }
 
 }  // namespace instep

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/QR>
+#include <array>
 #include <optional>
 
 #include "core/surface/height_samples.h"
+#include "core/surface/small_cholesky.h"
 
 namespace instep {
 
@@ -37,7 +37,8 @@ class HeightKriging {
 
   /// All that follows from one ratio of level() to roughness.
   struct Solution {
-    Eigen::LLT<Eigen::MatrixXd> cholesky;
+    double ratio = 0.0;
+    SmallCholesky cholesky;
     Eigen::VectorXd on_null_space;
     double log_volume = 0.0;  ///< log determinant of kernel + ratio
     /// Squares of the heights over kernel + ratio. Divided by free(), the likeliest roughness.
@@ -64,17 +65,24 @@ class HeightKriging {
                             const Eigen::VectorXd& shares) const;
 
   /// Variance of that sum round the true one if there were no noise, for a roughness of one.
-  double wandering(const Eigen::VectorXd& influence, const Eigen::Matrix2Xd& places,
-                   const Eigen::VectorXd& shares) const;
+  /// O(n^2).
+  double wandering(const Solution& solution, const Eigen::VectorXd& influence,
+                   const Eigen::Matrix2Xd& places, const Eigen::VectorXd& shares) const;
 
  private:
   HeightKriging() = default;
 
+  void span(Eigen::MatrixXd columns);
+  double kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const;
+
   Eigen::Matrix2Xd places_;
   Eigen::ArrayXd scales_;
   double level_ = 0.0;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
-  Eigen::MatrixXd basis_;     ///< orthonormal columns that span the polynomial block
+  /// The weighed monomials, in this order, are basis times upper: orthonormal columns that span the
+  /// polynomial block, and how they make it.
+  std::array<Eigen::Index, Quadratic::RowsAtCompileTime> order_{};
+  Eigen::MatrixXd basis_;
+  Eigen::MatrixXd upper_;
   Eigen::MatrixXd on_basis_;  ///< kernel times basis
   Eigen::MatrixXd reduced_;   ///< lower triangle
   Eigen::VectorXd heights_;

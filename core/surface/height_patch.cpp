@@ -30,12 +30,8 @@ constexpr double kCoefficientVariance = 0.1;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
-bool is_exact(const HeightKriging& kriging) {
+bool are_exact(const HeightKriging& kriging) {
   return !(kriging.level() > kExactVariance);
-}
-
-double smoothing(const HeightKriging& kriging, double roughness) {
-  return is_exact(kriging) ? kLeastSmoothing : kriging.level() / roughness + kLeastSmoothing;
 }
 
 Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
@@ -48,24 +44,24 @@ Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
   return axes;
 }
 
-/// Twice the negative log likelihood, with the coefficients integrated over.
-double misfit_of(const HeightKriging& kriging, const HeightKriging::Solution& solution,
-                 double roughness) {
+/// What the polynomial adds to twice the negative log likelihood, with its coefficients integrated
+/// over.
+double misfit_of_polynomial(const HeightKriging& kriging, Eigen::Index samples) {
+  const auto terms = static_cast<double>(samples - kriging.free());
+  return kriging.log_determined() + terms * std::log(kCoefficientVariance);
+}
+
+/// Twice the negative log likelihood of exact heights over theirs.
+double misfit_of_exact(const HeightKriging& kriging, const HeightKriging::Solution& solution) {
   const auto free = static_cast<double>(kriging.free());
-  const double terms = static_cast<double>(solution.on_null_space.size()) - free;
-  const double volume = kriging.log_determined() + terms * std::log(kCoefficientVariance);
-  if (is_exact(kriging)) {
-    const double even = std::max(solution.excess / free, kEven);
-    return volume + solution.log_volume + free * (std::log(even) + 1.0);
-  }
-  return volume + solution.log_volume + free * std::log(roughness) + solution.excess / roughness;
+  const double even = std::max(solution.excess / free, kEven);
+  return solution.log_volume + free * (std::log(even) + 1.0);
 }
 
 /// The roughness of the highest likelihood and of a prior round the usual one.
-double likeliest_roughness(const HeightKriging& kriging, double usual) {
-  return KrigingLikelihood(kriging).likeliest(kriging.level(), kRoughest * usual,
-                                              kSmoothest * usual, kRoughnessStep,
-                                              KrigingLikelihood::Prior{usual, kRoughnessSpread});
+double likeliest_roughness(const KrigingLikelihood& likelihood, double variance, double usual) {
+  return likelihood.likeliest(variance, kRoughest * usual, kSmoothest * usual, kRoughnessStep,
+                              KrigingLikelihood::Prior{usual, kRoughnessSpread});
 }
 
 }  // namespace
@@ -92,25 +88,40 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   if (!patch.kriging_) return std::nullopt;
   const HeightKriging& kriging = *patch.kriging_;
   const double usual = std::max(roughness * radius, 1e-12);
-  const double likeliest = is_exact(kriging) ? usual : likeliest_roughness(kriging, usual);
-  auto solution = kriging.solve(smoothing(kriging, likeliest));
-  if (!solution) return std::nullopt;
-  patch.roughness_ = likeliest / radius;
-  patch.misfit_ = misfit_of(kriging, *solution, likeliest);
-  patch.wander_ = likeliest;
-  if (is_exact(kriging)) {
+  patch.misfit_ = misfit_of_polynomial(kriging, samples.size());
+  double likeliest = usual;
+  std::optional<HeightKriging::Solution> solution;
+  if (are_exact(kriging)) {
+    solution = kriging.solve(kLeastSmoothing);
+    if (!solution) return std::nullopt;
+    patch.misfit_ += misfit_of_exact(kriging, *solution);
     patch.wander_ = solution->excess / static_cast<double>(kriging.free());
   } else {
-    solution = kriging.solve(smoothing(kriging, kAllowance * likeliest));
+    const KrigingLikelihood likelihood(kriging);
+    likeliest = likeliest_roughness(likelihood, kriging.level(), usual);
+    patch.misfit_ += likelihood.misfit(kriging.level(), likeliest);
+    patch.wander_ = likeliest;
+    solution = kriging.solve(kriging.level() / (kAllowance * likeliest) + kLeastSmoothing);
     if (!solution) return std::nullopt;
   }
+  patch.roughness_ = likeliest / radius;
   patch.solution_ = std::move(*solution);
   patch.kriging_->forget_kernel();
-  patch.weights_ = kriging.weights(patch.solution_);
   patch.polynomial_ = kriging.polynomial(patch.solution_) + trend;
-  patch.x_ = samples.places.row(0);
-  patch.y_ = samples.places.row(1);
+  patch.set_columns(samples.places, kriging.weights(patch.solution_));
   return patch;
+}
+
+/// In whole groups: what fills up the last one has no weight.
+void HeightPatch::set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights) {
+  const Eigen::Index count = weights.size();
+  const Eigen::Index whole = (count + kGroup - 1) / kGroup * kGroup;
+  x_.setZero(whole);
+  y_.setZero(whole);
+  weights_.setZero(whole);
+  x_.head(count) = places.row(0);
+  y_.head(count) = places.row(1);
+  weights_.head(count) = weights;
 }
 
 HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
@@ -122,7 +133,8 @@ HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
   }
   Sum sum;
   const Eigen::VectorXd influence = kriging_->influence(solution_, places, shares);
-  sum.variance = radius_ * radius_ * wander_ * kriging_->wandering(influence, places, shares);
+  sum.variance =
+      radius_ * radius_ * wander_ * kriging_->wandering(solution_, influence, places, shares);
   sum.influence = influence;
   if (cells_.empty()) return sum;
   sum.influence.resize(shares_.size());
@@ -132,8 +144,12 @@ HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
   return sum;
 }
 
+bool HeightPatch::is_exact() const {
+  return are_exact(*kriging_);
+}
+
 double HeightPatch::fine_bending() const {
-  if (!is_exact(*kriging_) || !(wander_ > 0.0)) return 1.0;
+  if (!is_exact() || !(wander_ > 0.0)) return 1.0;
   return kriging_->left_out(solution_) / wander_;
 }
 
@@ -142,14 +158,22 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const double x = local.x();
   const double y = local.y();
   const Quadratic& c = polynomial_;
-  const Column along = x - x_;
-  const Column across = y - y_;
-  const Column squared = along.square() + across.square();
-  const Column weighted = weights_ * squared.sqrt();
-  const double height = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y +
-                        (weighted * squared).sum();
-  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * (weighted * along).sum();
-  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + 3.0 * (weighted * across).sum();
+  Group cubes = Group::Zero();
+  Group slopes_x = Group::Zero();
+  Group slopes_y = Group::Zero();
+  for (Eigen::Index i = 0; i < x_.size(); i += kGroup) {
+    const Group along = x - x_.segment<kGroup>(i);
+    const Group across = y - y_.segment<kGroup>(i);
+    const Group squared = along.square() + across.square();
+    const Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
+    cubes += weighted * squared;
+    slopes_x += weighted * along;
+    slopes_y += weighted * across;
+  }
+  const double height =
+      c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + cubes.sum();
+  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * slopes_x.sum();
+  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + 3.0 * slopes_y.sum();
   const Eigen::Vector3d gradient(-slope_x, -slope_y, 1.0);
   return {radius_ * (local.z() - height), axes_.transpose() * gradient};
 }

@@ -49,6 +49,9 @@ class HeightPatch {
   /// which hides it. O(samples^3).
   double fine_bending() const;
 
+  /// Whether the points carry no noise worth smoothing.
+  bool is_exact() const;
+
   /// The likeliest; for exact points the given one.
   double roughness() const { return roughness_; }
 
@@ -59,7 +62,14 @@ class HeightPatch {
   /// A number for each sample, kept in place: fields are read far more often than fitted.
   using Column = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostHeightSamples, 1>;
 
+  /// So many samples at once.
+  static constexpr int kGroup = 4;
+  using Group = Eigen::Array<double, kGroup, 1>;
+  static_assert(kMostHeightSamples % kGroup == 0);
+
   HeightPatch() = default;
+
+  void set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights);
 
   Eigen::Vector3d centre_;
   Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards

@@ -1,9 +1,11 @@
 #include "core/surface/kriging_likelihood.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "core/surface/tridiagonal_form.h"
 
 namespace instep {
 namespace {
@@ -12,64 +14,102 @@ namespace {
 /// numbers.
 constexpr Eigen::Index kFactorsALog = 8;
 
+/// The first of a sequence, each `step` times the last.
+template <class Group>
+Group ladder(double first, double step) {
+  Group rungs;
+  for (Eigen::Index i = 0; i < rungs.size(); ++i, first *= step) rungs[i] = first;
+  return rungs;
+}
+
 }  // namespace
 
 KrigingLikelihood::KrigingLikelihood(const HeightKriging& kriging) : free_(kriging.free()) {
-  const Eigen::Tridiagonalization<Eigen::MatrixXd> form(kriging.reduced());
-  diagonal_ = form.diagonal();
-  beside_ = form.subDiagonal();
-  heights_ = kriging.free_heights();
-  heights_.applyOnTheLeft(form.matrixQ().adjoint());
+  TridiagonalForm form = tridiagonal_form(kriging.reduced(), kriging.free_heights());
+  diagonal_ = std::move(form.diagonal);
+  beside_ = std::move(form.beside);
+  heights_ = std::move(form.vector);
 }
 
-KrigingLikelihood::Reading KrigingLikelihood::at(double ratio) const {
-  Reading reading;
-  double pivot = 0.0;
-  double rest = 0.0;
-  double product = 1.0;
-  for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
-    const double factor = i > 0 ? beside_[i - 1] / pivot : 0.0;
+KrigingLikelihood::Readings KrigingLikelihood::at(const Group& ratios) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Readings readings;
+  Group pivot = diagonal_[0] + ratios;
+  Group rest = Group::Constant(heights_[0]);
+  Group product = pivot;
+  Group least = pivot;
+  readings.excess = rest * rest / pivot;
+  for (Eigen::Index i = 1; i < diagonal_.size(); ++i) {
+    const Group factor = beside_[i - 1] / pivot;
     rest = heights_[i] - factor * rest;
-    pivot = diagonal_[i] + ratio - (i > 0 ? factor * beside_[i - 1] : 0.0);
-    if (!(pivot > 0.0)) return {std::numeric_limits<double>::infinity(), 0.0};
-    product *= pivot;
-    if (i % kFactorsALog == kFactorsALog - 1) {
-      reading.log_volume += std::log(product);
-      product = 1.0;
+    pivot = diagonal_[i] + ratios - factor * beside_[i - 1];
+    least = least.min(pivot);
+    if (i % kFactorsALog == 0) {
+      readings.log_volume += product.log();
+      product = pivot;
+    } else {
+      product *= pivot;
     }
-    reading.excess += rest * rest / pivot;
+    readings.excess += rest * rest / pivot;
   }
-  reading.log_volume += std::log(product);
+  readings.log_volume += product.log();
   // On the polynomials stands a one.
-  reading.log_volume -= static_cast<double>(diagonal_.size() - free_) * std::log(1.0 + ratio);
-  return reading;
+  readings.log_volume -= static_cast<double>(diagonal_.size() - free_) * (1.0 + ratios).log();
+  readings.log_volume = (least > 0.0).select(readings.log_volume, kInfinity);
+  readings.excess = (least > 0.0).select(readings.excess, 0.0);
+  return readings;
 }
 
 double KrigingLikelihood::misfit(double variance, double roughness) const {
-  const Reading reading = at(variance / roughness);
-  return reading.log_volume + static_cast<double>(free_) * std::log(roughness) +
-         reading.excess / roughness;
+  const Readings readings = at(Group::Constant(variance / roughness));
+  return readings.log_volume[0] + static_cast<double>(free_) * std::log(roughness) +
+         readings.excess[0] / roughness;
 }
 
 double KrigingLikelihood::likeliest(double variance, double roughest, double smoothest, double step,
                                     const std::optional<Prior>& prior) const {
   double least = std::numeric_limits<double>::infinity();
   double chosen = roughest;
-  for (double trial = roughest; trial >= smoothest; trial *= step) {
-    double misfit = this->misfit(variance, trial);
-    if (prior) misfit += std::pow(std::log(trial / prior->usual) / prior->spread, 2);
-    if (!(misfit < least)) continue;
-    least = misfit;
-    chosen = trial;
+  Group trials = ladder<Group>(roughest, step);
+  const double stride = std::pow(step, kGroup);
+  for (; trials[0] >= smoothest; trials *= stride) {
+    const Readings readings = at(variance / trials);
+    Group misfits =
+        readings.log_volume + static_cast<double>(free_) * trials.log() + readings.excess / trials;
+    if (prior) misfits += ((trials / prior->usual).log() / prior->spread).square();
+    for (int i = 0; i < kGroup && trials[i] >= smoothest; ++i) {
+      if (!(misfits[i] < least)) continue;
+      least = misfits[i];
+      chosen = trials[i];
+    }
   }
   return chosen;
 }
 
 KrigingLikelihood::Profile KrigingLikelihood::profile(double ratio) const {
-  const Reading reading = at(ratio);
+  const Readings readings = at(Group::Constant(ratio));
   const auto count = static_cast<double>(free_);
-  const double roughness = reading.excess / count;
-  return {roughness, reading.log_volume + count * std::log(std::max(roughness, 1e-300))};
+  const double roughness = readings.excess[0] / count;
+  return {roughness, readings.log_volume[0] + count * std::log(std::max(roughness, 1e-300))};
+}
+
+double KrigingLikelihood::likeliest_variance(double least, double most, double step) const {
+  const auto count = static_cast<double>(free_);
+  double best = std::numeric_limits<double>::infinity();
+  double variance = 0.0;
+  Group ratios = ladder<Group>(least, step);
+  const double stride = std::pow(step, kGroup);
+  for (; ratios[0] < most; ratios *= stride) {
+    const Readings readings = at(ratios);
+    const Group roughness = readings.excess / count;
+    const Group misfits = readings.log_volume + count * roughness.max(1e-300).log();
+    for (int i = 0; i < kGroup && ratios[i] < most; ++i) {
+      if (!(misfits[i] < best)) continue;
+      best = misfits[i];
+      variance = roughness[i] * ratios[i];
+    }
+  }
+  return variance;
 }
 
 double KrigingLikelihood::mean_diagonal() const {

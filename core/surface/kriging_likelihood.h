@@ -35,17 +35,24 @@ class KrigingLikelihood {
   };
   Profile profile(double ratio) const;
 
+  /// The noise that fits best, with the roughness that then does, of ratios of the two from `least`
+  /// up to below `most`, each `step` (above 1) times the last; zero if none fits at all.
+  double likeliest_variance(double least, double most, double step) const;
+
   /// Of the kernel: it bends the heights of neighbours apart by its roughness times this.
   double mean_diagonal() const;
 
   Eigen::Index free() const { return free_; }
 
  private:
-  struct Reading {
-    double log_volume = 0.0;
-    double excess = 0.0;
+  /// So many ratios are read at once, for each has to wait for its own divisions.
+  static constexpr int kGroup = 8;
+  using Group = Eigen::Array<double, kGroup, 1>;
+  struct Readings {
+    Group log_volume = Group::Zero();  ///< infinite where rounding makes the system indefinite
+    Group excess = Group::Zero();
   };
-  Reading at(double ratio) const;
+  Readings at(const Group& ratios) const;
 
   Eigen::Index free_;
   Eigen::VectorXd diagonal_;

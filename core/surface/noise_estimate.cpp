@@ -46,12 +46,14 @@ struct TangentView {
   double thickness = std::numeric_limits<double>::infinity();  ///< against the width
 };
 
+/// Of the first `count` of the nearest.
 TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
-                         const std::vector<PointIndex::Neighbour>& nearest) {
+                         const std::vector<PointIndex::Neighbour>& nearest, std::size_t count) {
   TangentView view;
-  const std::size_t stride = (nearest.size() + kPoints - 1) / kPoints;
-  view.points.resize(3, static_cast<Eigen::Index>((nearest.size() + stride - 1) / stride));
-  for (std::size_t i = 0; i * stride < nearest.size(); ++i) {
+  count = std::min(count, nearest.size());
+  const std::size_t stride = (count + kPoints - 1) / kPoints;
+  view.points.resize(3, static_cast<Eigen::Index>((count + stride - 1) / stride));
+  for (std::size_t i = 0; i * stride < count; ++i) {
     view.points.col(static_cast<Eigen::Index>(i)) = points[nearest[i * stride].index];
   }
   view.points.colwise() -= view.points.rowwise().mean().eval();
@@ -65,8 +67,11 @@ TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
 TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                           const Eigen::Vector3d& centre) {
   TangentView best;
+  std::vector<PointIndex::Neighbour> nearest;
   for (const std::size_t count : kTriedPoints) {
-    TangentView view = tangent_view(points, index.nearest(centre, count));
+    if (nearest.empty()) nearest = index.nearest(centre, count);
+    if (nearest.size() < count) nearest = index.nearest(centre, kTriedPoints.back());
+    TangentView view = tangent_view(points, nearest, count);
     if (view.thickness < best.thickness) best = std::move(view);
     if (best.thickness <= kFlatEnough) break;
   }
@@ -89,15 +94,8 @@ std::optional<Neighbourhood> neighbourhood_in(const TangentView& view) {
 /// The noise variance that fits best if the roughness may be anything.
 double own_variance(const Neighbourhood& here) {
   const double scale = here.likelihood.mean_diagonal();
-  double best = std::numeric_limits<double>::infinity();
-  double variance = 0.0;
-  for (double ratio = kLeastRatio * scale; ratio < kMostRatio * scale; ratio *= kRatioStep) {
-    const auto profile = here.likelihood.profile(ratio);
-    if (!(profile.misfit < best)) continue;
-    best = profile.misfit;
-    variance = profile.roughness * ratio;
-  }
-  return variance * here.radius * here.radius;
+  return here.radius * here.radius *
+         here.likelihood.likeliest_variance(kLeastRatio * scale, kMostRatio * scale, kRatioStep);
 }
 
 /// The roughness that fits best at a given noise; the likelihood is flat where noise hides the

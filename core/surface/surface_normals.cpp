@@ -16,6 +16,9 @@ constexpr std::size_t kNearestLinks = 10;
 
 /// Across a larger bend (one less its cosine) a normal tells little of its neighbour's side.
 constexpr double kLargestBend = 0.12;
+/// Rounding leaves no bend below none.
+constexpr double kSmallestBend = 0.0;
+constexpr double kReached = -1.0;
 /// A part whose normals face away from the middle by this share of what they could needs no
 /// neighbours to tell its side.
 constexpr double kPlainlyOutward = 0.25;
@@ -48,9 +51,9 @@ CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const Point
   }
   for (std::size_t cell = 0; cell < cells; ++cell) {
     Moments round;
-    for (const auto other : grid_.neighbourhood(cell)) {
+    grid_.each_near(cell, [&](std::size_t other) {
       round.add(moments[other], middles_[other] - middles_[cell]);
-    }
+    });
     if (round.count < static_cast<double>(fewest)) {
       round = {};
       for (const auto& nearest : index.nearest(middles_[cell], fewest)) {
@@ -63,12 +66,12 @@ CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const Point
 }
 
 void CellNormals::orient_by_neighbours() {
-  std::vector<bool> reached(normals_.size(), false);
+  std::vector<double> least_bends(normals_.size(), kLargestBend);
   std::vector<Part> parts;
   const Eigen::Vector2d middle = middle_of_all();
   for (std::size_t root = 0; root < normals_.size(); ++root) {
-    if (reached[root]) continue;
-    Part part{orient_part(root, reached), 0.0};
+    if (least_bends[root] == kReached) continue;
+    Part part{orient_part(root, least_bends), 0.0};
     part.outward = outward_share(part.cells, middle);
     parts.push_back(std::move(part));
   }
@@ -133,21 +136,25 @@ std::vector<std::size_t> CellNormals::links_of(std::size_t cell) const {
 }
 
 /// Turns the cells that hang together with `root`, round no sharp bend; returns them.
-std::vector<std::size_t> CellNormals::orient_part(std::size_t root, std::vector<bool>& reached) {
+/// `least_bends`: to each cell from those reached so far.
+std::vector<std::size_t> CellNormals::orient_part(std::size_t root,
+                                                  std::vector<double>& least_bends) {
   std::vector<std::size_t> part;
   std::priority_queue<Bend> bends;
   bends.push({0.0, root, root});
   while (!bends.empty()) {
     const Bend bend = bends.top();
     bends.pop();
-    if (reached[bend.to]) continue;
-    reached[bend.to] = true;
+    if (least_bends[bend.to] == kReached) continue;
+    least_bends[bend.to] = kReached;
     part.push_back(bend.to);
     if (normals_[bend.from].dot(normals_[bend.to]) < 0.0) normals_[bend.to] *= -1.0;
     for (const auto next : links_of(bend.to)) {
-      if (reached[next]) continue;
-      const double size = 1.0 - std::abs(normals_[bend.to].dot(normals_[next]));
-      if (size < kLargestBend) bends.push({size, bend.to, next});
+      const double size =
+          std::max(1.0 - std::abs(normals_[bend.to].dot(normals_[next])), kSmallestBend);
+      if (size >= least_bends[next]) continue;
+      least_bends[next] = size;
+      bends.push({size, bend.to, next});
     }
   }
   return part;

@@ -37,7 +37,7 @@ class CellNormals {
   };
 
   std::vector<std::size_t> links_of(std::size_t cell) const;
-  std::vector<std::size_t> orient_part(std::size_t root, std::vector<bool>& reached);
+  std::vector<std::size_t> orient_part(std::size_t root, std::vector<double>& least_bends);
   Eigen::Vector2d middle_of_all() const;
   double outward_share(const std::vector<std::size_t>& cells, const Eigen::Vector2d& middle) const;
   double agreement_with(const std::vector<bool>& sure, const std::vector<std::size_t>& cells) const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "core/geometry/polygon.h"
 #include "tests/support/cylinder_tape.h"
@@ -25,6 +26,33 @@ TEST(PlaneSlab, HoldsEachPlaceOnceInAnOrderOfItsOwn) {
   for (const auto& position : positions)
     if (std::abs(position.z() - 1.3) <= 3.0) ++near;
   EXPECT_EQ(once.places.size(), near);
+}
+
+TEST(PlaneSlab, SourceGivesTheSameSlabsWhateverWasAskedForBefore) {
+  const PointCloud cloud = test::cylinder(3000);
+  SlabSource source(cloud, level_plane());
+  for (const double half_width : {0.1, 0.5, 0.2, 5.0, 5.5, 20.0, 0.1}) {
+    const PlaneSlab expected = slab_of(cloud, level_plane(), half_width);
+    const PlaneSlab slab = source.slab(half_width);
+    EXPECT_EQ(slab.places, expected.places) << half_width;
+    EXPECT_EQ(slab.indices, expected.indices) << half_width;
+  }
+}
+
+TEST(PlaneSlab, IsInOrderOfPlacesWhereTheyAreFarFromEven) {
+  PointCloud cloud;
+  for (int i = 0; i < 400; ++i) {
+    const double far = i == 7 ? 5e4 : 0.0;  // nearly all in one strip
+    cloud.positions.emplace_back(far + (i * 37 % 5), i * 31 % 400, 1.3 + i % 3);
+  }
+  const PlaneSlab slab = slab_of(cloud, level_plane(), 3.0);
+  ASSERT_EQ(slab.places.size(), cloud.size());
+  for (std::size_t i = 1; i < slab.places.size(); ++i) {
+    const auto& before = slab.places[i - 1];
+    const auto& after = slab.places[i];
+    EXPECT_LT(std::tuple(before.x(), before.y(), before.z()),
+              std::tuple(after.x(), after.y(), after.z()));
+  }
 }
 
 TEST(PlaneSlab, IsCutWherePointsLieBeyondThePlane) {

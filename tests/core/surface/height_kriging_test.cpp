@@ -249,9 +249,9 @@ TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
       const double expected = own - beside.dot(solved) - solved.head(count).cwiseAbs2().dot(noise);
 
       const auto kriging = HeightKriging::of(samples, terms).value();
-      const VectorXd influence =
-          kriging.influence(kriging.solve(ratio).value(), sought.places, sought.shares);
-      EXPECT_NEAR(kriging.wandering(influence, sought.places, sought.shares), expected,
+      const auto solution = kriging.solve(ratio).value();
+      const VectorXd influence = kriging.influence(solution, sought.places, sought.shares);
+      EXPECT_NEAR(kriging.wandering(solution, influence, sought.places, sought.shares), expected,
                   1e-8 + 1e-8 * expected);
       EXPECT_GT(expected, 1e-3);
     }
@@ -264,7 +264,7 @@ TEST(HeightKriging, HardlyWandersAtASampleAndMoreTheFurtherFromAll) {
   const auto solution = kriging.solve(1e-9).value();
   const auto wandering_at = [&](const Vector2d& place) {
     const VectorXd one = VectorXd::Ones(1);
-    return kriging.wandering(kriging.influence(solution, place, one), place, one);
+    return kriging.wandering(solution, kriging.influence(solution, place, one), place, one);
   };
   for (Index i = 0; i < 5; ++i) EXPECT_LT(wandering_at(samples.places.col(i)), 1e-7);
   EXPECT_GT(wandering_at({1.0, 0.0}), 1e-3);
