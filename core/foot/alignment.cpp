@@ -55,6 +55,15 @@ std::vector<std::string> doubts(const FootScan& foot) {
   return warnings;
 }
 
+/// Says so where the axis is not the one that was asked for.
+void keep_rule(FootScan& foot, AxisRule found) {
+  if (foot.rules.axis == found) return;
+  foot.warnings.push_back("the axis " + std::string(name_of(foot.rules.axis, kAxisRules)) +
+                          " was not found: " + std::string(name_of(found, kAxisRules)) +
+                          " is used");
+  foot.rules.axis = found;
+}
+
 /// Moves the foot into the frame of an axis and sets its ends.
 void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& standing_from_cloud) {
   const RigidTransform foot_from_cloud = axis.foot_from_standing * standing_from_cloud;
@@ -85,8 +94,11 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 
   foot.is_floor_known = options.standing_plane.has_value();
-  take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
+  const FootAxis axis = find_foot_axis(standing, *outline, foot.side, options.rules.axis);
+  take_axis(foot, axis, standing_from_input);
+  foot.rules = options.rules;
   foot.warnings = doubts(foot);
+  keep_rule(foot, axis.rule);
   if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
 }
@@ -129,7 +141,7 @@ void realign(FootScan& foot) {
   OutlineAxis start;
   start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
   const auto standing = transformed(standing_from_cloud, foot.cloud).positions;
-  take_axis(foot, find_foot_axis(standing, start, foot.side), standing_from_cloud);
+  take_axis(foot, find_foot_axis(standing, start, foot.side, foot.rules.axis), standing_from_cloud);
 }
 
 }  // namespace instep

@@ -25,7 +25,7 @@ namespace instep {
 /// |                            | the two above has the shortest tape; else 0.48 FL             |
 /// | `arch_point`               | highest place of the underside in 0.35-0.60 FL, a quarter of  |
 /// |                            | the breadth from the medial border                            |
-/// | `heel_medial`, `_lateral`  | the outline at FL / 6                                         |
+/// | `heel_medial`, `_lateral`  | the outline at FL / 6, or as FootScan::rules have it          |
 /// | `heel_point`               | point of the heel's side view furthest from the instep point  |
 /// | `junction`                 | point of the back's side view nearest to the heel point, where|
 /// |                            | leg and foot meet                                             |
