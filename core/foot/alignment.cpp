@@ -103,6 +103,15 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   return foot;
 }
 
+/// The floor of a foot whose floor was found before, from the points that it has now.
+StandingPlane floor_again(const FootScan& foot) {
+  const auto& points = foot.cloud.positions;
+  if (foot.is_floor_known) return {};
+  // A last has no flat sole to settle on: it was stood on its lowest points.
+  if (is_shoe_last(foot)) return plane_below(points, Eigen::Vector3d::UnitZ());
+  return settled_on_sole(points, {});
+}
+
 }  // namespace
 
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
@@ -135,8 +144,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
 }
 
 void realign(FootScan& foot) {
-  StandingPlane floor;
-  if (!foot.is_floor_known) floor = settled_on_sole(foot.cloud.positions, floor);
+  const StandingPlane floor = floor_again(foot);
   const RigidTransform standing_from_cloud = floor.standing_from_input();
   OutlineAxis start;
   start.length_mm = foot.landmarks.at("acropodion").position_mm.x();

@@ -62,9 +62,13 @@ void mark_forefoot(const FootOutline& outline, bool has_toes, Marking& marking) 
 
 void mark_hindfoot(const FootOutline& outline, bool has_leg, HeelBreadthRule rule,
                    Marking& marking) {
-  marking.add("heel_medial", find_heel_medial(outline, rule));
-  marking.add("heel_lateral", find_heel_lateral(outline, rule));
-  if (has_leg) marking.add("medial_malleolus", find_medial_malleolus(outline));
+  // Where there is no leg, as on a last, the heel stands so high that the outline misses its
+  // breadth.
+  if (has_leg) {
+    marking.add("heel_medial", find_heel_medial(outline, rule));
+    marking.add("heel_lateral", find_heel_lateral(outline, rule));
+    marking.add("medial_malleolus", find_medial_malleolus(outline));
+  }
   const auto instep = marking.add("instep_point", find_instep_point(outline));
   if (!instep) return;
   const auto heel = marking.add("heel_point", find_heel_point(outline, *instep));
@@ -82,7 +86,7 @@ void mark(FootScan& foot) {
   if (is_last) {
     foot.warnings.emplace_back(
         "no toes, no leg and a raised heel: taken for a shoe last, which has no measures of toes, "
-        "arch and ankle");
+        "arch, heel breadth and ankle");
   }
   mark_forefoot(outline, !is_last, marking);
   mark_hindfoot(outline, !is_last, foot.rules.heel_breadth, marking);

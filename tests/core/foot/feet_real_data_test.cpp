@@ -126,6 +126,10 @@ TEST_F(RealFeet, AreToldFromLasts) {
     EXPECT_FALSE(sizes.eu || sizes.mondopoint_mm) << name;
     EXPECT_EQ(sizes.notes.size(), 1U) << name;
     EXPECT_NE(last.set.find("ball_girth"), nullptr) << name;
+    // Points taken away leave the last standing as it stood.
+    EXPECT_LT(last.set.find("foot_length")->u95_mm.value(), 5.0) << name;
+    EXPECT_LT(last.set.find("ball_girth")->u95_mm.value(), 3.0) << name;
+    EXPECT_EQ(last.set.find("heel_breadth"), nullptr) << name;
     EXPECT_EQ(last.set.find("toe1_angle"), nullptr) << name;
     EXPECT_EQ(last.set.find("ankle_girth"), nullptr) << name;
   }
