@@ -76,7 +76,7 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
   foot.landmarks["toe2_tip"] =
       axis.is_second_toe_resolved
           ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
-          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
+          : Landmark{axis.toe2_tip, 0.4, "front border at 0.415 of the ball's breadth from medial"};
 }
 
 /// A foot's cloud put into its own frame, if it stands on a plane.
