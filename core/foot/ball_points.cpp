@@ -14,6 +14,9 @@ namespace {
 constexpr double kPriorSpreadShare = 0.04;
 constexpr double kPriorHandicapMm = 1.0;
 constexpr double kBehindTibialeMm = 15.0;
+// The border is smoothed further than where its reach is asked for: what its furthest place wanders
+// by falls as the square root of the cube of this, until the border's own bends pull it aside.
+constexpr double kSmoothingMm = 13.0;
 constexpr double kPriorConfidence = 0.3;  ///< where the border has no say
 constexpr double kMostConfidence = 0.95;  ///< where it alone decides
 
@@ -30,7 +33,8 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   const auto handicap = [&](double place) {
     return kPriorHandicapMm * std::pow((place - rule.prior) / spread, 2);
   };
-  const auto peak = border.furthest(rule.from, rule.to, handicap);
+  const SkinBorder smooth = border.smoothed_over(kSmoothingMm);
+  const auto peak = smooth.furthest(rule.from, rule.to, handicap);
   if (!peak) return std::nullopt;
   // What holds the place is how the border falls off to either side, and how the handicap does.
   const double by_shape = std::max(0.0, -peak->bend);

@@ -202,6 +202,12 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
                2.0 * fitted(2, 0) / (half * half)};
 }
 
+SkinBorder SkinBorder::smoothed_over(double smoothing_mm) const {
+  SkinBorder other = *this;
+  other.smoothing_mm_ = smoothing_mm;
+  return other;
+}
+
 std::optional<double> SkinBorder::reach(double along) const {
   const auto place = at(along);
   return place ? std::optional(place->reach) : std::nullopt;

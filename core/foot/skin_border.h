@@ -32,6 +32,9 @@ class SkinBorder {
   SkinBorder(const std::vector<Eigen::Vector3d>& points, const BorderView& view,
              double smoothing_mm);
 
+  /// The same border, smoothed over another length.
+  SkinBorder smoothed_over(double smoothing_mm) const;
+
   struct Place {
     double along = 0.0;
     double reach = 0.0;   ///< outwards
