@@ -18,7 +18,8 @@ constexpr double kStepMm = 2.0;
 constexpr double kWindowMm = 5.0;          ///< half, along and across
 constexpr double kDeepestMm = 4.0;         ///< below the furthest: beyond is another face
 constexpr double kWidestWindow = 2.1;      ///< times the usual one, where points are few
-constexpr std::size_t kFewestPoints = 14;  ///< of a fit; a window is widened to hold twice these
+constexpr std::size_t kFewestPoints = 10;  ///< of a fit
+constexpr std::size_t kEnoughPoints = 28;  ///< a window is widened to hold these
 constexpr std::size_t kFurthest = 5;
 constexpr std::size_t kFewestSamples = 4;
 constexpr double kFinestStepMm = 0.02;
@@ -132,7 +133,7 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
       // Within a hole a fit to its edge runs away.
       if (!is_before || !is_behind) continue;
       const bool is_last = wider * std::sqrt(2.0) > kWidestWindow;
-      if (close.size() < (is_last ? kFewestPoints : 2 * kFewestPoints)) continue;
+      if (close.size() < (is_last ? kFewestPoints : kEnoughPoints)) continue;
       const auto summit = summit_across(close, std::max(view.across_from_mm - start->y(), -window),
                                         std::min(view.across_to_mm - start->y(), window));
       if (summit && std::abs(summit->reach - start->z()) < kDeepestMm) {

@@ -11,6 +11,7 @@
 #include "core/foot/shoe_sizes.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/places.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 
 namespace instep {
@@ -32,6 +33,15 @@ Measured measured(const PointCloud& cloud) {
 PointCloud turned(const PointCloud& cloud, double angle) {
   const RigidTransform turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
   return transformed(turn, cloud);
+}
+
+PointCloud noisy(PointCloud cloud, double sigma_mm, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  for (auto& point : cloud.positions) {
+    for (int axis = 0; axis < 3; ++axis) point(axis) += sigma_mm * random.normal();
+  }
+  cloud.normals.clear();
+  return cloud;
 }
 
 /// `times_doubt`: of the measures' own intervals, where the points are not the same.
@@ -99,6 +109,20 @@ TEST_F(RealFeet, MeasureTheSameHoweverTheyStand) {
     const auto mirror = measured(test::mirrored(points));
     EXPECT_NE(mirror.foot.side, straight.foot.side);
     expect_same(straight, mirror, 0.5);
+  }
+}
+
+TEST_F(RealFeet, KeepTheirGirthsWhenThinnedAndWithNoise) {
+  for (const char* name : {"retail_left.stl", "retail_right.stl"}) {
+    const auto points = cloud(name, 1000.0);
+    const auto whole = measured(points);
+    for (const auto& other : {test::half_of(points), noisy(points, 0.5, 1)}) {
+      const auto same = measured(other);
+      for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
+        EXPECT_NEAR(same.set.find(id)->value_mm, whole.set.find(id)->value_mm, 0.5)
+            << name << " " << id << " of " << other.size() << " points";
+      }
+    }
   }
 }
 
