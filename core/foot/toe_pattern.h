@@ -16,7 +16,7 @@ namespace instep {
 /// taken: tips of the average foot, shifted and stretched a little, each a little off, with a
 /// price for each toe that is missing and each tip that is none. Nothing where the second toe is
 /// not among them, fewer than four toes show, or even the likeliest is unlikely. Of more than eight
-/// tips nothing is told; eight take about a millisecond, six a tenth of it.
+/// tips nothing is told; eight take a sixth of a millisecond.
 std::optional<std::size_t> second_of_toes(const std::vector<double>& shares);
 
 }  // namespace instep
