@@ -42,10 +42,18 @@ std::string describe_sizes(const SizeRules& sizes) {
   return text;
 }
 
+std::string describe_measures(const MeasuringRules& rules) {
+  return fmt::format("axis {}, ball girth {}, instep girth {}, heel breadth {}",
+                     name_of(rules.axis, kAxisRules), name_of(rules.ball_girth, kBallGirthRules),
+                     name_of(rules.instep_girth, kInstepGirthRules),
+                     name_of(rules.heel_breadth, kHeelBreadthRules));
+}
+
 }  // namespace
 
 std::string describe(const Settings& settings) {
-  const auto& [station, capture, pedal, cameras, simulation, store, sizes, control, log] = settings;
+  const auto& [station, capture, pedal, cameras, simulation, store, measures, sizes, control, log] =
+      settings;
   std::string text = fmt::format("station  {}, points every {} mm, side {}\n", station.name,
                                  station.point_spacing_mm,
                                  station.side ? to_string(*station.side) : "told from the shape");
@@ -56,6 +64,7 @@ std::string describe(const Settings& settings) {
                       capture.frames_per_camera, capture.warmup_frames, capture.deadline.count());
   text += fmt::format("pedal    {}\n", describe_pedal(pedal));
   text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
+  text += fmt::format("measures {}\n", describe_measures(measures));
   text += fmt::format("sizes    {}\n", describe_sizes(sizes));
   text += fmt::format("control  {}\n", control.socket.string());
   return text;

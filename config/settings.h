@@ -11,6 +11,7 @@
 #include "config/openni_settings.h"
 #include "config/pedal_sources.h"
 #include "config/v4l2_settings.h"
+#include "core/foot/measuring_rules.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 
@@ -103,6 +104,7 @@ struct Settings {
   std::vector<CameraSettings> cameras;  ///< 1 to 8
   SimulatedStationSettings simulation;
   StoreSettings store;
+  MeasuringRules measures;
   SizeRules sizes;
   ControlSettings control;
   LogSettings log;

@@ -112,6 +112,19 @@ void read_store(SettingsTable& table, StoreSettings& store, const std::filesyste
   table.read("keep_count", store.keep_count, 0, 1000000);
 }
 
+template <typename Rule, std::size_t Count>
+void choose_rule(SettingsTable& table, const std::string& key, Rule& rule,
+                 const RuleNames<Rule, Count>& names) {
+  table.choose(key, rule, SettingsTable::Choices<Rule>(names.begin(), names.end()));
+}
+
+void read_measures(SettingsTable& table, MeasuringRules& rules) {
+  choose_rule(table, "axis", rules.axis, kAxisRules);
+  choose_rule(table, "ball_girth", rules.ball_girth, kBallGirthRules);
+  choose_rule(table, "instep_girth", rules.instep_girth, kInstepGirthRules);
+  choose_rule(table, "heel_breadth", rules.heel_breadth, kHeelBreadthRules);
+}
+
 ShopSize read_shop_size(SettingsTable& table) {
   ShopSize row;
   table.read("size", row.size, 32);
@@ -214,6 +227,7 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });
   section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });
+  section(root, "measures", faults, [&](Table& table) { read_measures(table, settings.measures); });
   section(root, "sizes", faults, [&](Table& table) { read_sizes(table, settings.sizes, faults); });
   section(root, "control", faults,
           [&](Table& table) { table.read("socket", settings.control.socket, base); });

@@ -55,6 +55,15 @@ std::vector<std::string> doubts(const FootScan& foot) {
   return warnings;
 }
 
+/// Says so where the axis is not the one that was asked for.
+void keep_rule(FootScan& foot, AxisRule found) {
+  if (foot.rules.axis == found) return;
+  foot.warnings.push_back("the axis " + std::string(name_of(foot.rules.axis, kAxisRules)) +
+                          " was not found: " + std::string(name_of(found, kAxisRules)) +
+                          " is used");
+  foot.rules.axis = found;
+}
+
 /// Moves the foot into the frame of an axis and sets its ends.
 void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& standing_from_cloud) {
   const RigidTransform foot_from_cloud = axis.foot_from_standing * standing_from_cloud;
@@ -67,7 +76,7 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
   foot.landmarks["toe2_tip"] =
       axis.is_second_toe_resolved
           ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
-          : Landmark{axis.toe2_tip, 0.4, "front border at 0.42 of the ball's breadth from medial"};
+          : Landmark{axis.toe2_tip, 0.4, "front border at 0.415 of the ball's breadth from medial"};
 }
 
 /// A foot's cloud put into its own frame, if it stands on a plane.
@@ -85,10 +94,22 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 
   foot.is_floor_known = options.standing_plane.has_value();
-  take_axis(foot, find_foot_axis(standing, *outline, foot.side), standing_from_input);
+  const FootAxis axis = find_foot_axis(standing, *outline, foot.side, options.rules.axis);
+  take_axis(foot, axis, standing_from_input);
+  foot.rules = options.rules;
   foot.warnings = doubts(foot);
+  keep_rule(foot, axis.rule);
   if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
+}
+
+/// The floor of a foot whose floor was found before, from the points that it has now.
+StandingPlane floor_again(const FootScan& foot) {
+  const auto& points = foot.cloud.positions;
+  if (foot.is_floor_known) return {};
+  // A last has no flat sole to settle on: it was stood on its lowest points.
+  if (is_shoe_last(foot)) return plane_below(points, Eigen::Vector3d::UnitZ());
+  return settled_on_sole(points, {});
 }
 
 }  // namespace
@@ -123,13 +144,12 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
 }
 
 void realign(FootScan& foot) {
-  StandingPlane floor;
-  if (!foot.is_floor_known) floor = settled_on_sole(foot.cloud.positions, floor);
+  const StandingPlane floor = floor_again(foot);
   const RigidTransform standing_from_cloud = floor.standing_from_input();
   OutlineAxis start;
   start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
   const auto standing = transformed(standing_from_cloud, foot.cloud).positions;
-  take_axis(foot, find_foot_axis(standing, start, foot.side), standing_from_cloud);
+  take_axis(foot, find_foot_axis(standing, start, foot.side, foot.rules.axis), standing_from_cloud);
 }
 
 }  // namespace instep

@@ -17,14 +17,17 @@ struct AlignmentOptions {
   std::optional<StandingPlane> standing_plane;
   /// Which way is up, where only that is known: the floor is then under the lowest points.
   std::optional<Eigen::Vector3d> up;
+  /// The definitions that the foot is measured by, its axis among them.
+  MeasuringRules rules;
 };
 
 /// Puts the cloud of one foot into its own frame (see FootScan): standing plane, heel-toe axis,
 /// side. Exact duplicates of points are dropped.
 ///
-/// The axis is `pt_toe2` of the Japanese standard: from the pternion to the tip of the second toe,
-/// in floor projection. The landmarks `pternion`, `acropodion` and `toe2_tip` are set; the others
-/// are find_landmarks()'s business.
+/// The axis is, unless the rules say otherwise, `pt_toe2` of the Japanese standard: from the
+/// pternion to the tip of the second toe, in floor projection. An axis whose marks the points do
+/// not show gives way to it, with a warning. The landmarks `pternion`, `acropodion` and `toe2_tip`
+/// are set; the others are find_landmarks()'s business.
 ///
 /// Strays and what stands apart are left out. A sole that was not seen is closed on the floor
 /// (close_open_sole()), with a warning. A leg above the foot, an open sole and a cut at any height

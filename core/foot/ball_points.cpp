@@ -7,42 +7,41 @@
 namespace instep {
 namespace {
 
-constexpr double kPriorConfidence = 0.3;
 // Borders are nearly straight beside the ball, so that the furthest place alone jumps by a
 // centimetre with the sampling: a place one spread of feet off the average must be a
-// millimetre further out to win.
+// millimetre further out to win. So there always is one best place, and it moves little with the
+// points: on a straight border it is the average one.
 constexpr double kPriorSpreadShare = 0.04;
 constexpr double kPriorHandicapMm = 1.0;
-constexpr double kFaintRiseMm = 0.15;  ///< a summit lower than this is no summit
-constexpr double kClearRiseMm = 2.0;   ///< one as high as this leaves no doubt
 constexpr double kBehindTibialeMm = 15.0;
-
-/// From just better than the prior to nearly sure, by how much the summit stands out.
-double confidence_of(double rise) {
-  return std::clamp(0.5 + 0.45 * rise / kClearRiseMm, 0.5, 0.95);
-}
+// The border is smoothed further than where its reach is asked for: what its furthest place wanders
+// by falls as the square root of the cube of this, until the border's own bends pull it aside.
+constexpr double kSmoothingMm = 13.0;
+constexpr double kPriorConfidence = 0.3;  ///< where the border has no say
+constexpr double kMostConfidence = 0.95;  ///< where it alone decides
 
 struct Rule {
   double from;
   double to;
   double prior;
-  const char* found;
-  const char* fallback;
+  const char* name;
 };
 
 std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBorder& border,
                                         const Rule& rule) {
+  const double spread = kPriorSpreadShare * outline.length_mm();
   const auto handicap = [&](double place) {
-    const double off = (place - rule.prior) / (kPriorSpreadShare * outline.length_mm());
-    return kPriorHandicapMm * off * off;
+    return kPriorHandicapMm * std::pow((place - rule.prior) / spread, 2);
   };
-  const auto peak = border.furthest(rule.from, rule.to, handicap);
-  if (peak && peak->rise > kFaintRiseMm) {
-    return Landmark{border.position(*peak), confidence_of(peak->rise), rule.found};
-  }
-  const auto place = border.at(rule.prior);
-  if (!place) return std::nullopt;
-  return Landmark{border.position(*place), kPriorConfidence, rule.fallback};
+  const SkinBorder smooth = border.smoothed_over(kSmoothingMm);
+  const auto peak = smooth.furthest(rule.from, rule.to, handicap);
+  if (!peak) return std::nullopt;
+  // What holds the place is how the border falls off to either side, and how the handicap does.
+  const double by_shape = std::max(0.0, -peak->bend);
+  const double by_prior = 2.0 * kPriorHandicapMm / (spread * spread);
+  const double share = by_shape / (by_shape + by_prior);
+  return Landmark{border.position(*peak),
+                  kPriorConfidence + (kMostConfidence - kPriorConfidence) * share, rule.name};
 }
 
 std::optional<Landmark> broadest(const SkinBorder& border, double length) {
@@ -60,8 +59,7 @@ std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
       outline, outline.medial(),
       {0.60 * length, 0.80 * length, 0.69 * length,
        "most medial point of the outline in 0.60-0.80 of the foot's length, weighed by "
-       "nearness to 0.69",
-       "no medial summit: outline at 0.69 of the foot's length"});
+       "nearness to 0.69"});
 }
 
 std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
@@ -72,8 +70,7 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
       outline, outline.lateral(),
       {0.50 * length, foremost, std::min(0.63 * length, foremost),
        "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
-       "nearness to 0.63",
-       "no lateral summit: outline at 0.63 of the foot's length"});
+       "nearness to 0.63"});
 }
 
 std::optional<Landmark> find_ball_medial(const FootOutline& outline) {

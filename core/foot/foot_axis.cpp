@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/foot/axis_turn.h"
 #include "core/foot/robust_extreme.h"
 #include "core/foot/second_toe.h"
 
@@ -48,9 +49,18 @@ Vector3d foremost(const Points& points, double from) {
   return robust_extreme(beyond(points, Vector3d::UnitX(), from), Vector3d::UnitX());
 }
 
-/// The outline seen from above, counted from the heel, with the medial side on +y.
-std::vector<Vector2d> as_right_foot(const Points& points, const Vector3d& heel,
-                                    double medial_sign) {
+/// Counted from the heel, with the medial side on +y.
+Points as_right_foot(Points points, const Vector3d& heel, double medial_sign) {
+  for (auto& point : points) {
+    point -= heel;
+    point.y() *= medial_sign;
+  }
+  return points;
+}
+
+/// The same, seen from above.
+std::vector<Vector2d> outline_of_right_foot(const Points& points, const Vector3d& heel,
+                                            double medial_sign) {
   std::vector<Vector2d> outline;
   outline.reserve(points.size());
   for (const auto& point : points) {
@@ -61,9 +71,11 @@ std::vector<Vector2d> as_right_foot(const Points& points, const Vector3d& heel,
 
 }  // namespace
 
-FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start, Side side) {
+FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start, Side side,
+                        AxisRule rule) {
   const double medial_sign = side == Side::kRight ? 1.0 : -1.0;
   FootAxis axis;
+  axis.rule = rule;
   axis.foot_from_standing = start.axis_from_standing();
   const Points low = outline_points(standing_points, start.length_mm);
   double turn = 0.0;
@@ -75,11 +87,18 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
     axis.foot_from_standing = RigidTransform(Eigen::Translation3d(-heel)) * axis.foot_from_standing;
     axis.pternion = rear - heel;
     axis.acropodion = foremost(points, rear.x() + 0.75 * start.length_mm) - heel;
-    const auto toe = find_second_toe(as_right_foot(points, heel, medial_sign), start.length_mm);
+    const auto toe =
+        find_second_toe(outline_of_right_foot(points, heel, medial_sign), start.length_mm);
     if (!toe) break;
     axis.is_second_toe_resolved = toe->is_resolved;
     axis.toe2_tip = {toe->tip.x(), medial_sign * toe->tip.y(), axis.acropodion.z()};
-    const double wanted = std::atan2(axis.toe2_tip.y(), axis.toe2_tip.x());
+    double wanted = std::atan2(axis.toe2_tip.y(), axis.toe2_tip.x());
+    if (axis.rule != AxisRule::kSecondToe) {
+      const auto by_rule =
+          axis_turn(axis.rule, as_right_foot(points, heel, medial_sign), axis.acropodion.x());
+      if (by_rule) wanted = medial_sign * *by_rule;
+      if (!by_rule) axis.rule = AxisRule::kSecondToe;
+    }
     // Where the tip jumps to and fro between two toes or rules, the axis comes to rest between.
     if (wanted * turn < 0.0) share *= 0.5;
     turn = share * wanted;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/foot/measuring_rules.h"
 #include "core/foot/side.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
@@ -59,6 +60,7 @@ struct FootScan {
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();
   bool is_floor_known = false;  ///< given with the cloud, not found from it
+  MeasuringRules rules;         ///< by which it is aligned, marked and measured
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;

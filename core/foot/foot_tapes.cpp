@@ -1,5 +1,9 @@
 #include "core/foot/foot_tapes.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
 #include "core/foot/foot_lengths.h"
 #include "core/foot/midfoot_points.h"
 
@@ -54,6 +58,27 @@ Result<TapePlane> heel_tape(const Landmarks& landmarks, const char* dorsal) {
 
 Result<TapePlane> ball_tape(const Landmarks& landmarks) {
   return ball_points(landmarks).and_then([](const TapePoints& points) { return points.plane(); });
+}
+
+Result<TapePlane> leaning_ball_tape(const Landmarks& landmarks, double forward_deg) {
+  const auto tibiale = position_of(landmarks, "metatarsale_tibiale");
+  if (!tibiale) return tl::unexpected(tibiale.error());
+  const auto fibulare = position_of(landmarks, "metatarsale_fibulare");
+  if (!fibulare) return tl::unexpected(fibulare.error());
+  const Vector3d across = (*fibulare - *tibiale).normalized();
+  const Vector3d up = (Vector3d::UnitZ() - across.z() * across).normalized();
+  const Vector3d either = across.cross(up);
+  const Vector3d forward = either.x() > 0.0 ? either : Vector3d(-either);
+  const double lean = forward_deg * std::numbers::pi / 180.0;
+  const Vector3d leaning = std::cos(lean) * up + std::sin(lean) * forward;
+  return TapePlane::through(*tibiale, *fibulare, *tibiale + kApartMm * leaning);
+}
+
+Result<TapePlane> upright_instep_tape(const Landmarks& landmarks) {
+  return position_of(landmarks, "instep_point").and_then([](const Vector3d& instep) {
+    return TapePlane::through(on_floor(instep) + kApartMm * Vector3d::UnitY(),
+                              on_floor(instep) - kApartMm * Vector3d::UnitY(), instep);
+  });
 }
 
 Result<TapePlane> instep_tape(const Landmarks& landmarks) {

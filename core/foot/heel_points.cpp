@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace instep {
@@ -10,6 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kHeelShare = 1.0 / 6.0;
+constexpr double kHeelMm = 40.0;
+constexpr double kRearShare = 0.2;
 constexpr double kSmoothingMm = 9.0;
 constexpr double kStepMm = 0.5;
 constexpr double kHalfWidthShare = 0.12;  ///< beside the axis
@@ -37,10 +40,19 @@ SkinBorder side_view(const FootOutline& outline, const Vector3d& outwards, const
   return {points, {along, outwards, Vector3d::UnitY(), -half_width, half_width}, kSmoothingMm};
 }
 
-std::optional<Landmark> at_heel_share(const SkinBorder& border, double length) {
-  const auto place = border.at(kHeelShare * length);
+/// The breadth of the outline at a place.
+std::optional<double> breadth(const FootOutline& outline, double along) {
+  const auto medial = outline.medial().reach(along);
+  const auto lateral = outline.lateral().reach(along);
+  return medial && lateral ? std::optional(*medial + *lateral) : std::nullopt;
+}
+
+std::optional<Landmark> at_heel(const SkinBorder& border, std::optional<double> along,
+                                HeelBreadthRule rule) {
+  const auto place = along ? border.at(*along) : std::nullopt;
   if (!place) return std::nullopt;
-  return Landmark{border.position(*place), 0.9, "outline at a sixth of the foot's length"};
+  return Landmark{border.position(*place), 0.9,
+                  std::string("outline of the heel ") + description(rule)};
 }
 
 /// The place of a border, within a range, that counts most.
@@ -62,12 +74,26 @@ std::optional<Vector3d> best_place(const SkinBorder& border, double from, double
 
 }  // namespace
 
-std::optional<Landmark> find_heel_medial(const FootOutline& outline) {
-  return at_heel_share(outline.medial(), outline.length_mm());
+std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule) {
+  if (rule == HeelBreadthRule::kSixth) return kHeelShare * outline.length_mm();
+  if (rule == HeelBreadthRule::kFortyMm) return kHeelMm;
+  std::optional<double> place;
+  double most = 0.0;
+  for (double along = 0.0; along <= kRearShare * outline.length_mm(); along += kStepMm) {
+    const auto here = breadth(outline, along);
+    if (!here || *here <= most) continue;
+    most = *here;
+    place = along;
+  }
+  return place;
 }
 
-std::optional<Landmark> find_heel_lateral(const FootOutline& outline) {
-  return at_heel_share(outline.lateral(), outline.length_mm());
+std::optional<Landmark> find_heel_medial(const FootOutline& outline, HeelBreadthRule rule) {
+  return at_heel(outline.medial(), heel_breadth_place(outline, rule), rule);
+}
+
+std::optional<Landmark> find_heel_lateral(const FootOutline& outline, HeelBreadthRule rule) {
+  return at_heel(outline.lateral(), heel_breadth_place(outline, rule), rule);
 }
 
 std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep) {

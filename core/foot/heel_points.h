@@ -9,9 +9,12 @@ namespace instep {
 
 /// Right-foot form, as all here. Nothing where the cloud has no points there.
 
-/// The outline's sides at a sixth of the foot's length.
-std::optional<Landmark> find_heel_medial(const FootOutline& outline);
-std::optional<Landmark> find_heel_lateral(const FootOutline& outline);
+/// Where along the axis the heel's breadth is taken. Nothing if no breadth is found at all.
+std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule);
+
+/// The outline's sides there.
+std::optional<Landmark> find_heel_medial(const FootOutline& outline, HeelBreadthRule rule);
+std::optional<Landmark> find_heel_lateral(const FootOutline& outline, HeelBreadthRule rule);
 
 /// Where a tape comes round the heel: the point of the heel's side view furthest from the instep
 /// point. The distance is stationary there, so that a girth hardly feels where along the heel it

@@ -60,10 +60,15 @@ void mark_forefoot(const FootOutline& outline, bool has_toes, Marking& marking) 
   if (has_toes) mark_toes(outline, *tibiale, *fibulare, marking);
 }
 
-void mark_hindfoot(const FootOutline& outline, bool has_leg, Marking& marking) {
-  marking.add("heel_medial", find_heel_medial(outline));
-  marking.add("heel_lateral", find_heel_lateral(outline));
-  if (has_leg) marking.add("medial_malleolus", find_medial_malleolus(outline));
+void mark_hindfoot(const FootOutline& outline, bool has_leg, HeelBreadthRule rule,
+                   Marking& marking) {
+  // Where there is no leg, as on a last, the heel stands so high that the outline misses its
+  // breadth.
+  if (has_leg) {
+    marking.add("heel_medial", find_heel_medial(outline, rule));
+    marking.add("heel_lateral", find_heel_lateral(outline, rule));
+    marking.add("medial_malleolus", find_medial_malleolus(outline));
+  }
   const auto instep = marking.add("instep_point", find_instep_point(outline));
   if (!instep) return;
   const auto heel = marking.add("heel_point", find_heel_point(outline, *instep));
@@ -81,10 +86,10 @@ void mark(FootScan& foot) {
   if (is_last) {
     foot.warnings.emplace_back(
         "no toes, no leg and a raised heel: taken for a shoe last, which has no measures of toes, "
-        "arch and ankle");
+        "arch, heel breadth and ankle");
   }
   mark_forefoot(outline, !is_last, marking);
-  mark_hindfoot(outline, !is_last, marking);
+  mark_hindfoot(outline, !is_last, foot.rules.heel_breadth, marking);
   // Where points had to be put under a foot, nobody saw its arch.
   if (!is_last && !foot.cloud.stands_on_platform()) {
     marking.add("arch_point", find_arch_point(outline));

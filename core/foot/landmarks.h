@@ -12,9 +12,10 @@ namespace instep {
 ///
 /// | name                       | rule                                                          |
 /// |----------------------------|---------------------------------------------------------------|
-/// | `metatarsale_tibiale`      | most medial point of the outline in 0.60-0.80 FL; else 0.69   |
+/// | `metatarsale_tibiale`      | most medial point of the outline in 0.60-0.80 FL, weighed by  |
+/// |                            | nearness to 0.69                                              |
 /// | `metatarsale_fibulare`     | most lateral point in 0.50-0.75 FL, at least 15 mm behind the |
-/// |                            | metatarsale tibiale; else 0.63 FL                             |
+/// |                            | metatarsale tibiale, weighed by nearness to 0.63              |
 /// | `ball_medial`, `_lateral`  | most medial and most lateral point in 0.50-0.85 FL            |
 /// | `ball_top`                 | highest point of the section over the two metatarsal points   |
 /// | `instep_point`             | ridge of the foot's back at 0.50 FL                           |
@@ -24,7 +25,7 @@ namespace instep {
 /// |                            | the two above has the shortest tape; else 0.48 FL             |
 /// | `arch_point`               | highest place of the underside in 0.35-0.60 FL, a quarter of  |
 /// |                            | the breadth from the medial border                            |
-/// | `heel_medial`, `_lateral`  | the outline at FL / 6                                         |
+/// | `heel_medial`, `_lateral`  | the outline at FL / 6, or as FootScan::rules have it          |
 /// | `heel_point`               | point of the heel's side view furthest from the instep point  |
 /// | `junction`                 | point of the back's side view nearest to the heel point, where|
 /// |                            | leg and foot meet                                             |
@@ -34,8 +35,9 @@ namespace instep {
 /// | `toe1_contact`,            | where a ruler laid on the ball's point touches the first and  |
 /// | `toe5_contact`             | the little toe                                                |
 ///
-/// Where a border is nearly straight, the most protruding place is weighed by its nearness to the
-/// average one, so that it does not jump with the sampling.
+/// Weighed: a millimetre further out makes up for 0.04 FL off the average place. So the place does
+/// not jump with the sampling where a border is nearly straight; how much of it the border says and
+/// how much the average is the confidence.
 ///
 /// Radii, and what the measures' intervals need (FootScan::redraws), come from redraw_landmarks().
 ///

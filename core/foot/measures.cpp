@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -32,7 +33,7 @@ struct LengthRule {
 
 struct GirthRule {
   const char* id;
-  Result<TapePlane> (*tape)(const Landmarks&);
+  std::function<Result<TapePlane>(const Landmarks&)> tape;
   std::vector<const char*> landmarks;
   const char* definition;
 };
@@ -42,8 +43,7 @@ const std::vector<LengthRule>& length_rules() {
       {"foot_length",
        foot_length,
        {},
-       "from the pternion to the foremost toe, parallel to the axis from the pternion to the tip "
-       "of the second toe (pt_toe2)"},
+       "from the pternion to the foremost toe, parallel to the axis "},
       {"foot_breadth",
        foot_breadth,
        {"metatarsale_tibiale", "metatarsale_fibulare"},
@@ -57,8 +57,7 @@ const std::vector<LengthRule>& length_rules() {
       {"heel_breadth",
        heel_breadth,
        {},
-       "extent of the outline up to 25 mm over the floor, at right angles to the axis, at a sixth "
-       "of the foot's length"},
+       "extent of the outline up to 25 mm over the floor, at right angles to the axis, "},
       {"ball_length",
        ball_length,
        {"metatarsale_tibiale"},
@@ -104,21 +103,61 @@ const std::vector<LengthRule>& length_rules() {
   return rules;
 }
 
-const std::vector<GirthRule>& girth_rules() {
-  static const std::vector<GirthRule> rules{
-      {"ball_girth",
-       ball_tape,
-       {"metatarsale_tibiale", "metatarsale_fibulare"},
-       "stretched tape in the upright plane over metatarsale tibiale and fibulare"},
+/// By how much the ball's tape leans where it is shortest. The length is stationary there, so that
+/// the tapes of redraws may lean alike.
+double shortest_lean_deg(const FootScan& foot) {
+  constexpr double kMostDeg = 20.0;
+  constexpr double kStepDeg = 1.0;
+  double best = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (double lean = -kMostDeg; lean <= kMostDeg; lean += kStepDeg) {
+    const auto tape = leaning_ball_tape(foot.landmarks, lean);
+    const auto length = tape ? rough_tape(foot.cloud.positions, *tape) : std::nullopt;
+    if (!length || *length >= least) continue;
+    least = *length;
+    best = lean;
+  }
+  return best;
+}
+
+GirthRule ball_rule(const FootScan& foot) {
+  GirthRule rule{"ball_girth",
+                 ball_tape,
+                 {"metatarsale_tibiale", "metatarsale_fibulare"},
+                 "stretched tape in the upright plane over metatarsale tibiale and fibulare"};
+  if (foot.rules.ball_girth == BallGirthRule::kShortest) {
+    rule.tape = [lean = shortest_lean_deg(foot)](const Landmarks& landmarks) {
+      return leaning_ball_tape(landmarks, lean);
+    };
+    rule.definition =
+        "stretched tape over metatarsale tibiale and fibulare, leaning by as much, up to 20 "
+        "degrees, as makes it shortest";
+  }
+  return rule;
+}
+
+GirthRule instep_rule(const FootScan& foot) {
+  if (foot.rules.instep_girth == InstepGirthRule::kUpright) {
+    return {"instep_girth",
+            upright_instep_tape,
+            {"instep_point"},
+            "stretched tape in the upright plane square to the axis at 0.50 of the foot's length"};
+  }
+  return {"instep_girth",
+          instep_tape,
+          {"instep_point", "lateral_midfoot", "medial_arch"},
+          "stretched tape over the instep point at 0.50 of the foot's length, by the lateral "
+          "midfoot and the point of the medial arch that makes it shortest"};
+}
+
+std::vector<GirthRule> girth_rules(const FootScan& foot) {
+  return {
+      ball_rule(foot),
       {"waist_girth",
        waist_tape,
        {"metatarsale_tibiale", "metatarsale_fibulare", "instep_point", "medial_arch"},
        "stretched tape in the plane midway between those of the ball and the instep girth"},
-      {"instep_girth",
-       instep_tape,
-       {"instep_point", "lateral_midfoot", "medial_arch"},
-       "stretched tape over the instep point at 0.50 of the foot's length, by the lateral midfoot "
-       "and the point of the medial arch that makes it shortest"},
+      instep_rule(foot),
       {"short_heel_girth",
        short_heel_tape,
        {"heel_point", "junction"},
@@ -133,7 +172,6 @@ const std::vector<GirthRule>& girth_rules() {
        {"medial_malleolus"},
        "stretched tape in the level plane over the medial malleolus"},
   };
-  return rules;
 }
 
 // Over drawn feet (tests/bench/feet) heights are out by half a millimetre with the floor that they
@@ -176,6 +214,15 @@ std::vector<std::string> doubts(const FootScan& foot, const std::vector<const ch
   return warnings;
 }
 
+/// What a definition says that depends on the rules.
+std::string addition_of(const std::string& id, const MeasuringRules& rules) {
+  if (id == "foot_length") {
+    return std::string(description(rules.axis)) + " (" +
+           std::string(name_of(rules.axis, kAxisRules)) + ")";
+  }
+  return id == "heel_breadth" ? description(rules.heel_breadth) : "";
+}
+
 Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
   const auto length = rule.length(foot.landmarks);
   if (!length) return tl::unexpected(length.error());
@@ -193,7 +240,7 @@ Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
     measure.u95_mm = u95;
   }
   if (u95) measure.parts = DoubtParts{0.0, *u95};
-  measure.definition = rule.definition;
+  measure.definition = rule.definition + addition_of(rule.id, foot.rules);
   measure.warnings = doubts(foot, rule.landmarks);
   return measure;
 }
@@ -276,7 +323,7 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
     keep(set, rule.id, take(rule, foot));
     if (!go_on()) return cancelled();
   }
-  const auto& rules = girth_rules();
+  const auto rules = girth_rules(foot);
   std::vector<std::optional<Result<Measure>>> girths(rules.size());
   std::atomic<bool> wanted = true;
   options.workers(rules.size(), [&](std::size_t i) {

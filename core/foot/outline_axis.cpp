@@ -53,8 +53,7 @@ std::vector<Vector2d> hull_from_above(const Points& points) {
   return convex_hull(std::move(flat));
 }
 
-/// Direction of the longer principal axis of a polygon's area: points that lie denser in one place
-/// than in another do not turn it.
+/// Direction of the longer principal axis of a polygon's area.
 Vector2d long_axis(const std::vector<Vector2d>& polygon) {
   double area = 0.0;
   Vector2d first = Vector2d::Zero();
@@ -133,11 +132,16 @@ RigidTransform OutlineAxis::axis_from_standing() const {
   return transform;
 }
 
+std::optional<Vector2d> long_direction(const Points& points) {
+  const auto hull = hull_from_above(points);
+  return hull.size() < 3 ? std::nullopt : std::optional(long_axis(hull));
+}
+
 Result<OutlineAxis> find_outline_axis(const Points& points) {
   const Points low = lower_than(points, kFirstOutlineHeightMm);
-  const auto hull = hull_from_above(low);
-  if (hull.size() < 3) return no_foot("nothing of it is near the floor");
-  Vector2d forward = long_axis(hull);
+  const auto direction = long_direction(low);
+  if (!direction) return no_foot("nothing of it is near the floor");
+  Vector2d forward = *direction;
   Extent along = extent(low, forward);
   const Vector2d across(-forward.y(), forward.x());
   const Extent breadth = extent(low, across);

@@ -24,6 +24,10 @@ struct OutlineAxis {
   RigidTransform axis_from_standing() const;
 };
 
+/// The longer principal axis of the area that points have from above, either way; nothing where
+/// they have none. Points that lie denser in one place than in another do not turn it.
+std::optional<Eigen::Vector2d> long_direction(const std::vector<Eigen::Vector3d>& points);
+
 /// The longer principal axis of the outline's area, pointing from the high end (leg, instep) to
 /// the low one (toes). Good to a few degrees: the start for a foot axis by landmarks.
 ///

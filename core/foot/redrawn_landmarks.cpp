@@ -41,6 +41,7 @@ RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>
   FootScan part;
   part.side = foot.side;
   part.is_floor_known = foot.is_floor_known;
+  part.rules = foot.rules;
   part.cloud = foot.cloud.subset(indices);
   part.landmarks = foot.landmarks;
   realign(part);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foot/border_profile.h"
+#include "core/foot/toe_pattern.h"
 
 namespace instep {
 namespace {
@@ -14,8 +15,6 @@ constexpr double kBorderSmoothingMm = 9.0;
 constexpr double kToeSmoothingMm = 3.5;
 constexpr double kToeStripMm = 1.0;
 constexpr double kCleftMm = 1.0;  ///< depth from which a cleft parts two toes
-constexpr std::size_t kFewestToes = 2;
-constexpr double kFurthestShareOff = 0.06;
 constexpr double kHalfToeMm = 6.0;
 constexpr double kToeRadiusShare =
     0.027;                           ///< of a toe's tip seen from above, over the foot's length
@@ -115,13 +114,10 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
   const Vector2d square = square_to_toes(forwards, ball->medial - 0.9 * ball->breadth,
                                          ball->medial - 0.3 * ball->breadth);
   const auto toes = visible_toes(front, square, *ball);
-  const auto nearest =
-      std::min_element(toes.begin(), toes.end(), [&](const Vector2d& a, const Vector2d& b) {
-        return std::abs(a.y() - expected) < std::abs(b.y() - expected);
-      });
-  if (toes.size() >= kFewestToes &&
-      std::abs(nearest->y() - expected) < kFurthestShareOff * ball->breadth) {
-    return SecondToe{foremost_of_toe(forwards, *nearest, square, kToeRadiusShare * length_mm),
+  std::vector<double> shares;
+  for (const auto& toe : toes) shares.push_back((ball->medial - toe.y()) / ball->breadth);
+  if (const auto second = second_of_toes(shares)) {
+    return SecondToe{foremost_of_toe(forwards, toes[*second], square, kToeRadiusShare * length_mm),
                      true};
   }
   const auto reach = forwards.reach(expected);

@@ -13,12 +13,11 @@ struct SecondToe {
 };
 
 /// Share of the ball's breadth from the medial border at which the second toe's tip is taken to be
-/// where the toes cannot be told apart (in a sock, or in a coarse cloud).
-inline constexpr double kSecondToeShare = 0.42;
+/// where the toes cannot be told apart (in a sock, or in a coarse cloud): the mean of drawn feet.
+inline constexpr double kSecondToeShare = 0.415;
 
-/// Finds the second toe's tip on the front border: of the toes that show, the one nearest to
-/// kSecondToeShare of the breadth, if it lies within 0.1 of that share; else the front border at
-/// that share.
+/// Finds the second toe's tip on the front border: of the toes that show, the one that is the
+/// second by where all of them lie (second_of_toes()); else the front border at kSecondToeShare.
 ///
 /// Toes recede towards the little one, so that a toe seldom stands out forwards; they are told
 /// apart by the clefts between them, seen square to the line of their tips. The tip is the foremost

@@ -18,10 +18,13 @@ constexpr double kStepMm = 2.0;
 constexpr double kWindowMm = 5.0;          ///< half, along and across
 constexpr double kDeepestMm = 4.0;         ///< below the furthest: beyond is another face
 constexpr double kWidestWindow = 2.1;      ///< times the usual one, where points are few
-constexpr std::size_t kFewestPoints = 14;  ///< of a fit; a window is widened to hold twice these
+constexpr std::size_t kFewestPoints = 10;  ///< of a fit
+constexpr std::size_t kEnoughPoints = 28;  ///< a window is widened to hold these
 constexpr std::size_t kFurthest = 5;
 constexpr std::size_t kFewestSamples = 4;
-constexpr double kSearchStepMm = 0.5;
+constexpr double kFinestStepMm = 0.02;
+constexpr double kWidestBridge = 2.5;  ///< times the smoothing, where samples are missing
+constexpr double kWiden = 1.25;
 constexpr double kStraySampleMm = 1.5;
 
 /// Along, across, outwards: as SkinSummit takes them.
@@ -118,13 +121,19 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
       const auto start = start_of(strip);
       if (!start) continue;
       close.clear();
+      bool is_before = false;
+      bool is_behind = false;
       for (auto point = from(place - window); point != end; ++point) {
         if (std::abs(point->y() - start->y()) > window) continue;
         if (point->z() < start->z() - kDeepestMm) continue;
         close.emplace_back(point->x() - place, point->y() - start->y(), point->z());
+        is_behind = is_behind || close.back().x() <= 0.0;
+        is_before = is_before || close.back().x() >= 0.0;
       }
+      // Within a hole a fit to its edge runs away.
+      if (!is_before || !is_behind) continue;
       const bool is_last = wider * std::sqrt(2.0) > kWidestWindow;
-      if (close.size() < (is_last ? kFewestPoints : 2 * kFewestPoints)) continue;
+      if (close.size() < (is_last ? kFewestPoints : kEnoughPoints)) continue;
       const auto summit = summit_across(close, std::max(view.across_from_mm - start->y(), -window),
                                         std::min(view.across_to_mm - start->y(), window));
       if (summit && std::abs(summit->reach - start->z()) < kDeepestMm) {
@@ -135,16 +144,34 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
   }
 }
 
-std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
+std::optional<SkinBorder::Reach> SkinBorder::samples_near(double along) const {
   const auto bound = [&](double value) {
     return std::lower_bound(samples_.begin(), samples_.end(), value,
                             [](const Place& sample, double limit) { return sample.along < limit; });
   };
-  const auto begin = bound(along - smoothing_mm_);
-  const auto end = bound(along + smoothing_mm_);
-  if (static_cast<std::size_t>(end - begin) < kFewestSamples) return std::nullopt;
+  const auto near = [&](double half) {
+    return Reach{bound(along - half), bound(along + half), half};
+  };
+  const auto is_enough = [](const Reach& found) {
+    return static_cast<std::size_t>(found.end - found.begin) >= kFewestSamples;
+  };
+  for (double half = smoothing_mm_; half < kWidestBridge * smoothing_mm_; half *= kWiden) {
+    const Reach found = near(half);
+    if (is_enough(found) && found.begin->along <= along && (found.end - 1)->along >= along) {
+      return found;
+    }
+  }
+  const Reach found = near(smoothing_mm_);
   // Beyond the last sample a quadratic runs away.
-  if (along < begin->along - kStepMm || along > (end - 1)->along + kStepMm) return std::nullopt;
+  const bool is_beside = is_enough(found) && along > found.begin->along - kStepMm &&
+                         along < (found.end - 1)->along + kStepMm;
+  return is_beside ? std::optional(found) : std::nullopt;
+}
+
+std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
+  const auto near = samples_near(along);
+  if (!near) return std::nullopt;
+  const auto [begin, end, half] = *near;
   Eigen::Matrix<double, 3, 2> fitted;
   double limit = 1e300;
   for (int round = 0; round < 2; ++round) {
@@ -152,7 +179,7 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
     Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
     std::vector<double> off;
     for (auto sample = begin; sample != end; ++sample) {
-      const double offset = (sample->along - along) / smoothing_mm_;
+      const double offset = (sample->along - along) / half;
       const Vector3d terms(1.0, offset, offset * offset);
       if (round > 0) {
         const double residual = std::abs(sample->reach - fitted.col(0).dot(terms));
@@ -165,14 +192,21 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
     fitted = normal.ldlt().solve(right);
     if (!fitted.allFinite()) return std::nullopt;
     for (auto sample = begin; sample != end; ++sample) {
-      const double offset = (sample->along - along) / smoothing_mm_;
+      const double offset = (sample->along - along) / half;
       off.push_back(
           std::abs(sample->reach - fitted.col(0).dot(Vector3d(1.0, offset, offset * offset))));
     }
     limit = std::max(4.0 * median(std::move(off)), kStraySampleMm);
   }
   return Place{along, fitted(0, 0),
-               std::clamp(fitted(0, 1), view_.across_from_mm, view_.across_to_mm)};
+               std::clamp(fitted(0, 1), view_.across_from_mm, view_.across_to_mm),
+               2.0 * fitted(2, 0) / (half * half)};
+}
+
+SkinBorder SkinBorder::smoothed_over(double smoothing_mm) const {
+  SkinBorder other = *this;
+  other.smoothing_mm_ = smoothing_mm;
+  return other;
 }
 
 std::optional<double> SkinBorder::reach(double along) const {
@@ -189,17 +223,29 @@ std::optional<SkinBorder::Peak> SkinBorder::furthest(
   const auto weighed = [&](const Place& place) {
     return place.reach - (handicap ? handicap(place.along) : 0.0);
   };
-  std::vector<Place> border;
-  const auto steps = static_cast<int>((to - from) / kSearchStepMm);
+  std::optional<Place> best;
+  const auto look_at = [&](double along) {
+    const auto place = at(along);
+    if (place && (!best || weighed(*place) > weighed(*best))) best = place;
+    return place;
+  };
+  std::optional<Place> first;
+  std::optional<Place> last;
+  const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / kStepMm)));
   for (int i = 0; i <= steps; ++i) {
-    if (const auto place = at(from + i * kSearchStepMm)) border.push_back(*place);
+    const auto place = look_at(from + (to - from) * i / steps);
+    if (!place) continue;
+    if (!first) first = place;
+    last = place;
   }
-  if (border.empty()) return std::nullopt;
-  const auto top =
-      std::max_element(border.begin(), border.end(),
-                       [&](const Place& a, const Place& b) { return weighed(a) < weighed(b); });
-  const double higher_end = std::max(weighed(border.front()), weighed(border.back()));
-  return Peak{*top, weighed(*top) - higher_end};
+  if (!best) return std::nullopt;
+  for (double step = 0.5 * kStepMm; step > kFinestStepMm; step *= 0.5) {
+    const double middle = best->along;
+    for (const double along : {middle - step, middle + step}) {
+      if (along >= from && along <= to) look_at(along);
+    }
+  }
+  return Peak{*best, weighed(*best) - std::max(weighed(*first), weighed(*last))};
 }
 
 }  // namespace instep

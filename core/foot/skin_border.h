@@ -27,14 +27,19 @@ struct BorderView {
 /// the line by local quadratics.
 class SkinBorder {
  public:
-  /// `smoothing_mm` is how far to either side of a place a sample has a say.
+  /// `smoothing_mm` is how far to either side of a place a sample has a say; where samples are
+  /// missing, as over a hole, up to 2.5 times as far.
   SkinBorder(const std::vector<Eigen::Vector3d>& points, const BorderView& view,
              double smoothing_mm);
+
+  /// The same border, smoothed over another length.
+  SkinBorder smoothed_over(double smoothing_mm) const;
 
   struct Place {
     double along = 0.0;
     double reach = 0.0;   ///< outwards
     double across = 0.0;  ///< where the reach is greatest
+    double bend = 0.0;    ///< second derivative of the reach, per mm; < 0 on a summit
   };
 
   /// Smoothed; nothing where too few places near by have points.
@@ -55,6 +60,15 @@ class SkinBorder {
                                const std::function<double(double)>& handicap = {}) const;
 
  private:
+  /// Samples that have a say in a place.
+  struct Reach {
+    std::vector<Place>::const_iterator begin;
+    std::vector<Place>::const_iterator end;
+    double half_mm = 0.0;  ///< how far to either side
+  };
+  /// On both sides of it, across gaps where need be; at an end of the border on one.
+  std::optional<Reach> samples_near(double along) const;
+
   BorderView view_;
   std::vector<Place> samples_;  ///< by place
   double smoothing_mm_;

@@ -10,6 +10,7 @@
 #include "core/foot/measures.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/measuring_options.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/page/pdf_page.h"
 #include "daemon/page/report_page.h"
@@ -25,6 +26,7 @@ constexpr const char* kExamples = R"(No landmark is set by hand. Examples:
   instep measure foot.ply
   instep measure foot.stl --unit auto --side left --format text
   instep measure foot.ply --format csv > foot.csv
+  instep measure foot.ply --axis brannock --ball-girth shortest
   instep measure foot.ply --report foot.pdf
 A PDF is made by rsvg-convert (apt-get install librsvg2-bin), an SVG needs nothing.)";
 
@@ -33,6 +35,7 @@ struct MeasureCommand {
   std::string side = "auto";
   std::string format;
   std::string report;
+  MeasuringOptions rules;
 };
 
 bool is_pdf(const std::string& file) {
@@ -61,8 +64,10 @@ Result<void> print_measures(const ScanRecord& record, const std::string& format)
 Result<void> run(const MeasureCommand& command) {
   const auto file = read_cloud(command.cloud);
   if (!file) return tl::make_unexpected(file.error());
+  const Settings settings = station_settings();
   AlignmentOptions options;
   options.side = side_from_string(command.side);
+  options.rules = command.rules.over(settings.measures);
   auto foot = align_foot(file->cloud, options).and_then(find_landmarks);
   if (!foot) return tl::make_unexpected(foot.error());
   foot->warnings.insert(foot->warnings.begin(), file->notes.begin(), file->notes.end());
@@ -71,7 +76,7 @@ Result<void> run(const MeasureCommand& command) {
 
   ScanRecord record;
   record.foot = std::move(*foot);
-  record.sizes = shoe_sizes(record.foot, *measures, station_settings().sizes);
+  record.sizes = shoe_sizes(record.foot, *measures, settings.sizes);
   record.measures = std::move(*measures);
   if (!command.report.empty()) {
     if (auto written = write_report(record, command); !written) return written;
@@ -90,6 +95,7 @@ void add_measure_command(CLI::App& app, int& exit_code) {
   measure->add_option("--side", command->side, "which foot it is; auto tells it from the shape")
       ->check(CLI::IsMember({"left", "right", "auto"}))
       ->capture_default_str();
+  command->rules.add_to(*measure);
   measure->add_option("--format", command->format, "json (if stdout is no terminal), text or csv")
       ->check(CLI::IsMember({"json", "text", "csv"}));
   measure

@@ -79,6 +79,7 @@ Result<void> run(const ReplayCommand& command) {
   PipelineSettings settings;
   settings.station = "replay";
   settings.sizes = station_settings().sizes;
+  settings.measures = station_settings().measures;
   settings.side = side_from_string(command.side);
   settings.refine_views = command.poses == "auto" ? !capture->simulated : command.poses == "refine";
   ProgressLine line;

@@ -105,7 +105,7 @@ Json foot_json(const FootScan& foot, const MeasureSet& measures, const ShoeSizes
   Json json{{"side", to_string(foot.side)},
             {"side_confidence", json_number(foot.side_confidence)},
             {"frame", matrix(foot.foot_from_input)},
-            {"axis", "pt_toe2"}};
+            {"axis", name_of(foot.rules.axis, kAxisRules)}};
   json["landmarks"] = Json::object();
   for (const auto& [name, landmark] : foot.landmarks) {
     json["landmarks"][name] = landmark_json(landmark);

@@ -160,6 +160,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   if (!clock.begin("align", 0.6)) return cancelled();
   AlignmentOptions alignment;
   alignment.side = settings.side;
+  alignment.rules = settings.measures;
   alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
   auto feet = align_feet(scene->feet, alignment);
   if (!feet) return tl::make_unexpected(feet.error());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/foot/measuring_rules.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
 #include "core/fusion/depth_frame.h"
@@ -38,6 +39,7 @@ struct PipelineSettings {
   double point_spacing_mm = 1.0;
   bool refine_views = false;  ///< align the views to each other: for nominal camera poses
   std::optional<Side> side;   ///< forced side; nothing = told from the shape
+  MeasuringRules measures;
   SizeRules sizes;
 };
 

@@ -74,6 +74,7 @@ void Station::reload(const Settings& settings) {
   settings_.station = settings.station;
   settings_.capture = settings.capture;
   settings_.sizes = settings.sizes;
+  settings_.measures = settings.measures;
   settings_.pedal.debounce = settings.pedal.debounce;
   settings_.pedal.hold_to_cancel = settings.pedal.hold_to_cancel;
   if (pedal_) pedal_->set(settings_.pedal);
@@ -271,6 +272,7 @@ ScanTools Station::tools() const {
   tools.pipeline.refine_views = settings_.station.refine_views;
   tools.pipeline.side = settings_.station.side;
   tools.pipeline.sizes = settings_.sizes;
+  tools.pipeline.measures = settings_.measures;
   tools.platform_height_mm = devices_.platform_height_mm;
   tools.calibration = devices_.calibration;
   tools.simulated = devices_.simulated;

@@ -105,6 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[simulation]\nnoise = []", "must be text in quotes, but it is a list"},
         Fault{"[[camera]]\nkind = \"recording\"", "camera.path is missing"},
         Fault{"[store]\nkeep_days = 2020-01-01", "but it is a date or time"},
+        Fault{"[measures]\naxis = \"pt_toe3\"", "did you mean \"pt_toe2\"?"},
+        Fault{"[measures]\naxis = 2", "measures.axis must be text in quotes"},
+        Fault{"[measures]\nball_girth = \"tilted\"", "is not one of \"upright\", \"shortest\""},
+        Fault{"[measures]\ninstep_girth = \"up\"", "/etc/s.toml:4: measures.instep_girth"},
+        Fault{"[measures]\nheel_breadth = 40", "measures.heel_breadth must be text in quotes"},
+        Fault{"[measures]\naxes = \"pca\"", "did you mean measures.axis?"},
         Fault{"[sizes]\nallowance_mm = 41", "sizes.allowance_mm = 41 is outside 0 to 40"},
         Fault{"[sizes]\nallowance = 15", "did you mean sizes.allowance_mm?"},
         Fault{"[[sizes.shop]]\nname = \"W\"", "sizes.shop.sizes must have 1 to 64 rows"},
@@ -120,6 +126,19 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[[log]]\nlevel = \"info\"", "log must be written as [log]"},
         Fault{"[pedal]\nkind = \"none", "/etc/s.toml:4:"},
         Fault{"[pedal]\n[pedal]\n", "/etc/s.toml:4:"}));
+
+TEST(Settings, SayWhichDefinitionsToMeasureBy) {
+  EXPECT_EQ(read(kCamera).settings.measures, MeasuringRules{});
+  const auto reading = read(std::string(kCamera) +
+                            "[measures]\naxis = \"brannock\"\nball_girth = \"shortest\"\n"
+                            "instep_girth = \"upright\"\nheel_breadth = \"widest\"");
+  ASSERT_TRUE(reading.good());
+  EXPECT_EQ(reading.settings.measures,
+            (MeasuringRules{AxisRule::kMedialTangent, BallGirthRule::kShortest,
+                            InstepGirthRule::kUpright, HeelBreadthRule::kWidestFifth}));
+  EXPECT_THAT(describe(reading.settings),
+              HasSubstr("axis brannock, ball girth shortest, instep girth upright"));
+}
 
 /// The example in the shipped file, without the marks that make it a comment.
 std::string shop_example() {

@@ -119,6 +119,13 @@ std::optional<std::filesystem::path> trial_folder(const char* name) {
   return std::nullopt;
 }
 
+/// By how much the medial end of a plane lies in front of the lateral one, seen from above. `plane`
+/// is in the foot's frame.
+double slant_deg(const TapePlane& plane, const FootScan& foot) {
+  const Vector3d normal = plane.normal();
+  return -foot.medial_sign() * std::atan(normal.y() / normal.x()) * 180.0 / M_PI;
+}
+
 /// How far a plane is from another: the largest distance of its landmarks, on the floor.
 double distance_of_planes(const TapePlane& plane, const TapePlane& known) {
   double most = 0.0;
@@ -158,8 +165,13 @@ void report_lasts() {
       for (const auto& section : known) {
         if (section.file != name || section.name + "_girth" != measure.id) continue;
         const auto plane = measure.plane->transformed(last->foot.foot_from_input.inverse());
-        fmt::print("  {:.2f} mm from the public plane, of {:.2f}",
-                   distance_of_planes(plane, section.plane), section.stretched_mm);
+        const Vector3d middle = 0.5 * (plane.control_points()[0] + plane.control_points()[1]);
+        fmt::print(
+            "  {:.2f} mm from the public plane, of {:.2f}; in the middle {:.2f}; slants {:.0f}, "
+            "{:.0f}",
+            distance_of_planes(plane, section.plane), section.stretched_mm,
+            std::abs(section.plane.distance(middle)), slant_deg(*measure.plane, last->foot),
+            slant_deg(section.plane.transformed(last->foot.foot_from_input), last->foot));
       }
       fmt::print("\n");
     }

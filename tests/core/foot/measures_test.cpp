@@ -76,7 +76,7 @@ TEST(Landmarks, FallBackToTheAverageFootWhereTheBorderIsStraight) {
   auto straight = *foot;
   for (auto& point : straight.cloud.positions) {
     if (point.x() > 100.0 && point.x() < 240.0 && point.y() < 0.0) {
-      point.y() = std::max(point.y(), -20.0 - 0.1 * (point.x() - 100.0));
+      point.y() = std::max(point.y(), -25.0);
     }
   }
   const auto found = find_landmarks(straight);

@@ -42,6 +42,25 @@ TEST(SkinBorder, EndsWithItsPoints) {
   EXPECT_FALSE(border.reach(62.5));
 }
 
+TEST(SkinBorder, GoesOnAcrossAHole) {
+  auto points = ellipsoid(0.1, 30000, 7);
+  std::erase_if(points, [](const Vector3d& point) { return std::abs(point.x() - 5.0) < 10.0; });
+  const SkinBorder border(points, kFromAbove, 9.0);
+  for (double x = -5.0; x <= 15.0; x += 2.0) {
+    const auto reach = border.reach(x);
+    ASSERT_TRUE(reach) << x;
+    EXPECT_NEAR(*reach, true_reach(x), 0.2) << x;
+  }
+}
+
+TEST(SkinBorder, TellsHowItBends) {
+  const SkinBorder border(ellipsoid(0.0, 30000, 8), kFromAbove, 15.0);
+  const auto place = border.at(0.0);
+  ASSERT_TRUE(place);
+  // An ellipse of half axes a and b bends by b / a^2 at the end of b.
+  EXPECT_NEAR(place->bend, -45.0 / (120.0 * 120.0), 0.001);
+}
+
 TEST(SkinBorder, IsNotPulledOutwardsByNoise) {
   for (const double sigma : {0.0, 0.3, 0.6}) {
     const SkinBorder border(ellipsoid(sigma, 30000, 3), kFromAbove, 9.0);

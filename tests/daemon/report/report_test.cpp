@@ -94,6 +94,7 @@ TEST(ResultJson, HoldsWhatAGirthIs) {
 TEST(ResultJson, HoldsWhatAFootIs) {
   const Json json = foot_json(small_foot(), small_set(), small_sizes());
   EXPECT_EQ(json["side"], "left");
+  EXPECT_EQ(json["axis"], "pt_toe2");
   ASSERT_EQ(json["frame"].size(), 16U);
   EXPECT_EQ(json["frame"][0], 1.0);
   EXPECT_EQ(json["landmarks"]["acropodion"]["xyz_mm"][0], 251.25);

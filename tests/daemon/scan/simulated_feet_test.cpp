@@ -63,6 +63,23 @@ TEST_P(SimulatedFeet, AreMeasuredWithinAMillimetre) {
   }
 }
 
+TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
+  SimulationSettings simulation;
+  simulation.seed = 5;
+  simulation.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(simulation);
+  ASSERT_TRUE(station) << station.error().line();
+  PipelineSettings settings;
+  settings.measures.axis = AxisRule::kMedialTangent;
+  settings.measures.ball_girth = BallGirthRule::kShortest;
+  const auto records = measure_capture(capture_of(*station), settings, {});
+  ASSERT_TRUE(records) << records.error().line();
+  EXPECT_EQ(records->front().foot.rules, settings.measures);
+  const auto& measures = records->front().measures;
+  EXPECT_NE(measures.find("foot_length")->definition.find("brannock"), std::string::npos);
+  EXPECT_NE(measures.find("ball_girth")->definition.find("shortest"), std::string::npos);
+}
+
 TEST(SimulatedPair, IsPutSideBySideAndLedByTheLongerFoot) {
   SimulationSettings settings;
   settings.seed = 3;

@@ -1,0 +1,33 @@
+#include "core/foot/measuring_rules.h"
+
+namespace instep {
+
+const char* description(AxisRule axis) {
+  switch (axis) {
+    case AxisRule::kSecondToe:
+      return "from the pternion to the tip of the second toe";
+    case AxisRule::kBallCentre:
+      return "from the pternion to the middle between metatarsale tibiale and fibulare";
+    case AxisRule::kHeelCentre:
+      return "of the middles of the heel's breadths";
+    case AxisRule::kMedialTangent:
+      return "of a ruler that touches heel and ball on the medial side";
+    case AxisRule::kOutline:
+      return "along which the outline's area is spread most";
+  }
+  return "";
+}
+
+const char* description(HeelBreadthRule place) {
+  switch (place) {
+    case HeelBreadthRule::kSixth:
+      return "at a sixth of the foot's length";
+    case HeelBreadthRule::kFortyMm:
+      return "40 mm in front of the pternion";
+    case HeelBreadthRule::kWidestFifth:
+      return "where it is greatest in the rear fifth of the foot's length";
+  }
+  return "";
+}
+
+}  // namespace instep
