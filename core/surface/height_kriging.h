@@ -1,11 +1,11 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <array>
+#include <Eigen/QR>
 #include <optional>
 
 #include "core/surface/height_samples.h"
-#include "core/surface/small_cholesky.h"
 
 namespace instep {
 
@@ -38,7 +38,7 @@ class HeightKriging {
   /// All that follows from one ratio of level() to roughness.
   struct Solution {
     double ratio = 0.0;
-    SmallCholesky cholesky;
+    Eigen::LLT<Eigen::MatrixXd> cholesky;
     Eigen::VectorXd on_null_space;
     double log_volume = 0.0;  ///< log determinant of kernel + ratio
     /// Squares of the heights over kernel + ratio. Divided by free(), the likeliest roughness.
@@ -72,17 +72,13 @@ class HeightKriging {
  private:
   HeightKriging() = default;
 
-  void span(Eigen::MatrixXd columns);
   double kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const;
 
   Eigen::Matrix2Xd places_;
   Eigen::ArrayXd scales_;
   double level_ = 0.0;
-  /// The weighed monomials, in this order, are basis times upper: orthonormal columns that span the
-  /// polynomial block, and how they make it.
-  std::array<Eigen::Index, Quadratic::RowsAtCompileTime> order_{};
-  Eigen::MatrixXd basis_;
-  Eigen::MatrixXd upper_;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
+  Eigen::MatrixXd basis_;     ///< orthonormal columns that span the polynomial block
   Eigen::MatrixXd on_basis_;  ///< kernel times basis
   Eigen::MatrixXd reduced_;   ///< lower triangle
   Eigen::VectorXd heights_;

@@ -1,11 +1,10 @@
 #include "core/surface/kriging_likelihood.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
-
-#include "core/surface/tridiagonal_form.h"
 
 namespace instep {
 namespace {
@@ -25,10 +24,11 @@ Group ladder(double first, double step) {
 }  // namespace
 
 KrigingLikelihood::KrigingLikelihood(const HeightKriging& kriging) : free_(kriging.free()) {
-  TridiagonalForm form = tridiagonal_form(kriging.reduced(), kriging.free_heights());
-  diagonal_ = std::move(form.diagonal);
-  beside_ = std::move(form.beside);
-  heights_ = std::move(form.vector);
+  const Eigen::Tridiagonalization<Eigen::MatrixXd> form(kriging.reduced());
+  diagonal_ = form.diagonal();
+  beside_ = form.subDiagonal();
+  heights_ = kriging.free_heights();
+  heights_.applyOnTheLeft(form.matrixQ().adjoint());
 }
 
 KrigingLikelihood::Readings KrigingLikelihood::at(const Group& ratios) const {
