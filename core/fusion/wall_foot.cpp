@@ -13,22 +13,42 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMostSine = 0.95;
-constexpr double kLeastLean = 0.15;      // sine of a wall's lean that is not its noise
-constexpr double kRadiusOfLean = 120.0;  // mm of radius that a lean allows
+constexpr double kLeaningSine = 0.42;  // of a wall that leans in as much as a sole's edge does
 
-/// A taut tape from where the skin begins, along the arc on which it bends, and on to the contact.
-std::vector<Vector2d> taut_over_arch(const Vector2d& begin, double dip, double radius,
-                                     double contact) {
+/// Of the dip of a wall that bends evenly, at a height.
+double sine_at(double end_height, double sine_of_end, double bend, double height) {
+  return std::min(kMostSine, sine_of_end + bend * (end_height - height));
+}
+
+/// The wall from its seen end on, in its own bend, down to the height where the round edge of the
+/// sole begins, or to where it leans in as much as that does; the end alone where it was seen so
+/// far. Inward distance and height.
+std::vector<Vector2d> wall_to_edge(double height, double sine, double bend, double edge_height) {
+  constexpr int kPieces = 8;
+  std::vector<Vector2d> corners{{0.0, height}};
+  if (bend > 0.0) edge_height = std::max(edge_height, height - (kLeaningSine - sine) / bend);
+  if (height <= edge_height || sine >= kLeaningSine) return corners;
+  for (int i = 1; i <= kPieces; ++i) {
+    const double at = std::lerp(height, edge_height, static_cast<double>(i) / kPieces);
+    const double chord = (std::asin(sine) + std::asin(sine_at(height, sine, bend, at))) / 2.0;
+    corners.emplace_back((height - at) * std::tan(chord), at);
+  }
+  return corners;
+}
+
+/// A taut tape from the wall's end, along the arc on which it bends, and on to the contact.
+std::vector<Vector2d> taut_over_arch(double height, double dip, double radius, double contact) {
   constexpr int kPieces = 12;
-  std::vector<Vector2d> corners;
-  if (begin.x() >= contact) return {{contact, 0.0}};
+  const Vector2d begin(0.0, height);
+  std::vector<Vector2d> corners{begin};
+  if (contact <= 0.0) return {begin, {0.0, 0.0}};
   const Vector2d centre = begin + radius * Vector2d(std::cos(dip), std::sin(dip));
   const Vector2d to_contact = Vector2d(contact, 0.0) - centre;
   if (to_contact.norm() > radius) {
     // The arc ends where its tangent points at the contact.
     const double below = std::atan2(-to_contact.y(), -to_contact.x());
     const double end = below - std::acos(radius / to_contact.norm());
-    for (int i = 0; i <= kPieces; ++i) {
+    for (int i = 1; i <= kPieces; ++i) {
       const double at = std::lerp(dip, std::max(dip, end), static_cast<double>(i) / kPieces);
       corners.emplace_back(centre - radius * Vector2d(std::cos(at), std::sin(at)));
     }
@@ -83,25 +103,22 @@ std::vector<Vector2d> shadow_of(const PointCloud& foot, double most_z) {
 WallFoot::WallFoot(const Vector2d& place, const Vector2d& out, const WallShape& shape,
                    const WallSettings& settings)
     : place_(place), out_(out) {
-  const double sine = std::clamp(shape.sine_of_dip, 0.0, kMostSine);
   const double height = std::max(0.0, shape.height);
-  // An upright wall whose foot was hidden says nothing of its rounding; one that leans in does.
-  const double widest =
-      settings.usual_radius_mm + kRadiusOfLean * std::max(0.0, sine - kLeastLean) / (1.0 - sine);
-  const double rounded =
-      shape.bend * widest > 1.0 ? height : std::min(height, widest * (1.0 - sine));
-  const Vector2d begin((height - rounded) * sine / std::sqrt(1.0 - sine * sine), rounded);
-  profile_.emplace_back(0.0, height);
+  profile_ = wall_to_edge(height, std::clamp(shape.sine_of_dip, 0.0, kMostSine), shape.bend,
+                          settings.usual_edge_mm);
+  const Vector2d begin = profile_.back();
+  const double sine =
+      sine_at(height, std::clamp(shape.sine_of_dip, 0.0, kMostSine), shape.bend, begin.y());
   const double turn = std::acos(sine);
-  for (const auto& corner : free_skin(turn, falloff_of_bend(turn, shape.bend * rounded), rounded)) {
+  const double bend = shape.bend * begin.y();
+  for (const auto& corner : free_skin(turn, falloff_of_bend(turn, bend), begin.y())) {
     profile_.emplace_back(begin.x() + corner.x(), corner.y());
   }
   if (contact() > shape.most_inset_mm) {
+    const double from = std::clamp(shape.sine_of_dip, 0.0, kMostSine);
     // No tighter than the arc that just touches the platform.
-    const double radius = 1.0 / std::max(shape.bend, (1.0 - sine) / std::max(rounded, 1e-9));
-    const auto taut = taut_over_arch(begin, std::asin(sine), radius, shape.most_inset_mm);
-    profile_.resize(1);
-    profile_.insert(profile_.end(), taut.begin(), taut.end());
+    const double radius = 1.0 / std::max(shape.bend, (1.0 - from) / std::max(height, 1e-9));
+    profile_ = taut_over_arch(height, std::asin(from), radius, shape.most_inset_mm);
   }
   if (contact() < settings.least_inset_mm) profile_.emplace_back(settings.least_inset_mm, 0.0);
 }

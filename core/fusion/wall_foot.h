@@ -11,7 +11,7 @@ struct WallSettings {
   double highest_mm = 50.0;  ///< a wall that was seen no lower than this has no foot
   /// Of the seen wall, upward from its lowest point, that tells how it bends.
   double bend_reach_mm = 14.0;
-  double usual_radius_mm = 8.0;  ///< of the rounding, where the seen wall is upright to its end
+  double usual_edge_mm = 8.0;  ///< height over the platform where the sole's round edge begins
   double least_inset_mm = 3.0;
   /// Of the way across the foot: what stands beside an arch is about a third of it.
   double most_inset_share = 0.65;
@@ -30,8 +30,8 @@ struct WallShape {
 ///
 /// In the upright plane square to the wall the skin begins with the height, the dip and the bend of
 /// the seen end. Two cases follow:
-///   rounded edge  It hangs free until it rests on the platform: free_skin(), after a straight
-///                 piece where the wall is upright and was seen to its end in no bend.
+///   rounded edge  It goes on in its own bend down to where soles usually begin to be round, and
+///                 hangs free from there until it rests on the platform: free_skin().
 ///   arch          That contact would lie beyond `most_inset_mm`: the wall bends so much that it
 ///                 turns level above the platform, a roof with a hollow that no tape enters. The
 ///                 skin bends on in an arc until it points at that place, and from there the tape

@@ -115,11 +115,11 @@ TEST(WallFoot, NeverRisesInwardAndEndsOnThePlatform) {
   }
 }
 
-TEST(WallFoot, DropsToTheUsualRoundingBelowAnUprightWallWhoseFootWasHidden) {
+TEST(WallFoot, GoesOnUprightToTheUsualEdgeWhereItsFootWasHidden) {
   const WallFoot foot = wall(25.0, 0.0, kStraight);
-  EXPECT_LT(foot.skin_height(0.01), WallSettings{}.usual_radius_mm);
-  EXPECT_GT(foot.contact(), WallSettings{}.usual_radius_mm);
-  EXPECT_LT(foot.contact(), 3.0 * WallSettings{}.usual_radius_mm);
+  EXPECT_LE(foot.skin_height(0.01), WallSettings{}.usual_edge_mm);
+  EXPECT_GT(foot.contact(), WallSettings{}.usual_edge_mm);
+  EXPECT_LT(foot.contact(), 3.0 * WallSettings{}.usual_edge_mm);
 }
 
 /// A round wall of 50 mm radius whose bottom edge is rounded, seen down to 45 degrees.
