@@ -22,6 +22,7 @@ FootOutline::FootOutline(const FootScan& foot)
     : length_mm_(foot.landmarks.at("acropodion").position_mm.x() -
                  foot.landmarks.at("pternion").position_mm.x()),
       points_(as_right_foot(foot)),
+      was_seen_below_(!foot.cloud.stands_on_platform()),
       medial_(points_, from_above(1.0), kBorderSmoothingMm),
       lateral_(points_, from_above(-1.0), kBorderSmoothingMm) {}
 

@@ -22,6 +22,9 @@ class FootOutline {
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
+  /// Whether all of the skin was seen: no points were put where nobody looked.
+  bool was_seen_below() const { return was_seen_below_; }
+
   /// Reach towards medial, and towards lateral, at each x, of the skin up to
   /// kLandmarkOutlineHeightMm.
   const SkinBorder& medial() const { return medial_; }
@@ -30,6 +33,7 @@ class FootOutline {
  private:
   double length_mm_;
   std::vector<Eigen::Vector3d> points_;
+  bool was_seen_below_;
   SkinBorder medial_;
   SkinBorder lateral_;
 };

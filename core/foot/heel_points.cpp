@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/foot/stationary_reach.h"
+
 namespace instep {
 namespace {
 
@@ -107,7 +109,16 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
       best_place(heel, middle - 0.1 * length, middle + 0.1 * length,
                  [&](const Vector3d& place) { return seen_from_side(place, instep.position_mm); });
   if (!point) return std::nullopt;
-  return Landmark{*point, 0.8, "point of the heel's side view furthest from the instep point"};
+  // The round edge of the sole begins about there. Where it was not seen, the place where the
+  // points put for it begin is none to look for.
+  constexpr ReachPatch kOnSeenSkin{10.0, 12.0};
+  constexpr ReachPatch kBesideGuess{8.0, 12.0};
+  const Vector3d& origin = instep.position_mm;
+  const auto refined = outline.was_seen_below()
+                           ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
+                           : level_reach(outline.points(), origin, *point, kBesideGuess);
+  return Landmark{refined.value_or(*point), 0.8,
+                  "point of the heel's side view furthest from the instep point"};
 }
 
 std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark& heel) {
@@ -134,7 +145,9 @@ std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark
   if (!point || rise(*point) < kLeastRise || rise(*point) > highest_rise - kMarginRad) {
     return std::nullopt;
   }
-  return Landmark{*point, 0.7, "point of the back's side view nearest to the heel point"};
+  constexpr ReachPatch kWide{15.0, 10.0};
+  return Landmark{level_reach(outline.points(), origin, *point, kWide).value_or(*point), 0.7,
+                  "point of the back's side view nearest to the heel point"};
 }
 
 }  // namespace instep

@@ -18,7 +18,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kUndersideShare = 0.08;  ///< of the length: an arch may be so high
-constexpr double kWallHeightMm = 45.0;
+constexpr double kWallHeightMm = 64.0;
+constexpr double kMiddleMm = 20.0;  ///< height over the floor that lies within the foot
 constexpr double kCellMm = 8.0;
 constexpr std::size_t kNeighbours = 14;
 
@@ -42,7 +43,7 @@ std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points, double l
     Moments moments;
     for (const auto& one : close) moments.add(points[one.index] - point);
     Vector3d normal = moments.flattest();
-    const Vector3d middle(std::clamp(point.x(), 0.12 * length, 0.85 * length), 0.0, point.z());
+    const Vector3d middle(std::clamp(point.x(), 0.12 * length, 0.85 * length), 0.0, kMiddleMm);
     if (normal.dot(point - middle) < 0.0) normal = -normal;
     normals.push_back(normal);
   }

@@ -8,36 +8,39 @@
 namespace instep {
 
 struct WallSettings {
-  double highest_mm = 35.0;  ///< a wall that was seen no lower than this has no foot
+  double highest_mm = 50.0;  ///< a wall that was seen no lower than this has no foot
   /// Of the seen wall, upward from its lowest point, that tells how it bends.
   double bend_reach_mm = 14.0;
-  double usual_radius_mm = 8.0;  ///< of the rounding, where the seen wall is upright to its end
+  double usual_edge_mm = 8.0;  ///< height over the platform where the sole's round edge begins
   double least_inset_mm = 3.0;
-  double most_inset_mm = 55.0;
+  /// Of the way across the foot: what stands beside an arch is about a third of it.
+  double most_inset_share = 0.65;
+};
+
+/// The lower end of a wall as it was seen.
+struct WallShape {
+  double height = 0.0;       ///< over the platform, mm
+  double sine_of_dip = 0.0;  ///< of the angle of the normal below the horizon; cut to 0..0.95
+  double bend = 0.0;         ///< curvature on the way down, 1/mm; 0 for a straight wall
+  double most_inset_mm = 0.0;
 };
 
 /// The lowest seen piece of the wall of a foot, and how its skin is taken to go on, unseen, to the
 /// platform: what a tape stretched over it would touch.
 ///
-/// In the upright plane square to the wall the skin at its lowest seen point is `height` over the
-/// platform, its normal points an angle `dip` below the horizon, and it bends with some radius.
-/// Two cases follow from these three:
-///   rounded edge  Bending on like this it would meet the platform at an angle. So it bends
-///                 tighter: in the one arc that is tangent to the platform, of radius
-///                 height / (1 - sin dip), after a straight piece where that is too wide for an
-///                 upright wall.
-///   arch          Bending on like this it would turn level above the platform: a roof, with a
-///                 hollow that no tape enters. It bends on as it does until it points at the
-///                 contact, and from there the tape runs straight.
-/// The contact lies where the arc of the first case touches: height cos(dip) / (1 - sin(dip))
-/// inward. Below an arch this is a guess, but a tape that comes down at an angle a feels only
-/// 1 - cos(a) of it: a twentieth at 18 degrees.
+/// In the upright plane square to the wall the skin begins with the height, the dip and the bend of
+/// the seen end. Two cases follow:
+///   rounded edge  It goes on in its own bend down to where soles usually begin to be round, and
+///                 hangs free from there until it rests on the platform: free_skin().
+///   arch          That contact would lie beyond `most_inset_mm`: the wall bends so much that it
+///                 turns level above the platform, a roof with a hollow that no tape enters. The
+///                 skin bends on in an arc until it points at that place, and from there the tape
+///                 runs straight.
 class WallFoot {
  public:
-  /// `out`: horizontal unit vector. `sine_of_dip` is cut to 0..0.95. `bend_radius` > 0, infinite
-  /// for a straight wall.
-  WallFoot(const Eigen::Vector2d& place, const Eigen::Vector2d& out, double height,
-           double sine_of_dip, double bend_radius, const WallSettings& settings);
+  /// `out`: horizontal unit vector.
+  WallFoot(const Eigen::Vector2d& place, const Eigen::Vector2d& out, const WallShape& shape,
+           const WallSettings& settings);
 
   const Eigen::Vector2d& place() const { return place_; }
   const Eigen::Vector2d& out() const { return out_; }
@@ -50,7 +53,7 @@ class WallFoot {
   }
 
   /// Inward distance from which on the skin rests on the platform.
-  double contact() const { return contact_; }
+  double contact() const { return profile_.back().x(); }
 
   /// Height of the skin over the platform at an inward distance >= 0.
   double skin_height(double inward) const;
@@ -58,16 +61,11 @@ class WallFoot {
  private:
   Eigen::Vector2d place_;
   Eigen::Vector2d out_;
-  double height_;
-  double contact_ = 0.0;
-  double radius_ = 0.0;                               ///< of the arc
-  Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();  ///< of the arc: inward, height
-  double arc_begins_ = 0.0;                           ///< inward distance
-  double arc_ends_ = 0.0;
+  std::vector<Eigen::Vector2d> profile_;  ///< inward, height; from the wall's end to the contact
 };
 
 /// The feet of the walls of a foot that stands at a height, one for each 6 mm or so round it. The
-/// cloud is in the station frame and has normals. About 3 ms for 40,000 points.
+/// cloud is in the station frame and has normals. About 4 ms for 40,000 points.
 std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm,
                                      const WallSettings& settings);
 

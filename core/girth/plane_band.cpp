@@ -139,12 +139,14 @@ void drop_strays(PlaneBand& band) {
   band.index = PointIndex(std::move(places));
 }
 
-/// Points next to the plane, in the order in which they lie round the middle.
-std::vector<std::size_t> along_the_plane(const PlaneBand& band) {
+/// Points next to the plane that were seen, in the order in which they lie round the middle. Those
+/// that were put where nobody looked have no noise.
+std::vector<std::size_t> along_the_plane(const PointCloud& cloud, const PlaneBand& band) {
   const auto& places = band.index.points();
   std::vector<std::pair<double, std::size_t>> angles;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (std::abs(places[i].z()) > kNoisePlacesInSpacings * band.spacing) continue;
+    if (!cloud.was_seen(band.sources[i])) continue;
     angles.emplace_back(std::atan2(places[i].y(), places[i].x()), i);
   }
   std::sort(angles.begin(), angles.end());
@@ -160,10 +162,11 @@ double usual_sigma(const PointCloud& cloud, const PlaneBand& band) {
 }
 
 /// In the band's unit.
-NoiseEstimate noise_of(const PlaneBand& band, std::optional<double> sigma_mm) {
+NoiseEstimate noise_of(const PointCloud& cloud, const PlaneBand& band,
+                       std::optional<double> sigma_mm) {
   std::optional<double> sigma;
   if (sigma_mm) sigma = *sigma_mm / band.unit_mm;
-  return estimate_noise(band.index.points(), band.index, along_the_plane(band), sigma);
+  return estimate_noise(band.index.points(), band.index, along_the_plane(cloud, band), sigma);
 }
 
 /// A direction of the cloud as the plane sees it.
@@ -221,7 +224,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
 
   const bool own_sigma = !sigma_mm && cloud.has_sigma();
   if (own_sigma) sigma_mm = usual_sigma(cloud, band);
-  NoiseEstimate noise = noise_of(band, sigma_mm);
+  NoiseEstimate noise = noise_of(cloud, band, sigma_mm);
   if (grain_of(band.spacing, noise.sigma) > band.grain) {
     band = gather_enough(slabs, *found, noise.sigma);
     drop_strays(band);

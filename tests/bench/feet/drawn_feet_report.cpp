@@ -14,6 +14,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
+#include "tests/bench/feet/girth_parts.h"
 #include "tests/bench/feet/thread_time.h"
 #include "tests/support/cases/drawn_feet.h"
 
@@ -25,11 +26,12 @@ struct FootOutcome {
   std::string refusal;
   std::optional<FootScan> foot;
   MeasureSet set;
+  std::map<std::string, GirthParts> parts;
   double milliseconds = 0.0;
 };
 
 FootOutcome measured(std::uint64_t seed) {
-  FootOutcome outcome{test::draw_scanned_foot(seed), {}, {}, {}, 0.0};
+  FootOutcome outcome{test::draw_scanned_foot(seed), {}, {}, {}, {}, 0.0};
   const double start = thread_milliseconds();
   AlignmentOptions options;
   // An open sole is what a station gives, and a station knows its platform.
@@ -43,6 +45,7 @@ FootOutcome measured(std::uint64_t seed) {
   if (set) {
     outcome.foot = *foot;
     outcome.set = *set;
+    outcome.parts = girth_parts(outcome.drawn, seed, *foot, *set);
   } else {
     outcome.refusal = set.error().line();
   }
@@ -185,7 +188,42 @@ void print_foot(const FootOutcome& outcome, std::uint64_t seed) {
                  error.z(), outcome.foot->landmarks.at(name).confidence);
     }
   }
+  for (const auto& [id, parts] : outcome.parts) {
+    fmt::print("    {:<26} plane{:>+7.2f}  surface{:>+7.2f}\n", id, parts.plane, parts.surface);
+  }
   for (const auto& one : outcome.set.withheld) fmt::print("    {}: {}\n", one.id, one.reason);
+}
+
+/// Each part as if it were the whole error, of feet whose soles were seen and of those open below.
+struct PartTallies {
+  Tally plane;
+  Tally surface;
+};
+
+void add_to(std::map<std::string, PartTallies>& tallies, const FootOutcome& outcome) {
+  for (const auto& [id, parts] : outcome.parts) {
+    auto& own = tallies[id + (outcome.drawn.sole_is_seen ? ", sole seen" : ", open sole")];
+    own.plane.errors.push_back(parts.plane);
+    own.surface.errors.push_back(parts.surface);
+  }
+}
+
+void print_row(const std::string& name, const PartTallies& tallies) {
+  const auto part = [](const Tally& tally) {
+    double mean = 0.0;
+    std::vector<double> sizes;
+    double within = 0.0;
+    const auto count = static_cast<double>(tally.errors.size());
+    for (const double error : tally.errors) {
+      mean += error / count;
+      sizes.push_back(std::abs(error));
+      if (std::abs(error) <= 1.0) within += 100.0 / count;
+    }
+    return fmt::format("{:>+8.2f}{:>8.2f}{:>8.2f}{:>8.1f}", mean, quantile(sizes, 0.5),
+                       quantile(sizes, 0.95), within);
+  };
+  fmt::print("{:<30}{:>4}{}   {}\n", name, tallies.plane.errors.size(), part(tallies.plane),
+             part(tallies.surface));
 }
 
 void add_to(std::map<std::string, Tally>& tallies, const FootOutcome& outcome) {
@@ -210,6 +248,7 @@ void report_drawn_feet(const DrawnFeetWishes& wishes) {
   const auto outcomes = measured_feet(wishes);
   std::map<std::string, Tally> tallies;
   std::map<std::string, LandmarkTally> landmarks;
+  std::map<std::string, PartTallies> parts;
   std::size_t refused = 0, right_side = 0;
   std::vector<double> times;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -225,6 +264,7 @@ void report_drawn_feet(const DrawnFeetWishes& wishes) {
     times.push_back(outcome.milliseconds);
     add_to(tallies, outcome);
     add_to(landmarks, outcome);
+    add_to(parts, outcome);
   }
   fmt::print("\n{} simulated feet: {} refused, side right in {} of {}, median {:.0f} ms\n\n",
              outcomes.size(), refused, right_side, outcomes.size() - refused, quantile(times, 0.5));
@@ -234,6 +274,9 @@ void report_drawn_feet(const DrawnFeetWishes& wishes) {
   fmt::print("\n{:<26}{:>5}   {:>6} (SD) {:>8} (SD) {:>8} (SD){:>10}{:>8}\n", "landmarks: bias, mm",
              "n", "x", "y", "z", "median", "95 %", "held %", "radius");
   for (const auto& [name, tally] : landmarks) print_row(name, tally);
+  fmt::print("\n{:<34}{:>8}{:>8}{:>8}{:>8}{:>11}{:>8}{:>8}{:>8}\n", "parts of a girth's error, mm",
+             "plane", "median", "95 %", "in 1 %", "surface", "median", "95 %", "in 1 %");
+  for (const auto& [name, tally] : parts) print_row(name, tally);
 }
 
 }  // namespace instep::bench

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/geometry/polygon.h"
@@ -14,16 +14,20 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kStraight = std::numeric_limits<double>::infinity();
+constexpr double kStraight = 0.0;
 
-WallFoot wall(double height, double dip_deg, double bend_radius) {
-  return {{0, 0}, {1, 0}, height, std::sin(dip_deg * std::numbers::pi / 180), bend_radius, {}};
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+WallFoot wall(double height, double dip_deg, double bend, double most_inset = 500.0) {
+  return {{0, 0}, {1, 0}, {height, std::sin(radians(dip_deg)), bend, most_inset}, {}};
 }
 
 /// Height at `x` of the lower hull of the circle that continues the wall and of its contact: what a
 /// tape would touch.
 double taut_height(double height, double dip_deg, double radius, double contact, double x) {
-  const double dip = dip_deg * std::numbers::pi / 180;
+  const double dip = radians(dip_deg);
   const Vector2d centre(radius * std::cos(dip), height + radius * std::sin(dip));
   std::vector<Vector2d> points = {{contact, 0}, {contact, 1000}, {0, 1000}};
   for (double angle = dip; angle <= std::numbers::pi / 2; angle += 1e-4) {
@@ -40,33 +44,50 @@ double taut_height(double height, double dip_deg, double radius, double contact,
   return lowest;
 }
 
-TEST(WallFoot, RoundsAnEdgeInTheArcThatTouchesThePlatform) {
-  for (const double radius : {6.0, 10.0, 15.0}) {
+double slope_at(const WallFoot& foot, double inward) {
+  constexpr double kStep = 0.3;
+  return (foot.skin_height(inward) - foot.skin_height(inward + kStep)) / kStep;
+}
+
+TEST(WallFoot, LeavesTheWallInItsOwnDirectionAndSettlesLevel) {
+  for (const double height : {3.0, 6.0, 12.0}) {
     for (const double dip_deg : {30.0, 45.0, 60.0}) {
-      const double dip = dip_deg * std::numbers::pi / 180;
-      const double contact = radius * std::cos(dip);
-      if (contact < 3.0) continue;
-      for (const double bend : {radius * 1.001, 200.0, kStraight}) {
-        const WallFoot foot = wall(radius * (1 - std::sin(dip)), dip_deg, bend);
-        EXPECT_NEAR(foot.contact(), contact, 1e-6);
-        for (double x = 0; x < contact; x += 0.5) {
-          const double truth = radius - std::sqrt(radius * radius - std::pow(contact - x, 2));
-          EXPECT_NEAR(foot.skin_height(x), truth, 1e-3) << radius << " " << dip_deg << " " << x;
-        }
+      for (const double bend : {0.05, 0.005, kStraight}) {
+        const WallFoot foot = wall(height, dip_deg, bend);
+        EXPECT_NEAR(foot.skin_height(0.0), height, 1e-9);
+        EXPECT_NEAR(std::atan(1.0 / slope_at(foot, 0.0)), radians(dip_deg), radians(5));
+        EXPECT_LT(slope_at(foot, foot.contact() - 0.5), 0.02) << height << " " << dip_deg;
       }
     }
   }
 }
 
+TEST(WallFoot, GoesOnInTheBendOfTheWall) {
+  // Steep enough to be felt at once, and not so that it must turn up: the circle of the wall, of
+  // which the first two millimetres are taken, is the truth.
+  for (const double radius : {18.0, 25.0, 32.0}) {
+    const double dip = radians(40);
+    const double height = 0.95 * radius * (1 - std::sin(dip));
+    const WallFoot foot = wall(height, 40, 1.6 / radius);
+    const double bent = 1.0 / 1.6 * radius;
+    const Vector2d centre(bent * std::cos(dip), height + bent * std::sin(dip));
+    const double truth = centre.y() - std::sqrt(bent * bent - std::pow(centre.x() - 2.0, 2));
+    EXPECT_NEAR(foot.skin_height(2.0), truth, 0.08) << radius;
+  }
+}
+
 TEST(WallFoot, LaysATautTapeOverAnArch) {
-  for (const double height : {8.0, 15.0, 25.0}) {
-    for (const double bend : {4.0, 12.0, 25.0}) {
-      const double dip_deg = 45.0;
-      const WallFoot foot = wall(height, dip_deg, bend);
-      for (double x = 0; x < foot.contact(); x += 0.7) {
-        EXPECT_NEAR(foot.skin_height(x), taut_height(height, dip_deg, bend, foot.contact(), x),
-                    0.01)
-            << height << " " << bend << " " << x;
+  for (const double height : {15.0, 25.0}) {
+    for (const double radius : {8.0, 12.0, 20.0}) {
+      for (const double most_inset : {30.0, 45.0}) {
+        const double dip_deg = 45.0;
+        const WallFoot foot = wall(height, dip_deg, 1.0 / radius, most_inset);
+        if (foot.contact() < most_inset) continue;
+        for (double x = 0; x < most_inset; x += 0.7) {
+          EXPECT_NEAR(foot.skin_height(x), taut_height(height, dip_deg, radius, most_inset, x),
+                      0.03)
+              << height << " " << radius << " " << x;
+        }
       }
     }
   }
@@ -75,26 +96,30 @@ TEST(WallFoot, LaysATautTapeOverAnArch) {
 TEST(WallFoot, NeverRisesInwardAndEndsOnThePlatform) {
   for (double height = 0.0; height <= 35.0; height += 1.0) {
     for (double dip_deg = -20.0; dip_deg < 90.0; dip_deg += 5.0) {
-      for (const double bend : {0.5, 5.0, 50.0, 1e4, kStraight}) {
-        const WallFoot foot = wall(height, dip_deg, bend);
-        EXPECT_GE(foot.contact(), WallSettings{}.least_inset_mm);
-        EXPECT_LE(foot.contact(), WallSettings{}.most_inset_mm);
-        double before = height + 1e-6;
-        for (double x = 0.0; x <= foot.contact() + 1.0; x += 0.25) {
-          const double own = foot.skin_height(x);
-          ASSERT_GE(own, 0.0);
-          ASSERT_LE(own, before + 1e-9) << height << " " << dip_deg << " " << bend << " " << x;
-          before = own;
+      for (const double bend : {2.0, 0.2, 0.02, 1e-4, kStraight}) {
+        for (const double most_inset : {0.0, 20.0, 60.0}) {
+          const WallFoot foot = wall(height, dip_deg, bend, most_inset);
+          EXPECT_GE(foot.contact(), WallSettings{}.least_inset_mm);
+          EXPECT_LE(foot.contact(), std::max(WallSettings{}.least_inset_mm, most_inset) + 1e-9);
+          double before = height + 1e-6;
+          for (double x = 0.0; x <= foot.contact() + 1.0; x += 0.25) {
+            const double own = foot.skin_height(x);
+            ASSERT_GE(own, 0.0);
+            ASSERT_LE(own, before + 1e-9) << height << " " << dip_deg << " " << bend << " " << x;
+            before = own;
+          }
+          EXPECT_EQ(foot.skin_height(foot.contact()), 0.0);
         }
-        EXPECT_EQ(foot.skin_height(foot.contact()), 0.0);
       }
     }
   }
 }
 
-TEST(WallFoot, TakesTheUsualRadiusBelowAnUprightWallWhoseFootWasHidden) {
+TEST(WallFoot, GoesOnUprightToTheUsualEdgeWhereItsFootWasHidden) {
   const WallFoot foot = wall(25.0, 0.0, kStraight);
-  EXPECT_NEAR(foot.contact(), WallSettings{}.usual_radius_mm, 1e-6);
+  EXPECT_LE(foot.skin_height(0.01), WallSettings{}.usual_edge_mm);
+  EXPECT_GT(foot.contact(), WallSettings{}.usual_edge_mm);
+  EXPECT_LT(foot.contact(), 3.0 * WallSettings{}.usual_edge_mm);
 }
 
 /// A round wall of 50 mm radius whose bottom edge is rounded, seen down to 45 degrees.
@@ -115,7 +140,7 @@ PointCloud rounded_wall(double rounding) {
   return cloud;
 }
 
-TEST(FindWallFeet, FindsTheContactOfARoundingAllRound) {
+TEST(FindWallFeet, FollowsARoundingAllRound) {
   for (const double rounding : {8.0, 20.0}) {
     auto cloud = rounded_wall(rounding);
     for (auto& point : cloud.positions) point.z() += 40.0;
@@ -123,7 +148,12 @@ TEST(FindWallFeet, FindsTheContactOfARoundingAllRound) {
     EXPECT_GT(feet.size(), 30U);
     for (const auto& foot : feet) {
       EXPECT_GT(foot.out().dot(foot.place().normalized()), 0.99);
-      EXPECT_NEAR(foot.place().norm() - foot.contact(), 50 - rounding, 0.15 * rounding);
+      for (double x = 0; x < rounding; x += 0.5) {
+        const double beyond = foot.place().norm() - x - (50 - rounding);
+        const double height = foot.skin_height(x);
+        const double off = beyond > 0 ? std::hypot(beyond, rounding - height) - rounding : height;
+        EXPECT_NEAR(off, 0.0, 0.06 * rounding) << rounding << " " << x;
+      }
     }
   }
 }

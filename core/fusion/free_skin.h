@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace instep {
+
+/// The side view of skin that hangs free between where it was last seen and where it comes to rest
+/// on the platform: its bend falls to none at the contact, as the power `falloff` of the way that
+/// is left. With 0 it is an arc; with 1, as flesh that is pressed on a floor, it bends most where
+/// it was last seen and settles gently; with more it comes down in a long slope.
+///
+/// `turn`: angle, in radians above 0, between the skin's direction where it begins and the
+/// platform; `height` of that place. Corners as inward distance (from 0 on) and height (down to 0).
+std::vector<Eigen::Vector2d> free_skin(double turn, double falloff, double height);
+
+/// The falloff, from 1 on, of the skin that begins with a bend (curvature times height). A skin
+/// that was seen to bend less must bend more below, and has 1.
+double falloff_of_bend(double turn, double bend_of_height);
+
+}  // namespace instep
