@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/openni_settings.h"
+#include "config/output_settings.h"
 #include "config/pedal_sources.h"
 #include "config/v4l2_settings.h"
 #include "core/foot/shoe_sizes.h"
@@ -100,6 +101,7 @@ struct Settings {
   StationSettings station;
   CaptureSettings capture;
   PedalSettings pedal;
+  OutputSettings outputs;
   std::vector<CameraSettings> cameras;  ///< 1 to 8
   SimulatedStationSettings simulation;
   StoreSettings store;

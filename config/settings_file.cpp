@@ -58,11 +58,18 @@ void read_pedal(SettingsTable& table, PedalSettings& pedal, const std::filesyste
   table.read("debounce_ms", pedal.debounce, 5, 200);
   table.read("hold_to_cancel_ms", pedal.hold_to_cancel, 500, 10000);
   table.read("fifo", pedal.fifo, base);
-  section(table, "gpio", faults, [&](SettingsTable& gpio) { read_gpio_pedal(gpio, pedal.gpio); });
-  section(table, "evdev", faults,
-          [&](SettingsTable& evdev) { read_evdev_pedal(evdev, pedal.evdev); });
-  if (pedal.kind == PedalKind::kGpio) check_gpio_pedal(pedal.gpio, table.line(), faults);
-  if (pedal.kind == PedalKind::kEvdev) check_evdev_pedal(pedal.evdev, table.line(), faults);
+  const bool by_gpio = pedal.kind == PedalKind::kGpio;
+  const bool by_evdev = pedal.kind == PedalKind::kEvdev;
+  section(table, "gpio", faults, [&](SettingsTable& gpio) {
+    read_gpio_pedal(gpio, pedal.gpio);
+    if (by_gpio) require_gpio_place(gpio, faults);
+  });
+  section(table, "evdev", faults, [&](SettingsTable& evdev) {
+    read_evdev_pedal(evdev, pedal.evdev);
+    if (by_evdev) require_evdev_pedal(evdev, faults);
+  });
+  if (by_gpio && !table.has("gpio")) faults.add(table.line(), gpio_place_missing("pedal.gpio"));
+  if (by_evdev && !table.has("evdev")) faults.add(table.line(), evdev_device_missing());
 }
 
 CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& base,
@@ -211,6 +218,8 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
   section(root, "pedal", faults,
           [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
+  const bool gpio_pedal = settings.pedal.kind == PedalKind::kGpio;
+  read_outputs(root, settings.outputs, gpio_pedal ? &settings.pedal.gpio.place : nullptr, faults);
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });
   section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });

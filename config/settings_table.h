@@ -90,6 +90,7 @@ class SettingsTable {
   void fault(const toml::node& node, const std::string& text);
   /// The key with the tables it stands in: "pedal.gpio".
   std::string full(const std::string& key) const;
+  const std::string& name() const { return name_; }
   unsigned line() const { return table_.source().begin.line; }
 
  private:

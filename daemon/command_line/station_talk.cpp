@@ -85,6 +85,13 @@ std::string status_text(const json& status) {
   for (const auto& camera : status.value("cameras", json::array())) {
     lines += fmt::format("  camera {:<12} {}\n", text(camera, "id"), camera_text(camera));
   }
+  for (const auto& output : status.value("outputs", json::array())) {
+    const std::string trouble = text(output, "trouble");
+    lines += fmt::format("  {:<19} {}\n", text(output, "name"),
+                         !trouble.empty()            ? trouble
+                         : output.value("on", false) ? "on"
+                                                     : "off");
+  }
   return lines + fmt::format("  scans {}, ignored presses {}\n", status.value("scans", 0),
                              status.value("ignored_presses", 0));
 }

@@ -102,11 +102,19 @@ json to_json(const StationStatus& status) {
                        {"link_mbps", camera.health.link_mbps},
                        {"warning", camera.health.warning}});
   }
+  json outputs = json::array();
+  for (const auto& [name, on, trouble] : status.outputs) {
+    outputs.push_back({{"name", name},
+                       {"on", on},
+                       {"ok", !trouble.has_value()},
+                       {"trouble", trouble ? trouble->line() : ""}});
+  }
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},
           {"stage", status.stage},
           {"done", status.done},
           {"cameras", cameras},
+          {"outputs", outputs},
           {"scans", status.scans},
           {"ignored_presses", status.ignored_presses},
           {"last_result", status.last_result}};

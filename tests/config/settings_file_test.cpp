@@ -54,6 +54,18 @@ TEST(SettingsFile, SaysWhereThePedalIs) {
               HasSubstr("pedal    KEY_B of the input device 0c45:7403\n"));
 }
 
+TEST(SettingsFile, SaysWhereLampsAndTheProjectorAre) {
+  const auto reading = read(std::string(kCamera) +
+                            "[lamp.busy]\nchip = \"board\"\noffset = 4\n"
+                            "[projector]\nline = \"light\"\nactive = \"low\"\n"
+                            "[pedal.gpio]\nline = \"light\"\n");  // which is not the pedal
+  ASSERT_TRUE(reading.good()) << reading.faults.front();
+  EXPECT_THAT(describe(reading.settings),
+              HasSubstr("output   lamp.busy: GPIO line 4 of the chip \"board\", active high\n"
+                        "output   projector: GPIO line \"light\", active low\n"));
+  EXPECT_FALSE(reading.settings.outputs.ready_lamp);
+}
+
 struct Fault {
   const char* toml;
   const char* text;
@@ -87,6 +99,24 @@ INSTANTIATE_TEST_SUITE_P(
               "pedal.evdev.device is missing"},
         Fault{"[pedal]\nkind = \"evdev\"\n[pedal.evdev]\ndevice = \"0c45:7403\"",
               "pedal.evdev.key is missing"},
+        Fault{"[pedal]\nkind = \"evdev\"\n[pedal.evdev]\ndevice = \"0c45:7403\"\nkey = 12",
+              ":7: pedal.evdev.key must be text in quotes, but it is a whole number"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nline = 12",
+              ":6: pedal.gpio.line must be text in quotes, but it is a whole number"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nchip = \"board\"\noffset = 1024",
+              ":7: pedal.gpio.offset = 1024 is outside 0 to 1023"},
+        Fault{"[pedal]\nkind = \"evdev\"", ":3: pedal.evdev.device is missing"},
+        Fault{"[lamp.ready]\nactive = \"high\"", ":3: lamp.ready.line is missing"},
+        Fault{"[lamp.ready]\nline = \"a\"\nbias = \"none\"",
+              ":5: there is no setting lamp.ready.bias"},
+        Fault{"[lamp.raedy]\nline = \"a\"", "did you mean lamp.ready?"},
+        Fault{"[projector]\nline = \"a\"\nactive = \"hihg\"", ":5: projector.active = \"hihg\""},
+        Fault{"[lamp]\nready = \"a\"", "lamp.ready must be written as [lamp.ready]"},
+        Fault{"[lamp.busy]\nline = \"a\"\n[projector]\nline = \"a\"\nchip = \"board\"",
+              ":5: projector names the same line as lamp.busy"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nchip = \"board\"\noffset = 3\n"
+              "[lamp.fault]\nchip = \"board\"\noffset = 3",
+              ":8: lamp.fault names the same line as pedal.gpio"},
         Fault{"[pedal]\ngpio = 3", "pedal.gpio must be written as [pedal.gpio]"},
         Fault{"[pedal]\ndebounce = 30", "there is no setting pedal.debounce: did you mean"},
         Fault{"[pedl]\n", "there is no setting pedl: did you mean pedal?"},
