@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "config/distinct_cameras.h"
+#include "config/huge_numbers.h"
 #include "config/settings_table.h"
 #include "config/v4l2_settings_table.h"
 
@@ -232,17 +233,36 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   root.finish();
 }
 
+/// False if it has to be read once more, without numbers that hid the rest.
+bool read_once(std::string& text, const std::filesystem::path& file, Settings& settings,
+               SettingsFaults& faults) {
+  try {
+    const toml::table toml = toml::parse(text, file.string());
+    read_all(toml, file.parent_path(), settings, faults);
+  } catch (const toml::parse_error& error) {
+    const unsigned line = error.source().begin.line;
+    const auto huge = take_out_huge_numbers(text, line);
+    for (const auto& number : huge) {
+      faults.add(line, "no number can be as large, or as small, as " + number);
+    }
+    if (!huge.empty()) {
+      faults.pass_over(line);  // what is wrong with the 0 in its place
+      return false;
+    }
+    faults.add(line, std::string(error.description()) + ": write TOML, such as name = \"Bern\"");
+  }
+  return true;
+}
+
 }  // namespace
 
 SettingsReading read_settings(std::string_view text, const std::filesystem::path& file) {
   SettingsReading reading;
   SettingsFaults faults(file.string());
-  try {
-    const toml::table toml = toml::parse(text, file.string());
-    read_all(toml, file.parent_path(), reading.settings, faults);
-  } catch (const toml::parse_error& error) {
-    faults.add(error.source().begin.line,
-               std::string(error.description()) + ": write TOML, such as name = \"Bern\"");
+  std::string readable(text);
+  constexpr int kMostReadings = 32;  // beyond these, enough has been said
+  for (int i = 0; i < kMostReadings; ++i) {
+    if (read_once(readable, file, reading.settings, faults)) break;
   }
   reading.faults = faults.in_order();
   return reading;

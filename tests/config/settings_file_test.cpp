@@ -193,6 +193,32 @@ TEST(SettingsFile, TakesNoMoreShopSizesThanItSays) {
   EXPECT_THAT(read(many + table(1)).faults, ElementsAre(HasSubstr("more than 32")));
 }
 
+TEST(SettingsFile, TellsWhatStandsBesideNumbersThatNoComputerHolds) {
+  const auto reading = read(
+      "[capture]\nframes_per_camera = 99999999999999999999\n[station]\n"
+      "platform_height_mm = -1e400\npoint_spacing_mm = 1_0.5\nrefine_views = 1\n[pedal]\n"
+      "debounce_ms = 1\nhold_to_cancel_ms = 9_223_372_036_854_775_808 # and text\n" +
+      std::string(kCamera) + "station_from_camera = [ 1e+999, 1, 18446744073709551616 ]\n");
+  EXPECT_THAT(reading.faults,
+              ElementsAre(HasSubstr(":2: no number can be as large, or as small, as 9999999999"),
+                          HasSubstr(":4: no number can be as large, or as small, as 1e400"),
+                          HasSubstr(":5: station.point_spacing_mm = 10.5 is outside"),
+                          HasSubstr(":6: station.refine_views must be true or false"),
+                          HasSubstr(":8: pedal.debounce_ms = 1 is outside"),
+                          HasSubstr(":9: no number can be as large, or as small, as 9_223"),
+                          HasSubstr(":12: no number can be as large, or as small, as 1e+999"),
+                          HasSubstr(":12: no number can be as large, or as small, as 1844674407")));
+}
+
+TEST(SettingsFile, SaysNoMoreThanOnceThatANumberIsTooLarge) {
+  EXPECT_THAT(read("[[camera]]\nkind = \"v4l2\"\nname = \"a\"\nserial = \"1\"\n"
+                   "depth_unit_mm = 1e999\nintrinsics = { width = 640, height = 480, fx = 500, "
+                   "fy = 500, cx = 319.5, cy = 239.5 }\nstation_from_camera = [ 1, 0, 0, 0, 0, -1, "
+                   "0, 0, 0, 0, -1, 500, 0, 0, 0, 1 ]\n")
+                  .faults,
+              ElementsAre(HasSubstr(":5: no number can be as large")));
+}
+
 TEST(SettingsFile, ReportsAllFaultsOfAFileInItsOrder) {
   const auto reading =
       read("[pedal]\ndebounce_ms = 1\nfoo = 2\n[store]\nkeep_days = -1\n" + std::string(kCamera));
