@@ -97,6 +97,7 @@ StationStatus Station::status() const {
   status.cameras = camera_status_;
   for (std::size_t i = 0; i < status.cameras.size(); ++i) {
     status.cameras[i].health = care_->health(i);
+    status.cameras[i].frames = cameras_->frame_counts(i);
   }
   if (signals_) status.outputs = signals_->status();
   status.scans = scans_;

@@ -32,6 +32,7 @@ struct CameraStatus {
   std::string model;
   std::optional<Error> trouble{};  ///< nothing = it answers
   CameraHealth health{};
+  FrameCounts frames{};
 };
 
 /// All that is told of a station from outside.
