@@ -34,7 +34,9 @@ struct CaptureSettings {
   int warmup_frames = 3;                        ///< dropped before the first one counts, 0 to 120
   std::chrono::milliseconds deadline{5000};     ///< for the whole capture, 200 to 60000
   std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 10000
-  /// The cameras take turns, for those whose projectors disturb each other.
+  /// The cameras take turns, for those whose projectors disturb each other. What switches an
+  /// emitter is its stream: OpenNI2 has a property for it (EmitterState of PS1080), which can be
+  /// written but not read, so that nobody could tell whether a sensor obeyed.
   bool one_at_a_time = false;
   std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
 };

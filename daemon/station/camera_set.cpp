@@ -95,12 +95,15 @@ struct CameraSet::Gathering {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::optional<Result<Frames>>> brought;
+  std::size_t free = 0;  ///< cameras that have ended what they were asked before; of turns alone
 
-  /// Returns when the camera before this one has brought its frames; false if they are no longer
-  /// wanted.
+  /// Returns when no camera does what it was asked before, which lights it too, and the camera
+  /// before this one has brought its frames; false if they are no longer wanted.
   bool wait_for_turn(std::size_t camera, TaskProgress& progress) {
     std::unique_lock lock(mutex);
-    while (!cancelled && camera > 0 && !brought[camera - 1]) {
+    ++free;
+    changed.notify_all();
+    while (!cancelled && (free < brought.size() || (camera > 0 && !brought[camera - 1]))) {
       changed.wait_for(lock, milliseconds(20));
       progress.step();
     }

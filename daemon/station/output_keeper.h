@@ -22,7 +22,7 @@ namespace instep {
 class OutputKeeper {
  public:
   static constexpr std::chrono::milliseconds kRefresh{2000};
-  static constexpr std::chrono::milliseconds kLastMoment{100};
+  static constexpr std::chrono::milliseconds kLastMoment{50};
 
   /// Opens the line, on the keeper's thread; asked again as long as it fails.
   using Open = std::function<Result<std::unique_ptr<OutputLine>>()>;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <future>
 #include <mutex>
 #include <utility>
 
@@ -260,6 +261,12 @@ class LitCamera final : public DepthCamera {
     std::condition_variable changed;
     int lit = 0;
     int most = 0;
+    bool counting = true;
+
+    void look() {
+      if (counting) most = std::max(most, lit);
+      changed.notify_all();
+    }
   };
 
   LitCamera(std::unique_ptr<DepthCamera> camera, std::shared_ptr<Light> light)
@@ -269,14 +276,15 @@ class LitCamera final : public DepthCamera {
   Result<void> start() override {
     {
       const std::lock_guard lock(light_->mutex);
-      if (!std::exchange(lit_, true)) light_->most = std::max(light_->most, ++light_->lit);
-      light_->changed.notify_all();
+      if (!std::exchange(lit_, true)) ++light_->lit;
+      light_->look();
     }
     return camera_->start();
   }
   Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
     {
       std::unique_lock lock(light_->mutex);
+      light_->look();
       light_->changed.wait_for(lock, 10ms, [this] { return light_->most > 1; });
     }
     return camera_->next_frame(limit);
@@ -329,6 +337,37 @@ TEST(CameraSet, SequentialCaptureMode) {
                      true),
             1);
   EXPECT_GT(most_lit("", false), 1) << "this would see two that are lit";
+}
+
+// D20: a camera that is still being looked at is lit as well.
+TEST(CameraSet, TurnsBeginWhenNoCameraIsLookedAtAnyMore) {
+  const auto light = std::make_shared<LitCamera::Light>();
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  for (const auto& [id, script] :
+       {std::pair("left", std::deque<Step>()), std::pair("right", std::deque{Step::kTimeout})}) {
+    all.push_back(std::make_unique<LitCamera>(std::make_unique<ScriptedCamera>(id, script), light));
+  }
+  CameraSet set(std::move(all));
+  light->counting = false;
+  const auto left_done = std::make_shared<std::promise<void>>();
+  set.check(300ms, [left_done](std::size_t camera, const Result<void>&) {
+    if (camera == 0) left_done->set_value();
+  });
+  left_done->get_future().wait();
+  {
+    std::unique_lock lock(light->mutex);
+    ASSERT_TRUE(light->changed.wait_for(lock, 5s, [&] { return light->lit == 1; }))
+        << "the right one, for as long as it is silent";
+    light->counting = true;
+    light->most = 0;
+  }
+  auto in_turn = settings();
+  in_turn.deadline = 5s;
+  in_turn.one_at_a_time = true;
+  const auto frames = set.capture(in_turn, go_on);
+  ASSERT_TRUE(frames) << frames.error().line();
+  EXPECT_EQ(frames->size(), 10U);
+  EXPECT_EQ(light->most, 1);
 }
 
 TEST(CameraSet, EndsTurnsWhenACameraFailsOrTheScanIsStopped) {
