@@ -27,12 +27,12 @@ class LoopThread {
   }
   /// Does it on the loop.
   void call(const std::function<void()>& task) {
-    std::promise<void> done;
-    loop_->poster()([&] {
+    const auto done = std::make_shared<std::promise<void>>();
+    loop_->poster()([&task, done] {
       task();
-      done.set_value();
+      done->set_value();
     });
-    done.get_future().wait();
+    done->get_future().wait();
   }
   /// Looks on the loop until it holds; false if that takes longer than 10 s.
   bool wait_until(const std::function<bool()>& holds) {
