@@ -1,7 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
+
+#include "config/gpio_place.h"
 
 namespace instep {
 
@@ -10,13 +11,10 @@ class SettingsTable;
 
 enum class PedalBias { kPullUp, kPullDown, kNone };
 
-/// A pedal on a GPIO line, the table [pedal.gpio]. Chips are never told by their number, which
-/// another kernel changes.
+/// A pedal on a GPIO line, the table [pedal.gpio].
 struct GpioPedalSettings {
-  std::string line;           ///< the line's name; empty = chip and offset; at most 31 characters
-  std::string chip;           ///< the chip's label; may be empty if the line's name is unique
-  std::optional<int> offset;  ///< of a line without a name, 0 to 1023
-  bool active_low = true;     ///< pressed means a low level: a contact to ground
+  GpioPlace place;
+  bool active_low = true;  ///< pressed means a low level: a contact to ground
   PedalBias bias = PedalBias::kPullUp;
 };
 
@@ -29,9 +27,11 @@ struct EvdevPedalSettings {
 void read_gpio_pedal(SettingsTable& table, GpioPedalSettings& gpio);
 void read_evdev_pedal(SettingsTable& table, EvdevPedalSettings& evdev);
 
-/// Leaves a fault at `line` if the settings do not say which line, or which key of what device.
-void check_gpio_pedal(const GpioPedalSettings& gpio, unsigned line, SettingsFaults& faults);
-void check_evdev_pedal(const EvdevPedalSettings& evdev, unsigned line, SettingsFaults& faults);
+/// Leaves a fault if the table does not say which key of what device.
+void require_evdev_pedal(const SettingsTable& table, SettingsFaults& faults);
+
+/// The fault of a [pedal.evdev] that is not there.
+std::string evdev_device_missing();
 
 /// Such as `GPIO line "foot" of the chip "board", active low, pulled up`.
 std::string describe(const GpioPedalSettings& gpio);

@@ -52,8 +52,8 @@ std::string describe_measures(const MeasuringRules& rules) {
 }  // namespace
 
 std::string describe(const Settings& settings) {
-  const auto& [station, capture, pedal, cameras, simulation, store, measures, sizes, control, log] =
-      settings;
+  const auto& [station, capture, pedal, outputs, cameras, simulation, store, measures, sizes,
+               control, log] = settings;
   std::string text = fmt::format("station  {}, points every {} mm, side {}\n", station.name,
                                  station.point_spacing_mm,
                                  station.side ? to_string(*station.side) : "told from the shape");
@@ -63,6 +63,9 @@ std::string describe(const Settings& settings) {
   text += fmt::format("capture  {} frames of each camera after {} to warm up, within {} ms\n",
                       capture.frames_per_camera, capture.warmup_frames, capture.deadline.count());
   text += fmt::format("pedal    {}\n", describe_pedal(pedal));
+  for (const auto& [name, output] : outputs.named()) {
+    text += fmt::format("output   {}: {}\n", name, describe(*output));
+  }
   text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
   text += fmt::format("measures {}\n", describe_measures(measures));
   text += fmt::format("sizes    {}\n", describe_sizes(sizes));

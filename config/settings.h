@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/openni_settings.h"
+#include "config/output_settings.h"
 #include "config/pedal_sources.h"
 #include "config/v4l2_settings.h"
 #include "core/foot/measuring_rules.h"
@@ -34,7 +35,9 @@ struct CaptureSettings {
   int warmup_frames = 3;                        ///< dropped before the first one counts, 0 to 120
   std::chrono::milliseconds deadline{5000};     ///< for the whole capture, 200 to 60000
   std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 10000
-  /// The cameras take turns, for those whose projectors disturb each other.
+  /// The cameras take turns, for those whose projectors disturb each other. What switches an
+  /// emitter is its stream: OpenNI2 has a property for it (EmitterState of PS1080), which can be
+  /// written but not read, so that nobody could tell whether a sensor obeyed.
   bool one_at_a_time = false;
   std::chrono::seconds check_every{60};  ///< idle cameras are looked at this often, 1 to 3600
 };
@@ -101,6 +104,7 @@ struct Settings {
   StationSettings station;
   CaptureSettings capture;
   PedalSettings pedal;
+  OutputSettings outputs;
   std::vector<CameraSettings> cameras;  ///< 1 to 8
   SimulatedStationSettings simulation;
   StoreSettings store;

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "config/distinct_cameras.h"
+#include "config/huge_numbers.h"
 #include "config/settings_table.h"
 #include "config/v4l2_settings_table.h"
 
@@ -58,11 +59,18 @@ void read_pedal(SettingsTable& table, PedalSettings& pedal, const std::filesyste
   table.read("debounce_ms", pedal.debounce, 5, 200);
   table.read("hold_to_cancel_ms", pedal.hold_to_cancel, 500, 10000);
   table.read("fifo", pedal.fifo, base);
-  section(table, "gpio", faults, [&](SettingsTable& gpio) { read_gpio_pedal(gpio, pedal.gpio); });
-  section(table, "evdev", faults,
-          [&](SettingsTable& evdev) { read_evdev_pedal(evdev, pedal.evdev); });
-  if (pedal.kind == PedalKind::kGpio) check_gpio_pedal(pedal.gpio, table.line(), faults);
-  if (pedal.kind == PedalKind::kEvdev) check_evdev_pedal(pedal.evdev, table.line(), faults);
+  const bool by_gpio = pedal.kind == PedalKind::kGpio;
+  const bool by_evdev = pedal.kind == PedalKind::kEvdev;
+  section(table, "gpio", faults, [&](SettingsTable& gpio) {
+    read_gpio_pedal(gpio, pedal.gpio);
+    if (by_gpio) require_gpio_place(gpio, faults);
+  });
+  section(table, "evdev", faults, [&](SettingsTable& evdev) {
+    read_evdev_pedal(evdev, pedal.evdev);
+    if (by_evdev) require_evdev_pedal(evdev, faults);
+  });
+  if (by_gpio && !table.has("gpio")) faults.add(table.line(), gpio_place_missing("pedal.gpio"));
+  if (by_evdev && !table.has("evdev")) faults.add(table.line(), evdev_device_missing());
 }
 
 CameraSettings read_camera(SettingsTable& table, const std::filesystem::path& base,
@@ -224,6 +232,8 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
   section(root, "pedal", faults,
           [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
+  const bool gpio_pedal = settings.pedal.kind == PedalKind::kGpio;
+  read_outputs(root, settings.outputs, gpio_pedal ? &settings.pedal.gpio.place : nullptr, faults);
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });
   section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });
@@ -237,17 +247,36 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   root.finish();
 }
 
+/// False if it has to be read once more, without numbers that hid the rest.
+bool read_once(std::string& text, const std::filesystem::path& file, Settings& settings,
+               SettingsFaults& faults) {
+  try {
+    const toml::table toml = toml::parse(text, file.string());
+    read_all(toml, file.parent_path(), settings, faults);
+  } catch (const toml::parse_error& error) {
+    const unsigned line = error.source().begin.line;
+    const auto huge = take_out_huge_numbers(text, line);
+    for (const auto& number : huge) {
+      faults.add(line, "no number can be as large, or as small, as " + number);
+    }
+    if (!huge.empty()) {
+      faults.pass_over(line);  // what is wrong with the 0 in its place
+      return false;
+    }
+    faults.add(line, std::string(error.description()) + ": write TOML, such as name = \"Bern\"");
+  }
+  return true;
+}
+
 }  // namespace
 
 SettingsReading read_settings(std::string_view text, const std::filesystem::path& file) {
   SettingsReading reading;
   SettingsFaults faults(file.string());
-  try {
-    const toml::table toml = toml::parse(text, file.string());
-    read_all(toml, file.parent_path(), reading.settings, faults);
-  } catch (const toml::parse_error& error) {
-    faults.add(error.source().begin.line,
-               std::string(error.description()) + ": write TOML, such as name = \"Bern\"");
+  std::string readable(text);
+  constexpr int kMostReadings = 32;  // beyond these, enough has been said
+  for (int i = 0; i < kMostReadings; ++i) {
+    if (read_once(readable, file, reading.settings, faults)) break;
   }
   reading.faults = faults.in_order();
   return reading;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,8 +21,12 @@ class SettingsFaults {
   explicit SettingsFaults(std::string file) : file_(std::move(file)) {}
 
   void add(unsigned line, const std::string& text) {
+    if (passed_over_.contains(line)) return;
     by_line_.emplace(line, file_ + ":" + std::to_string(line) + ": " + text);
   }
+
+  /// All has been said of this line: later faults of it are not kept.
+  void pass_over(unsigned line) { passed_over_.insert(line); }
 
   std::size_t count() const { return by_line_.size(); }
   std::vector<std::string> in_order() const;
@@ -29,6 +34,7 @@ class SettingsFaults {
  private:
   std::string file_;
   std::multimap<unsigned, std::string> by_line_;
+  std::set<unsigned> passed_over_;
 };
 
 /// One table of a settings file, read field by field. A field that is absent keeps its value; one
@@ -90,6 +96,7 @@ class SettingsTable {
   void fault(const toml::node& node, const std::string& text);
   /// The key with the tables it stands in: "pedal.gpio".
   std::string full(const std::string& key) const;
+  const std::string& name() const { return name_; }
   unsigned line() const { return table_.source().begin.line; }
 
  private:

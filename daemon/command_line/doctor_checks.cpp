@@ -128,6 +128,26 @@ void check_pedal(bool daemon_runs, const Settings& settings, std::vector<DoctorC
                          : bad("pedal", pedal.error().message, pedal.error().advice));
 }
 
+/// Asks the daemon, who has the lines, or looks whether they could be had. Touches none.
+void check_outputs(const Result<json>& status, const Settings& settings,
+                   std::vector<DoctorCheck>& checks) {
+  if (status) {
+    for (const auto& output : status->value("outputs", json::array())) {
+      const std::string name = text(output, "name");
+      const std::string trouble = text(output, "trouble");
+      checks.push_back(trouble.empty() ? good("output", name + " is there")
+                                       : bad("output", name + ": " + trouble, "instep devices"));
+    }
+    return;
+  }
+  for (const auto& [name, output] : settings.outputs.named()) {
+    const auto there = check_output(*output);
+    checks.push_back(
+        there ? good("output", std::string(name) + " can be opened")
+              : bad("output", name + (": " + there.error().message), there.error().advice));
+  }
+}
+
 DoctorCheck library_versions() {
   return good("software",
               fmt::format("instep {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
@@ -159,6 +179,7 @@ std::vector<DoctorCheck> examine_machine() {
   check_video_cameras(settings, checks);
   check_usb_memory(checks);
   check_pedal(status.has_value(), settings, checks);
+  check_outputs(status, settings, checks);
   return checks;
 }
 

@@ -1,6 +1,9 @@
 #include "daemon/command_line/record_command.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -43,6 +46,16 @@ RecordingLength length_of(const RecordCommand& command) {
   return length;
 }
 
+/// The light that a scan has; null if there is none, or none to be had.
+std::unique_ptr<OutputLine> light_of(const OutputSettings& outputs) {
+  if (!outputs.projector) return nullptr;
+  auto projector = open_output(*outputs.projector);
+  const auto lit = projector.and_then([](const auto& line) { return line->set(true); });
+  if (lit) return std::move(*projector);
+  fmt::print(stderr, "instep: recorded without the projector: {}\n", lit.error().line());
+  return nullptr;
+}
+
 Result<void> run(const RecordCommand& command) {
   const auto settings = load_settings(command.config);
   if (!settings) return tl::make_unexpected(settings.error());
@@ -56,6 +69,7 @@ Result<void> run(const RecordCommand& command) {
     if (!truth) return tl::make_unexpected(truth.error());
     header.truth = std::move(*truth);
   }
+  const auto light = light_of(settings->outputs);
   ProgressLine line;
   const auto recording =
       capture_recording(devices->cameras, header, length_of(command), command.folder,

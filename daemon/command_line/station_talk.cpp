@@ -73,17 +73,37 @@ std::string status_line(const json& status) {
   return line;
 }
 
+/// Such as "(frames: 120 good, 3 short, 1 lost)"; empty if all were good.
+std::string damage_text(const json& frames) {
+  std::string damage;
+  for (const auto& [kind, count] : frames.items()) {
+    if (kind == "good" || !count.is_number_unsigned() || count == 0) continue;
+    damage += fmt::format(", {} {}", count.get<std::uint64_t>(),
+                          kind == "error_flagged" ? "error-flagged" : kind);
+  }
+  if (damage.empty()) return {};
+  return fmt::format(" (frames: {} good{})", frames.value("good", std::uint64_t{0}), damage);
+}
+
 std::string camera_text(const json& camera) {
+  const std::string damage = damage_text(camera.value("frames", json::object()));
   const std::string warning = text(camera, "warning");
-  if (camera.value("ok", false)) return warning.empty() ? "ok" : "ok, but " + warning;
+  if (camera.value("ok", false)) return (warning.empty() ? "ok" : "ok, but " + warning) + damage;
   const std::string recovery = text(camera, "recovery");
-  return text(camera, "trouble") + (recovery.empty() ? "" : " (" + recovery + ")");
+  return text(camera, "trouble") + (recovery.empty() ? "" : " (" + recovery + ")") + damage;
 }
 
 std::string status_text(const json& status) {
   std::string lines = status_line(status) + "\n";
   for (const auto& camera : status.value("cameras", json::array())) {
     lines += fmt::format("  camera {:<12} {}\n", text(camera, "id"), camera_text(camera));
+  }
+  for (const auto& output : status.value("outputs", json::array())) {
+    const std::string trouble = text(output, "trouble");
+    lines += fmt::format("  {:<19} {}\n", text(output, "name"),
+                         !trouble.empty()            ? trouble
+                         : output.value("on", false) ? "on"
+                                                     : "off");
   }
   return lines + fmt::format("  scans {}, ignored presses {}\n", status.value("scans", 0),
                              status.value("ignored_presses", 0));

@@ -51,6 +51,15 @@ ErrorCode code_from(const std::string& name) {
   return ErrorCode::kInternal;
 }
 
+json to_json(const FrameCounts& frames) {
+  return {{"good", frames.good},
+          {"error_flagged", frames.error_flagged},
+          {"short", frames.short_of_pixels},
+          {"stale", frames.stale},
+          {"empty", frames.empty},
+          {"lost", frames.lost}};
+}
+
 }  // namespace
 
 Result<Request> parse_request(std::string_view line) {
@@ -100,13 +109,22 @@ json to_json(const StationStatus& status) {
                        {"trouble", camera.trouble ? camera.trouble->line() : ""},
                        {"recovery", camera.health.recovery},
                        {"link_mbps", camera.health.link_mbps},
-                       {"warning", camera.health.warning}});
+                       {"warning", camera.health.warning},
+                       {"frames", to_json(camera.frames)}});
+  }
+  json outputs = json::array();
+  for (const auto& [name, on, trouble] : status.outputs) {
+    outputs.push_back({{"name", name},
+                       {"on", on},
+                       {"ok", !trouble.has_value()},
+                       {"trouble", trouble ? trouble->line() : ""}});
   }
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},
           {"stage", status.stage},
           {"done", status.done},
           {"cameras", cameras},
+          {"outputs", outputs},
           {"scans", status.scans},
           {"ignored_presses", status.ignored_presses},
           {"last_result", status.last_result}};

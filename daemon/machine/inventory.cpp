@@ -140,11 +140,16 @@ Inventory take_inventory(const Settings& settings, const DeviceFolders& folders,
   return inventory;
 }
 
-bool is_pedal(const PedalSettings& pedal, const GpioChipState& chip, const GpioLineState& line) {
-  if (pedal.kind != PedalKind::kGpio) return false;
-  if (!pedal.gpio.chip.empty() && pedal.gpio.chip != chip.label) return false;
-  if (!pedal.gpio.line.empty()) return pedal.gpio.line == line.name;
-  return pedal.gpio.offset && static_cast<unsigned>(*pedal.gpio.offset) == line.offset;
+std::string use_of_line(const Settings& settings, const GpioChipState& chip,
+                        const GpioLineState& line) {
+  const auto is_it = [&](const GpioPlace& place) {
+    return place.is(chip.label, line.name, line.offset);
+  };
+  if (settings.pedal.kind == PedalKind::kGpio && is_it(settings.pedal.gpio.place)) return "pedal";
+  for (const auto& [name, output] : settings.outputs.named()) {
+    if (is_it(output->place)) return name;
+  }
+  return {};
 }
 
 bool is_pedal(const PedalSettings& pedal, const InputNode& node) {

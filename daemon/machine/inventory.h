@@ -50,8 +50,10 @@ OpenniSight look_through_openni(const Settings& settings, const std::filesystem:
 Inventory take_inventory(const Settings& settings, const DeviceFolders& folders,
                          VideoSystem& system, const OpenniSight& openni);
 
-/// Whether the settings take this line, or this input device, for the pedal.
-bool is_pedal(const PedalSettings& pedal, const GpioChipState& chip, const GpioLineState& line);
+/// What the settings take this line for: "pedal", "lamp.ready", "projector"; empty = nothing.
+std::string use_of_line(const Settings& settings, const GpioChipState& chip,
+                        const GpioLineState& line);
+/// Whether the settings take this input device for the pedal.
 bool is_pedal(const PedalSettings& pedal, const InputNode& node);
 
 /// Whether the device is a sensor that OpenNI2 serves through libusb, without a kernel driver.

@@ -33,13 +33,15 @@ Json camera_json(const PluggedCamera& camera) {
           {"trouble", or_null(camera.trouble)}};
 }
 
-Json chip_json(const GpioChipState& chip, const PedalSettings& pedal) {
+Json chip_json(const GpioChipState& chip, const Settings& settings) {
   Json lines = Json::array();
   for (const auto& line : chip.lines) {
+    const auto use = use_of_line(settings, chip, line);
     lines.push_back({{"offset", line.offset},
                      {"name", or_null(line.name)},
                      {"held_by", or_null(line.holder)},
-                     {"is_pedal", is_pedal(pedal, chip, line)}});
+                     {"is_pedal", use == "pedal"},
+                     {"configured_as", or_null(use)}});
   }
   return {{"node", chip.node.string()},
           {"label", chip.label},
@@ -76,15 +78,16 @@ std::string camera_text(const PluggedCamera& camera) {
   return text;
 }
 
-std::string chip_text(const GpioChipState& chip, const PedalSettings& pedal) {
+std::string chip_text(const GpioChipState& chip, const Settings& settings) {
   if (!chip.may_open) return fmt::format("  {}: you may not open it\n", chip.node.string());
   std::string text =
       fmt::format("  \"{}\", {} lines, now {}\n", chip.label, chip.line_count, chip.node.string());
   for (const auto& line : chip.lines) {
+    const auto use = use_of_line(settings, chip, line);
     text += fmt::format("    {:>4} {}{}{}\n", line.offset,
                         line.name.empty() ? "without name" : '"' + line.name + '"',
                         line.holder.empty() ? "" : ", held by " + line.holder,
-                        is_pedal(pedal, chip, line) ? ", the pedal" : "");
+                        use.empty() ? "" : ", the " + use);
   }
   return text;
 }
@@ -107,7 +110,7 @@ Json to_json(const Inventory& inventory, const Settings& settings) {
   Json cameras = Json::array();
   for (const auto& camera : inventory.cameras) cameras.push_back(camera_json(camera));
   Json chips = Json::array();
-  for (const auto& chip : inventory.gpio_chips) chips.push_back(chip_json(chip, settings.pedal));
+  for (const auto& chip : inventory.gpio_chips) chips.push_back(chip_json(chip, settings));
   Json switches = Json::array();
   for (const auto& node : inventory.foot_switches) {
     switches.push_back(switch_json(node, settings.pedal));
@@ -127,7 +130,7 @@ std::string to_text(const Inventory& inventory, const Settings& settings) {
     cameras += "  OpenNI2 lists no sensors: " + trouble.line() + "\n";
   }
   std::string chips;
-  for (const auto& chip : inventory.gpio_chips) chips += chip_text(chip, settings.pedal);
+  for (const auto& chip : inventory.gpio_chips) chips += chip_text(chip, settings);
   std::string switches;
   for (const auto& node : inventory.foot_switches) switches += switch_text(node, settings.pedal);
   return section("Cameras", cameras) + section("GPIO chips", chips) +

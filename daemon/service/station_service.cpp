@@ -74,6 +74,7 @@ Result<bool> StationService::run() {
   manager_.ready(status_text());
   if (ServiceManager::watchdog_limit()) feed_watchdog();
   const auto ended = loop_->run();
+  station_->darken();
   if (!ended) return tl::make_unexpected(ended.error());
   server_.reset();
   if (!left_cleanly_) log_warning("a scan did not end in time and was abandoned");
@@ -111,6 +112,11 @@ void StationService::station_changed() {
   if (said_.is_news("state", state)) log_info("station is " + state);
   if (said_.is_news("trouble", status.trouble)) {
     status.trouble.empty() ? log_info("all is well again") : log_warning(status.trouble);
+  }
+  for (const auto& [name, on, trouble] : status.outputs) {
+    const std::string line = trouble ? trouble->line() : "";
+    if (!said_.is_news(name, line)) continue;
+    trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
   }
   manager_.status(status_text());
   if (server_ && server_->has_watchers()) {
@@ -167,9 +173,8 @@ void StationService::reload() {
     settings_.store.keep_days = settings->store.keep_days;
     settings_.store.keep_count = settings->store.keep_count;
     log_info(
-        "read the settings again; cameras, the pedal's kind and place, simulation, store and "
-        "socket change "
-        "with a restart");
+        "read the settings again; cameras, the pedal's kind and place, lamps, projector, "
+        "simulation, store and socket change with a restart");
     sweep_store();
   }
   manager_.ready(status_text());

@@ -32,28 +32,41 @@ Error silent(const std::string& camera) {
           "unplug it and plug it in again; if that does not help, restart instepd"};
 }
 
-/// Takes `count` good frames from a started camera.
-Result<Frames> take_frames(DepthCamera& camera, const CaptureSettings& settings,
+Error bad_frames_only(FrameFault last) {
+  if (last == FrameFault::kEmpty) {
+    return {ErrorCode::kCorruptData, Remedy::kReset, "it sees nothing: its frames are empty",
+            "see whether something covers it or glares at it"};
+  }
+  return {ErrorCode::kCorruptData, Remedy::kReset, "it sends damaged frames only",
+          "check its cable, and that it has a USB controller of its own"};
+}
+
+/// Takes as many good frames as are asked for from a started camera.
+Result<Frames> take_frames(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
                            const std::atomic<bool>& cancelled, TaskProgress& progress) {
-  for (int i = 0; i < settings.warmup_frames; ++i) {
+  const auto next = [&]() -> Result<DepthFrame> {
     if (cancelled) return fail(ErrorCode::kCancelled, "the capture was stopped", "");
-    const auto frame = camera.next_frame(settings.frame_limit);
+    auto frame = camera.next_frame(settings.frame_limit);
+    if (frame) progress.step();
+    return frame;
+  };
+  tally.begin_stream();
+  for (int i = 0; i < settings.warmup_frames; ++i) {
+    const auto frame = next();
     if (!frame) return tl::make_unexpected(frame.error());
-    progress.step();
+    tally.count(*frame);
   }
   const auto wanted = static_cast<std::size_t>(settings.frames_per_camera);
   Frames frames;
   int bad = 0;
   while (frames.size() < wanted) {
-    if (cancelled) return fail(ErrorCode::kCancelled, "the capture was stopped", "");
-    auto frame = camera.next_frame(settings.frame_limit);
+    auto frame = next();
     if (!frame) return tl::make_unexpected(frame.error());
-    progress.step();
-    if (frame->status == FrameStatus::kGood) {
+    const FrameFault fault = tally.count(*frame);
+    if (fault == FrameFault::kNone) {
       frames.push_back(std::move(*frame));
     } else if (++bad > kMostBadFramesForEach * settings.frames_per_camera) {
-      return fail(ErrorCode::kCorruptData, Remedy::kReset, "it sends damaged frames only",
-                  "check its cable, and that it has a USB controller of its own");
+      return tl::make_unexpected(bad_frames_only(fault));
     }
   }
   return frames;
@@ -69,6 +82,7 @@ struct CameraSet::Worker {
 
   std::shared_ptr<DepthCamera> camera;
   CameraDescription description;
+  std::shared_ptr<FrameTally> tally = std::make_shared<FrameTally>();
   std::unique_ptr<TaskThread> thread;
 
   const std::string& id() const { return description.geometry.id; }
@@ -81,12 +95,15 @@ struct CameraSet::Gathering {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::optional<Result<Frames>>> brought;
+  std::size_t free = 0;  ///< cameras that have ended what they were asked before; of turns alone
 
-  /// Returns when the camera before this one has brought its frames; false if they are no longer
-  /// wanted.
+  /// Returns when no camera does what it was asked before, which lights it too, and the camera
+  /// before this one has brought its frames; false if they are no longer wanted.
   bool wait_for_turn(std::size_t camera, TaskProgress& progress) {
     std::unique_lock lock(mutex);
-    while (!cancelled && camera > 0 && !brought[camera - 1]) {
+    ++free;
+    changed.notify_all();
+    while (!cancelled && (free < brought.size() || (camera > 0 && !brought[camera - 1]))) {
       changed.wait_for(lock, milliseconds(20));
       progress.step();
     }
@@ -128,6 +145,10 @@ std::vector<CameraDescription> CameraSet::descriptions() const {
   return all;
 }
 
+FrameCounts CameraSet::frame_counts(std::size_t camera) const {
+  return workers_[camera]->tally->counts();
+}
+
 Result<Frames> CameraSet::capture(const CaptureSettings& settings,
                                   const std::function<bool()>& go_on) {
   const auto deadline = steady_clock::now() + settings.deadline;
@@ -147,16 +168,16 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
   const auto gathering = std::make_shared<Gathering>();
   gathering->brought.resize(workers_.size());
   for (std::size_t i = 0; i < workers_.size(); ++i) {
-    workers_[i]->thread->post(
-        [gathering, i, settings, camera = workers_[i]->camera](TaskProgress& progress) {
-          if (settings.one_at_a_time && !gathering->wait_for_turn(i, progress)) {
-            return gathering->bring(i, cancelled());
-          }
-          Result<Frames> frames = camera->start().and_then(
-              [&] { return take_frames(*camera, settings, gathering->cancelled, progress); });
-          camera->stop();
-          gathering->bring(i, std::move(frames));
-        });
+    workers_[i]->thread->post([gathering, i, settings, camera = workers_[i]->camera,
+                               tally = workers_[i]->tally](TaskProgress& progress) {
+      if (settings.one_at_a_time && !gathering->wait_for_turn(i, progress)) {
+        return gathering->bring(i, cancelled());
+      }
+      Result<Frames> frames = camera->start().and_then(
+          [&] { return take_frames(*camera, *tally, settings, gathering->cancelled, progress); });
+      camera->stop();
+      gathering->bring(i, std::move(frames));
+    });
   }
 
   bool wanted = true;
@@ -221,11 +242,13 @@ void CameraSet::check(milliseconds frame_limit, const Report& report) {
       report(i, tl::make_unexpected(silent(worker.id())));
       continue;
     }
-    worker.thread->post([i, report, frame_limit, camera = worker.camera,
+    worker.thread->post([i, report, frame_limit, camera = worker.camera, tally = worker.tally,
                          id = worker.id()](TaskProgress&) {
       const auto frame = camera->start().and_then([&] { return camera->next_frame(frame_limit); });
       camera->stop();
+      tally->begin_stream();
       if (frame) {
+        tally->count(*frame);
         report(i, {});
       } else {
         report(i, tl::make_unexpected(named(id, frame.error())));

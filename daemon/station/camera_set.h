@@ -11,6 +11,7 @@
 #include "core/fusion/depth_frame.h"
 #include "core/result.h"
 #include "daemon/loop/progress_watch.h"
+#include "daemon/station/frame_tally.h"
 #include "drivers/depth_camera.h"
 
 namespace instep {
@@ -27,11 +28,14 @@ class CameraSet {
 
   std::size_t size() const { return workers_.size(); }
   std::vector<CameraDescription> descriptions() const;
+  /// Of all frames that this camera has given here.
+  FrameCounts frame_counts(std::size_t camera) const;
 
   /// The good frames of all cameras, or nothing: a partial set is never returned. Starts the
-  /// cameras, drops what warms them up, and stops them again. If a camera fails and there is time
-  /// left, the whole set is taken once more; if that fails too, the error names the cameras. Asks
-  /// `go_on` at least every 20 ms. Returns by settings.deadline, at the latest 300 ms later.
+  /// cameras, drops what warms them up and what is damaged or empty, and stops them again. If a
+  /// camera fails and there is time left, the whole set is taken once more; if that fails too, the
+  /// error names the cameras. Asks `go_on` at least every 20 ms. Returns by settings.deadline, at
+  /// the latest 300 ms later.
   Result<std::vector<DepthFrame>> capture(const CaptureSettings& settings,
                                           const std::function<bool()>& go_on);
 

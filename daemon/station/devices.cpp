@@ -8,6 +8,7 @@
 #include "config/settings_search.h"
 #include "daemon/machine/inventory.h"
 #include "drivers/evdev/evdev_pedal.h"
+#include "drivers/gpio/gpio_output.h"
 #include "drivers/gpio/gpio_pedal.h"
 #include "drivers/openni2/openni_camera.h"
 #include "drivers/recording/recording_camera.h"
@@ -199,11 +200,15 @@ OpenedPedal as_pedal(Result<std::unique_ptr<Kind>> opened) {
   return std::move(*opened);
 }
 
+GpioLineAddress address_of(const GpioPlace& place) {
+  GpioLineAddress address{place.line, place.chip, std::nullopt};
+  if (place.offset) address.offset = static_cast<unsigned>(*place.offset);
+  return address;
+}
+
 OpenedPedal open_gpio_pedal(const GpioPedalSettings& chosen) {
   GpioPedal::Settings settings;
-  settings.address.line = chosen.line;
-  settings.address.chip = chosen.chip;
-  if (chosen.offset) settings.address.offset = static_cast<unsigned>(*chosen.offset);
+  settings.address = address_of(chosen.place);
   settings.active_low = chosen.active_low;
   settings.bias = bias_of(chosen.bias);
   return as_pedal(GpioPedal::open(settings));
@@ -291,6 +296,19 @@ Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings) {
           {.device = settings.pedal.evdev.device, .key = settings.pedal.evdev.key}));
   }
   return nullptr;
+}
+
+Result<std::unique_ptr<OutputLine>> open_output(const GpioOutputSettings& chosen) {
+  auto opened =
+      GpioOutput::open({.address = address_of(chosen.place), .active_low = chosen.active_low});
+  if (!opened) return tl::make_unexpected(opened.error());
+  return std::move(*opened);
+}
+
+Result<void> check_output(const GpioOutputSettings& chosen) {
+  const auto line = GpioLine::find(address_of(chosen.place));
+  if (!line) return tl::make_unexpected(line.error());
+  return line->check_free();
 }
 
 }  // namespace instep

@@ -10,6 +10,7 @@
 #include "config/settings.h"
 #include "core/result.h"
 #include "drivers/depth_camera.h"
+#include "drivers/output_line.h"
 #include "drivers/pedal.h"
 #include "drivers/usb/usb_device.h"
 #include "drivers/v4l2/video_nodes.h"
@@ -47,5 +48,10 @@ std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
 
 /// The pedal, or nullptr if the settings say that there is none.
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings);
+
+/// A lamp or a projector, which is off then.
+Result<std::unique_ptr<OutputLine>> open_output(const GpioOutputSettings& chosen);
+/// Whether it could be opened now, without touching its line.
+Result<void> check_output(const GpioOutputSettings& chosen);
 
 }  // namespace instep

@@ -8,7 +8,10 @@ RecoveryLadder::Step RecoveryLadder::failed(const Error& error) {
   // There is nothing to reset where nothing is plugged in, and no use in it where a person has to
   // change something.
   away_ = error.code == ErrorCode::kDeviceGone || error.code == ErrorCode::kNotFound;
-  hopeless_ = !away_ && (error.remedy == Remedy::kOperator || error.remedy == Remedy::kBug);
+  // A device that has just arrived may not be opened until udev has set who may.
+  const bool udev_may_come = error.code == ErrorCode::kPermissionDenied && reopens_ < kReopens;
+  hopeless_ = !away_ && !udev_may_come &&
+              (error.remedy == Remedy::kOperator || error.remedy == Remedy::kBug);
   if (away_) return Step::kReopen;
   if (hopeless_) return Step::kOperator;
   if (error.remedy == Remedy::kReset) reopens_ = kReopens;

@@ -7,9 +7,10 @@
 namespace instep {
 
 /// What is tried for one camera that fails, from gentle to rough, each a few times and then no
-/// more: open it again, reset it on its bus, call a person. (The retry of a frame comes before all
-/// that, in CameraSet::capture.) Every look at the camera opens it again, so that one that recovers
-/// by itself serves from then on, on whatever rung.
+/// more: open it again, reset it on its bus, call a person. One that may not be opened is opened
+/// again as often, while udev may still be setting the rights of what has just been plugged in.
+/// (The retry of a frame comes before all that, in CameraSet::capture.) Every look at the camera
+/// opens it again, so that one that recovers by itself serves from then on, on whatever rung.
 class RecoveryLadder {
  public:
   static constexpr int kReopens = 3;

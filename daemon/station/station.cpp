@@ -37,6 +37,8 @@ Station::~Station() {
 }
 
 void Station::begin() {
+  signals_.emplace(loop_, settings_.outputs, open_output, listener_.on_change);
+  signals_->show(machine_.state());
   open_devices_again();
   pedal_.emplace(
       loop_, settings_.pedal, [settings = settings_] { return open_pedal(settings); },
@@ -96,7 +98,9 @@ StationStatus Station::status() const {
   status.cameras = camera_status_;
   for (std::size_t i = 0; i < status.cameras.size(); ++i) {
     status.cameras[i].health = care_->health(i);
+    status.cameras[i].frames = cameras_->frame_counts(i);
   }
+  if (signals_) status.outputs = signals_->status();
   status.scans = scans_;
   status.ignored_presses = machine_.ignored_presses();
   status.last_result = last_result_;
@@ -111,6 +115,8 @@ void Station::note_progress(ProgressWatch& watch) const {
 
 void Station::handle(StationEvent event) {
   const auto actions = machine_.handle(event);
+  // Before the cameras start: their frames are to be lit.
+  if (signals_) signals_->show(machine_.state());
   for (const auto action : actions) act(action);
   listener_.on_change();
 }

@@ -23,6 +23,7 @@
 #include "daemon/station/pedal_watch.h"
 #include "daemon/station/scan_session.h"
 #include "daemon/station/station_machine.h"
+#include "daemon/station/station_signals.h"
 
 namespace instep {
 
@@ -31,6 +32,7 @@ struct CameraStatus {
   std::string model;
   std::optional<Error> trouble{};  ///< nothing = it answers
   CameraHealth health{};
+  FrameCounts frames{};
 };
 
 /// All that is told of a station from outside.
@@ -40,7 +42,8 @@ struct StationStatus {
   std::string stage;    ///< of the scan that runs; empty if none does
   double done = 0.0;    ///< of that scan, 0 to 1
   std::vector<CameraStatus> cameras;
-  std::uint64_t scans = 0;  ///< that ended with a result, since the daemon started
+  std::vector<OutputStatus> outputs;  ///< lamps and the projector
+  std::uint64_t scans = 0;            ///< that ended with a result, since the daemon started
   std::uint64_t ignored_presses = 0;
   std::string last_result;  ///< id; empty if there was none since the daemon started
 };
@@ -76,6 +79,8 @@ class Station {
   void reload(const Settings& settings);
   /// Ends a scan that runs; on_left follows.
   void shut_down();
+  /// Puts lamps and the projector off. The last call, after the loop has ended.
+  void darken() { signals_.reset(); }
 
   StationStatus status() const;
   void note_progress(ProgressWatch& watch) const;
@@ -107,6 +112,7 @@ class Station {
   StationListener listener_;
   StationMachine machine_;
 
+  std::optional<StationSignals> signals_;
   std::optional<PedalWatch> pedal_;
   std::optional<Error> pedal_trouble_;
   std::optional<Error> store_trouble_;

@@ -70,6 +70,11 @@ Result<GpioLine> GpioLine::find(const GpioLineAddress& address, const fs::path& 
   return not_found(address.text(), paths);
 }
 
+Result<void> GpioLine::check_free() const {
+  if (!gpiod_line_is_used(line_)) return {};
+  return tl::make_unexpected(request_failure(EBUSY));
+}
+
 Error GpioLine::request_failure(int reason) const {
   const std::string chip = gpiod_chip_name(chip_.get());
   if (reason == EBUSY) {

@@ -36,6 +36,9 @@ class GpioLine {
 
   gpiod_line* get() const { return line_; }
 
+  /// Fails with kBusy if somebody uses it, and names him. Takes nothing.
+  Result<void> check_free() const;
+
   /// Why requesting it failed just now (errno): kBusy names who holds it.
   Error request_failure(int reason) const;
 

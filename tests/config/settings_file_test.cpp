@@ -54,6 +54,18 @@ TEST(SettingsFile, SaysWhereThePedalIs) {
               HasSubstr("pedal    KEY_B of the input device 0c45:7403\n"));
 }
 
+TEST(SettingsFile, SaysWhereLampsAndTheProjectorAre) {
+  const auto reading = read(std::string(kCamera) +
+                            "[lamp.busy]\nchip = \"board\"\noffset = 4\n"
+                            "[projector]\nline = \"light\"\nactive = \"low\"\n"
+                            "[pedal.gpio]\nline = \"light\"\n");  // which is not the pedal
+  ASSERT_TRUE(reading.good()) << reading.faults.front();
+  EXPECT_THAT(describe(reading.settings),
+              HasSubstr("output   lamp.busy: GPIO line 4 of the chip \"board\", active high\n"
+                        "output   projector: GPIO line \"light\", active low\n"));
+  EXPECT_FALSE(reading.settings.outputs.ready_lamp);
+}
+
 struct Fault {
   const char* toml;
   const char* text;
@@ -87,6 +99,24 @@ INSTANTIATE_TEST_SUITE_P(
               "pedal.evdev.device is missing"},
         Fault{"[pedal]\nkind = \"evdev\"\n[pedal.evdev]\ndevice = \"0c45:7403\"",
               "pedal.evdev.key is missing"},
+        Fault{"[pedal]\nkind = \"evdev\"\n[pedal.evdev]\ndevice = \"0c45:7403\"\nkey = 12",
+              ":7: pedal.evdev.key must be text in quotes, but it is a whole number"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nline = 12",
+              ":6: pedal.gpio.line must be text in quotes, but it is a whole number"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nchip = \"board\"\noffset = 1024",
+              ":7: pedal.gpio.offset = 1024 is outside 0 to 1023"},
+        Fault{"[pedal]\nkind = \"evdev\"", ":3: pedal.evdev.device is missing"},
+        Fault{"[lamp.ready]\nactive = \"high\"", ":3: lamp.ready.line is missing"},
+        Fault{"[lamp.ready]\nline = \"a\"\nbias = \"none\"",
+              ":5: there is no setting lamp.ready.bias"},
+        Fault{"[lamp.raedy]\nline = \"a\"", "did you mean lamp.ready?"},
+        Fault{"[projector]\nline = \"a\"\nactive = \"hihg\"", ":5: projector.active = \"hihg\""},
+        Fault{"[lamp]\nready = \"a\"", "lamp.ready must be written as [lamp.ready]"},
+        Fault{"[lamp.busy]\nline = \"a\"\n[projector]\nline = \"a\"\nchip = \"board\"",
+              ":5: projector names the same line as lamp.busy"},
+        Fault{"[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nchip = \"board\"\noffset = 3\n"
+              "[lamp.fault]\nchip = \"board\"\noffset = 3",
+              ":8: lamp.fault names the same line as pedal.gpio"},
         Fault{"[pedal]\ngpio = 3", "pedal.gpio must be written as [pedal.gpio]"},
         Fault{"[pedal]\ndebounce = 30", "there is no setting pedal.debounce: did you mean"},
         Fault{"[pedl]\n", "there is no setting pedl: did you mean pedal?"},
@@ -180,6 +210,32 @@ TEST(SettingsFile, TakesNoMoreShopSizesThanItSays) {
   for (std::size_t i = 0; i < kMostShopTables; ++i) many += table(1);
   EXPECT_TRUE(read(many).good());
   EXPECT_THAT(read(many + table(1)).faults, ElementsAre(HasSubstr("more than 32")));
+}
+
+TEST(SettingsFile, TellsWhatStandsBesideNumbersThatNoComputerHolds) {
+  const auto reading = read(
+      "[capture]\nframes_per_camera = 99999999999999999999\n[station]\n"
+      "platform_height_mm = -1e400\npoint_spacing_mm = 1_0.5\nrefine_views = 1\n[pedal]\n"
+      "debounce_ms = 1\nhold_to_cancel_ms = 9_223_372_036_854_775_808 # and text\n" +
+      std::string(kCamera) + "station_from_camera = [ 1e+999, 1, 18446744073709551616 ]\n");
+  EXPECT_THAT(reading.faults,
+              ElementsAre(HasSubstr(":2: no number can be as large, or as small, as 9999999999"),
+                          HasSubstr(":4: no number can be as large, or as small, as 1e400"),
+                          HasSubstr(":5: station.point_spacing_mm = 10.5 is outside"),
+                          HasSubstr(":6: station.refine_views must be true or false"),
+                          HasSubstr(":8: pedal.debounce_ms = 1 is outside"),
+                          HasSubstr(":9: no number can be as large, or as small, as 9_223"),
+                          HasSubstr(":12: no number can be as large, or as small, as 1e+999"),
+                          HasSubstr(":12: no number can be as large, or as small, as 1844674407")));
+}
+
+TEST(SettingsFile, SaysNoMoreThanOnceThatANumberIsTooLarge) {
+  EXPECT_THAT(read("[[camera]]\nkind = \"v4l2\"\nname = \"a\"\nserial = \"1\"\n"
+                   "depth_unit_mm = 1e999\nintrinsics = { width = 640, height = 480, fx = 500, "
+                   "fy = 500, cx = 319.5, cy = 239.5 }\nstation_from_camera = [ 1, 0, 0, 0, 0, -1, "
+                   "0, 0, 0, 0, -1, 500, 0, 0, 0, 1 ]\n")
+                  .faults,
+              ElementsAre(HasSubstr(":5: no number can be as large")));
 }
 
 TEST(SettingsFile, ReportsAllFaultsOfAFileInItsOrder) {

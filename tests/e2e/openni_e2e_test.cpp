@@ -78,7 +78,7 @@ TEST(OpenniStation, MeasuresAFootRight) {
   EXPECT_EQ(station.wait_for_exit(5s), 0);
 }
 
-TEST(OpenniStation, PartialSetIsNeverFusedSilentlyAndReturnsWithin3s) {
+TEST(OpenniStation, PartialSetIsNeverFusedSilentlyAndReturnsWithin3s) {  // D22, D1
   OpenniBus bus;
   OpenniStation sensors(bus, small_station(), 3);
   StationProcess station;

@@ -249,6 +249,35 @@ TEST(Station, RecoversACameraThatComesBack) {
   EXPECT_EQ(scan.exit_code, 0) << scan.text;
 }
 
+// V6, D19, as a person sees them.
+TEST(Station, CountsTheDamagedFramesOfEachCamera) {
+  StationProcess station("fault_script = \"faults.txt\"\n");
+  std::ofstream(station.folder() / "faults.txt") << "camera left: corrupt frames 3-5\n"
+                                                    "camera left: shorten frames 6-7\n"
+                                                    "camera left: zero frame 8\n";
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  for (int scan = 0; scan < 2; ++scan) {
+    const auto made = station.run_instep("scan");
+    ASSERT_EQ(made.exit_code, 0) << made.text;
+  }
+  const json status = json::parse(station.run_instep("status --format json").text);
+  for (const json& camera : status.at("cameras")) {
+    const bool left = camera.at("id") == "left";
+    const json& frames = camera.at("frames");
+    EXPECT_EQ(frames.at("error_flagged"), left ? 3 : 0) << camera;
+    EXPECT_EQ(frames.at("short"), left ? 2 : 0) << camera;
+    EXPECT_EQ(frames.at("empty"), left ? 1 : 0) << camera;
+    EXPECT_EQ(frames.at("stale"), 0) << camera;
+    EXPECT_EQ(frames.at("lost"), 0) << camera;
+    EXPECT_GE(frames.at("good"), 8) << "four of each scan: " << camera;
+  }
+  const auto text = station.run_instep("status").text;
+  EXPECT_THAT(text, HasSubstr("camera left         ok (frames: "));
+  EXPECT_THAT(text, HasSubstr("good, 1 empty, 3 error-flagged, 2 short)\n"));
+  EXPECT_THAT(text, HasSubstr("camera right        ok\n"));
+}
+
 TEST(Station, RefusesASecondDaemonOnItsSocket) {
   StationProcess station;
   station.start();

@@ -188,6 +188,27 @@ TEST_F(InventoryOfAMachine, IsReportedForProgramsAndForPeople) {
   EXPECT_THAT(text, HasSubstr("GPIO chips\n  none\n"));
 }
 
+TEST_F(InventoryOfAMachine, SaysWhatALineIsFor) {
+  GpioChipState board;
+  board.label = "board";
+  board.lines = {{1, "foot", ""}, {2, "", "someone"}, {3, "lamp", ""}, {4, "else", ""}};
+  settings_.pedal.kind = PedalKind::kGpio;
+  settings_.pedal.gpio.place.line = "foot";
+  settings_.outputs.busy_lamp.emplace().place.line = "lamp";
+  auto& projector = settings_.outputs.projector.emplace().place;
+  projector.chip = "board";
+  projector.offset = 2;
+  Inventory inventory;
+  inventory.gpio_chips = {board};
+  const auto lines = to_json(inventory, settings_)["gpio_chips"][0]["lines"];
+  const std::vector<std::string> uses = {"pedal", "projector", "lamp.busy"};
+  for (std::size_t i = 0; i < uses.size(); ++i) EXPECT_EQ(lines[i]["configured_as"], uses[i]);
+  EXPECT_TRUE(lines[3]["configured_as"].is_null());
+  projector.chip = "another board";
+  EXPECT_EQ(use_of_line(settings_, board, board.lines[1]), "");
+  EXPECT_THAT(to_text(inventory, settings_), HasSubstr("3 \"lamp\", the lamp.busy\n"));
+}
+
 TEST_F(InventoryOfAMachine, IsEmptyWhereTheKernelShowsNothing) {
   const auto inventory =
       take_inventory(settings_, {"/nowhere", "/nowhere"}, linux_video_system(), {});

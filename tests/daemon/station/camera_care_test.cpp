@@ -8,6 +8,7 @@
 #include <atomic>
 #include <deque>
 
+#include "daemon/station/back_off.h"
 #include "drivers/files/descriptor.h"
 
 namespace instep {
@@ -117,6 +118,33 @@ TEST_F(CameraCareTest, WarnsOfASlowLinkAsLongAsItIsThere) {
     bus_->tell(false);
   }});
   EXPECT_EQ(care_->health(0).warning, "");
+}
+
+// U3: a camera arrives before udev has set who may open it.
+TEST_F(CameraCareTest, ArrivalThenEaccesRetries) {
+  const Error denied{ErrorCode::kPermissionDenied, Remedy::kOperator, "it may not be opened",
+                     "change a rule"};
+  care_->looked_at(0, kGone);
+  bus_->tell(true);
+  run({});
+  ASSERT_EQ(looks_, 1);
+  // As the station does: it looks again after each pause, for two seconds at most.
+  BackOff pauses;
+  std::chrono::milliseconds waited{0};
+  care_->looked_at(0, denied);
+  while (care_->health(0).recovery != "needs a person") {
+    EXPECT_THAT(care_->health(0).recovery, HasSubstr("opened again"));
+    waited += pauses.next();
+    ASSERT_LE(waited, 2s);
+    care_->looked_at(0, denied);
+  }
+  EXPECT_GE(waited, 1s) << "which udev may need";
+  EXPECT_EQ(resets_, 0) << "a reset gives no right";
+
+  care_->looked_at(0, std::nullopt);
+  care_->looked_at(0, denied);
+  care_->looked_at(0, std::nullopt);
+  EXPECT_EQ(care_->health(0).recovery, "") << "udev was there in time";
 }
 
 // D9

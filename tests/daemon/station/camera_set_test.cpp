@@ -8,65 +8,15 @@
 #include <deque>
 #include <mutex>
 
+#include "tests/support/scripted_camera.h"
+
 namespace instep {
 namespace {
 
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-/// A camera that does what its script says, one entry a call of next_frame(); then good frames.
-class ScriptedCamera : public DepthCamera {
- public:
-  enum class Step { kGood, kCorrupt, kTimeout, kGone, kHang };
-
-  ScriptedCamera(const std::string& id, std::deque<Step> script) : script_(std::move(script)) {
-    description_.geometry.id = id;
-  }
-  const CameraDescription& description() const override { return description_; }
-  Result<void> start() override {
-    const std::lock_guard lock(mutex_);
-    interrupted_ = false;
-    return {};
-  }
-  Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
-    std::unique_lock lock(mutex_);
-    Step step = Step::kGood;
-    if (!script_.empty()) {
-      step = script_.front();
-      script_.pop_front();
-    }
-    if (step == Step::kHang) {
-      // What no camera may do: neither its limit nor an interrupt ends this call.
-      changed_.wait_for(lock, 3s, [this] { return released_; });
-      return fail(ErrorCode::kTimeout, "far too late", "");
-    }
-    if (step == Step::kTimeout) {
-      changed_.wait_for(lock, limit, [this] { return interrupted_; });
-      if (interrupted_) return fail(ErrorCode::kCancelled, "interrupted", "");
-      return fail(ErrorCode::kTimeout, "no frame came", "");
-    }
-    if (step == Step::kGone) return fail(ErrorCode::kDeviceGone, "it left", "plug it in");
-    DepthFrame frame;
-    frame.camera = description_.geometry.id;
-    frame.status = step == Step::kGood ? FrameStatus::kGood : FrameStatus::kCorrupt;
-    return frame;
-  }
-  void stop() override {}
-  void interrupt() override {
-    const std::lock_guard lock(mutex_);
-    interrupted_ = true;
-    changed_.notify_all();
-  }
-
- private:
-  CameraDescription description_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Step> script_;
-  bool interrupted_ = false;
-  bool released_ = false;
-};
-
+using test::ScriptedCamera;
 using Step = ScriptedCamera::Step;
 
 std::unique_ptr<CameraSet> cameras(std::deque<Step> left, std::deque<Step> right) {
@@ -104,6 +54,7 @@ TEST(CameraSet, TakesTheWholeSetOnceMoreWhenACameraFails) {
   EXPECT_EQ(frames->size(), 10U);
 }
 
+// D22
 TEST(CameraSet, NamesTheCameraRatherThanReturnAPartialSet) {
   const auto set = cameras({}, {Step::kGone, Step::kGone});
   const auto frames = set->capture(settings(), go_on);
@@ -120,6 +71,86 @@ TEST(CameraSet, NamesAllCamerasThatFail) {
   const auto frames = set->capture(quick, go_on);
   ASSERT_FALSE(frames);
   EXPECT_THAT(frames.error().message, testing::HasSubstr("left, right"));
+}
+
+/// Sends wrong depth at the beginning of each stream, and says nothing of it.
+class SettlingCamera : public ScriptedCamera {
+ public:
+  static constexpr int kSettling = 3;
+
+  using ScriptedCamera::ScriptedCamera;
+  Result<void> start() override {
+    sent_ = 0;
+    return ScriptedCamera::start();
+  }
+
+ protected:
+  DepthFrame frame_of(Step step) override {
+    DepthFrame frame = ScriptedCamera::frame_of(step);
+    if (sent_++ < kSettling) std::fill(frame.raw.begin(), frame.raw.end(), 9);
+    return frame;
+  }
+
+ private:
+  int sent_ = 0;
+};
+
+// D18: by their count, in each stream anew.
+TEST(CameraSet, WarmupFramesAreDiscarded) {
+  for (const int warmup : {SettlingCamera::kSettling - 1, SettlingCamera::kSettling}) {
+    std::vector<std::unique_ptr<DepthCamera>> all;
+    // The first attempt fails, so that the set is taken once more.
+    const std::deque<Step> script = {Step::kGood, Step::kGood, Step::kGood, Step::kGood,
+                                     Step::kGone};
+    all.push_back(std::make_unique<SettlingCamera>("only", script));
+    CameraSet set(std::move(all));
+    auto warming = settings();
+    warming.warmup_frames = warmup;
+    for (int scan = 0; scan < 2; ++scan) {
+      const auto frames = set.capture(warming, go_on);
+      ASSERT_TRUE(frames) << frames.error().line();
+      ASSERT_EQ(frames->size(), 5U);
+      const auto wrong = std::count_if(frames->begin(), frames->end(),
+                                       [](const auto& frame) { return frame.raw[0] == 9; });
+      EXPECT_EQ(wrong, SettlingCamera::kSettling - warmup);
+    }
+  }
+}
+
+// D19
+TEST(CameraSet, ZeroFrameIsRejected) {
+  const auto set = cameras({Step::kGood, Step::kGood, Step::kEmpty, Step::kEmpty},
+                           std::deque<Step>(100, Step::kEmpty));
+  auto patient = settings();
+  auto frames = set->capture(patient, go_on);
+  ASSERT_FALSE(frames);
+  EXPECT_EQ(frames.error().remedy, Remedy::kReset);
+  EXPECT_THAT(frames.error().message, testing::HasSubstr("camera right: it sees nothing"));
+  EXPECT_EQ(set->frame_counts(0).empty, 2U);
+
+  const auto sound = cameras({Step::kGood, Step::kGood, Step::kEmpty, Step::kEmpty}, {});
+  frames = sound->capture(patient, go_on);
+  ASSERT_TRUE(frames) << frames.error().line();
+  EXPECT_EQ(frames->size(), 10U);
+  for (const auto& frame : *frames) EXPECT_EQ(frame.raw.back(), 500) << frame.camera;
+}
+
+TEST(CameraSet, CountsWhatIsWrongWithTheFramesOfEachCamera) {
+  const auto set = cameras({Step::kCorrupt, Step::kGood, Step::kCorrupt, Step::kShort, Step::kStale,
+                            Step::kEmpty, Step::kLost, Step::kShort, Step::kShort},
+                           {});
+  const auto frames = set->capture(settings(), go_on);
+  ASSERT_TRUE(frames) << frames.error().line();
+  EXPECT_EQ(frames->size(), 10U);
+  const auto left = set->frame_counts(0);
+  EXPECT_EQ(left.error_flagged, 2U) << "one of them while it warmed up";
+  EXPECT_EQ(left.short_of_pixels, 3U);
+  EXPECT_EQ(left.stale, 1U);
+  EXPECT_EQ(left.empty, 1U);
+  EXPECT_EQ(left.lost, 2U);
+  EXPECT_EQ(left.good, 6U);
+  EXPECT_EQ(set->frame_counts(1).damaged(), 0U);
+  EXPECT_EQ(set->frame_counts(1).good, 7U);
 }
 
 TEST(CameraSet, GivesUpOnACameraThatSendsDamagedFramesOnly) {
@@ -150,57 +181,6 @@ TEST(CameraSet, StopsWithinASecondWhenCancelled) {
   EXPECT_LT(steady_clock::now() - begun, 1s);
   ASSERT_FALSE(frames);
   EXPECT_EQ(frames.error().code, ErrorCode::kCancelled);
-}
-
-/// Notes the most cameras that stream at a time. Each gives the others some time to join in.
-class CountedCamera : public ScriptedCamera {
- public:
-  struct Count {
-    std::mutex mutex;
-    std::condition_variable changed;
-    int streaming = 0;
-    int most = 0;
-  };
-
-  CountedCamera(const std::string& id, std::deque<Step> script, std::shared_ptr<Count> count)
-      : ScriptedCamera(id, std::move(script)), count_(std::move(count)) {}
-
-  Result<void> start() override {
-    const std::lock_guard lock(count_->mutex);
-    count_->most = std::max(count_->most, ++count_->streaming);
-    count_->changed.notify_all();
-    return ScriptedCamera::start();
-  }
-  Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
-    std::unique_lock lock(count_->mutex);
-    count_->changed.wait_for(lock, 10ms, [this] { return count_->most > 1; });
-    lock.unlock();
-    return ScriptedCamera::next_frame(limit);
-  }
-  void stop() override {
-    const std::lock_guard lock(count_->mutex);
-    --count_->streaming;
-  }
-
- private:
-  std::shared_ptr<Count> count_;
-};
-
-TEST(CameraSet, SequentialCaptureMode) {
-  const auto count = std::make_shared<CountedCamera::Count>();
-  std::vector<std::unique_ptr<DepthCamera>> all;
-  for (const auto* id : {"front", "left", "back", "right"}) {
-    all.push_back(std::make_unique<CountedCamera>(
-        id, std::deque<Step>{Step::kGood, Step::kGood, Step::kCorrupt}, count));
-  }
-  CameraSet set(std::move(all));
-  auto in_turn = settings();
-  in_turn.deadline = 5s;
-  in_turn.one_at_a_time = true;
-  const auto frames = set.capture(in_turn, go_on);
-  ASSERT_TRUE(frames) << frames.error().line();
-  EXPECT_EQ(frames->size(), 20U);
-  EXPECT_EQ(count->most, 1);
 }
 
 TEST(CameraSet, EndsTurnsWhenACameraFailsOrTheScanIsStopped) {

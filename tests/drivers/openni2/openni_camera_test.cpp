@@ -51,7 +51,7 @@ TEST(OpenniCamera, SendsEachImageOnceAndInTurn) {
   }
 }
 
-TEST(OpenniCamera, DepthScaleFromModeNotAssumed) {
+TEST(OpenniCamera, DepthScaleFromModeNotAssumed) {  // D17
   // The same surface, once in tenths and once in whole millimetres.
   OpenniBus bus;
   const std::vector<std::uint16_t> tenths(64 * 48, 5120);

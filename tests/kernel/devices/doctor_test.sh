@@ -1,6 +1,6 @@
 #!/bin/sh
-# `instep doctor` names why a pedal on a GPIO line cannot serve: no chip, another holder, no right; and
-# `instep devices` shows the line.
+# `instep doctor` names why a pedal or a lamp on a GPIO line cannot serve: no chip, another holder, no
+# right; and `instep devices` shows the lines.
 set -eu
 folder=$(mktemp -d)
 chmod 755 "$folder"
@@ -16,6 +16,8 @@ height_px = 48
 kind = "gpio"
 [pedal.gpio]
 line = "foot"
+[lamp.ready]
+line = "lamp"
 TOML
 says() {
   wanted=$1
@@ -27,16 +29,20 @@ says() {
   esac
 }
 says "there is no GPIO chip, so no line \"foot\"" instep doctor
+says "lamp.ready: there is no GPIO chip, so no line \"lamp\"" instep doctor
 
 chip=/sys/kernel/config/gpio-sim/doctor
-mkdir -p $chip/bank0/line3
+mkdir -p $chip/bank0/line3 $chip/bank0/line4
 echo board >$chip/bank0/label
 echo 8 >$chip/bank0/num_lines
 echo foot >$chip/bank0/line3/name
+echo lamp >$chip/bank0/line4/name
 echo 1 >$chip/live
 udevadm settle --timeout=30
 says "pedal     can be opened" instep doctor
+says "output    lamp.ready can be opened" instep doctor
 says "\"foot\", the pedal" instep devices --format text
+says "\"lamp\", the lamp.ready" instep devices --format text
 
 # As udev leaves a chip without the rules of Instep.
 node=/dev/$(cat $chip/bank0/chip_name)
@@ -51,6 +57,9 @@ echo $((first + 3)) >/sys/class/gpio/export
 says "is held by \"sysfs\"" instep doctor
 echo $((first + 3)) >/sys/class/gpio/unexport
 says "pedal     can be opened" instep doctor
+echo $((first + 4)) >/sys/class/gpio/export
+says "lamp.ready: line \"lamp\" ($(basename "$node")) is held by \"sysfs\"" instep doctor
+echo $((first + 4)) >/sys/class/gpio/unexport
 
 echo 0 >$chip/live
-rmdir $chip/bank0/line3 $chip/bank0 $chip
+rmdir $chip/bank0/line3 $chip/bank0/line4 $chip/bank0 $chip

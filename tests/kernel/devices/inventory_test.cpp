@@ -25,7 +25,7 @@ TEST(InventoryOfTheKernel, ShowsGpioLinesWithTheirHolders) {
   const GpioChip chip("pedal", "board", 3, "foot");
   Settings settings;
   settings.pedal.kind = PedalKind::kGpio;
-  settings.pedal.gpio.line = "foot";
+  settings.pedal.gpio.place.line = "foot";
   GpioPedal::Settings same_line;
   same_line.address.line = "foot";
   const auto pedal = GpioPedal::open(same_line);
@@ -39,7 +39,7 @@ TEST(InventoryOfTheKernel, ShowsGpioLinesWithTheirHolders) {
   ASSERT_EQ(shown.lines.size(), 1U);
   EXPECT_EQ(shown.lines[0].offset, 3U);
   EXPECT_EQ(shown.lines[0].holder, "instep pedal");
-  EXPECT_TRUE(is_pedal(settings.pedal, shown, shown.lines[0]));
+  EXPECT_EQ(use_of_line(settings, shown, shown.lines[0]), "pedal");
 }
 
 TEST(InventoryOfTheKernel, ShowsFootSwitches) {

@@ -83,6 +83,7 @@ UvcDescription description_of(const UsbDepthCamera::Settings& settings) {
   description.height = static_cast<std::uint32_t>(settings.height);
   description.frames_per_second = static_cast<std::uint32_t>(settings.frames_per_second);
   description.usb_version = settings.usb_version;
+  description.vendor = settings.vendor;
   return description;
 }
 

@@ -27,6 +27,7 @@ class UsbDepthCamera {
     int height = 120;
     int frames_per_second = 15;
     std::uint16_t usb_version = 0x0200;  ///< 0x0210 is what USB 3 cameras say on a USB 2 link
+    std::uint16_t vendor = 0x1209;       ///< whose sensor it is taken for: 0x1d27 is PrimeSense
   };
 
   /// Not plugged in yet.

@@ -92,7 +92,7 @@ Bytes device_descriptor(const UvcDescription& camera) {
   Bytes device;
   append16(device, camera.usb_version);
   append(device, {0xEF, 2, 1, 64});  // its interfaces are associated
-  append16(device, 0x1209);          // pid.codes, for tests
+  append16(device, camera.vendor);
   append16(device, 0x0001);
   append16(device, 0x0100);
   append(device, {1, 2, 3, 1});  // numbers of its strings; one configuration

@@ -22,6 +22,7 @@ struct UvcDescription {
   std::uint32_t height = 0;
   std::uint32_t frames_per_second = 0;
   std::uint16_t usb_version = 0x0200;
+  std::uint16_t vendor = 0x1209;  ///< pid.codes, for tests
 
   std::uint32_t frame_bytes() const { return 2 * width * height; }
   /// In units of 100 ns.

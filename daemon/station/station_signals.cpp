@@ -1,0 +1,53 @@
+#include "daemon/station/station_signals.h"
+
+namespace instep {
+namespace {
+
+bool is_ready(StationState state) {
+  return state == StationState::kReady;
+}
+
+bool is_capturing(StationState state) {
+  return state == StationState::kCapturing;
+}
+
+bool is_busy(StationState state) {
+  return state == StationState::kStarting || is_capturing(state) ||
+         state == StationState::kMeasuring || state == StationState::kStoring;
+}
+
+bool is_fault(StationState state) {
+  return state == StationState::kDegraded || state == StationState::kFault;
+}
+
+}  // namespace
+
+StationSignals::StationSignals(EventLoop& loop, const OutputSettings& outputs, const Open& open,
+                               const std::function<void()>& on_change,
+                               std::chrono::milliseconds refresh) {
+  const auto add = [&](const char* name, const std::optional<GpioOutputSettings>& output,
+                       bool (*is_on)(StationState)) {
+    if (!output) return;
+    const auto open_it = [open, chosen = *output] { return open(chosen); };
+    signals_.push_back(
+        {name, is_on, std::make_unique<OutputKeeper>(loop, open_it, on_change, refresh)});
+  };
+  add("lamp.ready", outputs.ready_lamp, is_ready);
+  add("lamp.busy", outputs.busy_lamp, is_busy);
+  add("lamp.fault", outputs.fault_lamp, is_fault);
+  add("projector", outputs.projector, is_capturing);
+}
+
+void StationSignals::show(StationState state) {
+  for (const auto& signal : signals_) signal.keeper->set(signal.is_on(state));
+}
+
+std::vector<OutputStatus> StationSignals::status() const {
+  std::vector<OutputStatus> all;
+  for (const auto& [name, is_on, keeper] : signals_) {
+    all.push_back({name, keeper->wanted(), keeper->trouble()});
+  }
+  return all;
+}
+
+}  // namespace instep

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "drivers/depth_camera.h"
+
+namespace instep::test {
+
+/// A camera that does what its script says, one entry a call of next_frame(); then good frames.
+class ScriptedCamera : public DepthCamera {
+ public:
+  enum class Step { kGood, kCorrupt, kShort, kStale, kEmpty, kLost, kTimeout, kGone, kHang };
+
+  ScriptedCamera(const std::string& id, std::deque<Step> script) : script_(std::move(script)) {
+    description_.geometry.id = id;
+  }
+  const CameraDescription& description() const override { return description_; }
+  Result<void> start() override {
+    const std::lock_guard lock(mutex_);
+    interrupted_ = false;
+    return {};
+  }
+  Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
+    std::unique_lock lock(mutex_);
+    Step step = Step::kGood;
+    if (!script_.empty()) {
+      step = script_.front();
+      script_.pop_front();
+    }
+    if (step == Step::kHang) {
+      // What no camera may do: neither its limit nor an interrupt ends this call.
+      changed_.wait_for(lock, std::chrono::seconds(3), [this] { return released_; });
+      return fail(ErrorCode::kTimeout, "far too late", "");
+    }
+    if (step == Step::kTimeout) {
+      changed_.wait_for(lock, limit, [this] { return interrupted_; });
+      if (interrupted_) return fail(ErrorCode::kCancelled, "interrupted", "");
+      return fail(ErrorCode::kTimeout, "no frame came", "");
+    }
+    if (step == Step::kGone) return fail(ErrorCode::kDeviceGone, "it left", "plug it in");
+    return frame_of(step);
+  }
+  void stop() override {}
+  void interrupt() override {
+    const std::lock_guard lock(mutex_);
+    interrupted_ = true;
+    changed_.notify_all();
+  }
+
+ protected:
+  virtual DepthFrame frame_of(Step step) {
+    constexpr int kSide_px = 20;
+    DepthFrame frame;
+    frame.camera = description_.geometry.id;
+    frame.width = frame.height = kSide_px;
+    frame.raw.assign(kSide_px * kSide_px, 500);
+    if (step == Step::kCorrupt) frame.status = FrameStatus::kCorrupt;
+    if (step == Step::kStale) frame.status = FrameStatus::kStale;
+    // These two, no driver says.
+    if (step == Step::kShort) frame.raw.resize(frame.raw.size() / 2);
+    if (step == Step::kEmpty) std::fill(frame.raw.begin() + 3, frame.raw.end(), 0);
+    if (step == Step::kLost) sequence_ += 2;
+    frame.sequence = sequence_++;
+    return frame;
+  }
+
+ private:
+  CameraDescription description_;
+  std::uint64_t sequence_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Step> script_;
+  bool interrupted_ = false;
+  bool released_ = false;
+};
+
+}  // namespace instep::test
