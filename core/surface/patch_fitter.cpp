@@ -175,9 +175,9 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
   for (const auto i : members.all) {
     if (points_[i].normal.dot(members.outward) < kFacing) continue;
     members.front.push_back(i);
-    farthest = std::max(farthest, beside(place, points_[i].position, surroundings.outward));
+    farthest = std::max(farthest, (points_[i].position - place).squaredNorm());
   }
-  members.front_radius = farthest;
+  members.front_radius = std::sqrt(farthest);
   return members;
 }
 
