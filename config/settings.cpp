@@ -42,13 +42,6 @@ std::string describe_sizes(const SizeRules& sizes) {
   return text;
 }
 
-std::string describe_measures(const MeasuringRules& rules) {
-  return fmt::format("axis {}, ball girth {}, instep girth {}, heel breadth {}",
-                     name_of(rules.axis, kAxisRules), name_of(rules.ball_girth, kBallGirthRules),
-                     name_of(rules.instep_girth, kInstepGirthRules),
-                     name_of(rules.heel_breadth, kHeelBreadthRules));
-}
-
 }  // namespace
 
 std::string describe(const Settings& settings) {
@@ -67,7 +60,7 @@ std::string describe(const Settings& settings) {
     text += fmt::format("output   {}: {}\n", name, describe(*output));
   }
   text += fmt::format("store    {}{}\n", store.root.string(), describe_keeping(store));
-  text += fmt::format("measures {}\n", describe_measures(measures));
+  text += fmt::format("measures {}\n", in_words(measures));
   text += fmt::format("sizes    {}\n", describe_sizes(sizes));
   text += fmt::format("control  {}\n", control.socket.string());
   return text;

@@ -103,6 +103,9 @@ Result<FootScan> find_landmarks(FootScan foot) {
   mark(foot);
   foot.redraws = redraw_landmarks(foot);
   set_radii(foot);
+  if (foot.rules != MeasuringRules{}) {
+    foot.warnings.push_back("measured by definitions of one's own choice: " + in_words(foot.rules));
+  }
   return foot;
 }
 

@@ -30,4 +30,16 @@ const char* description(HeelBreadthRule place) {
   return "";
 }
 
+std::string in_words(const MeasuringRules& rules) {
+  std::string words = "axis ";
+  words += name_of(rules.axis, kAxisRules);
+  words += ", ball girth ";
+  words += name_of(rules.ball_girth, kBallGirthRules);
+  words += ", instep girth ";
+  words += name_of(rules.instep_girth, kInstepGirthRules);
+  words += ", heel breadth ";
+  words += name_of(rules.heel_breadth, kHeelBreadthRules);
+  return words;
+}
+
 }  // namespace instep

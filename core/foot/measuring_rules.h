@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -49,6 +50,9 @@ struct MeasuringRules {
 
   bool operator==(const MeasuringRules&) const = default;
 };
+
+/// All four by their names: "axis pt_toe2, ball girth upright, ...".
+std::string in_words(const MeasuringRules& rules);
 
 /// The names of the choices in files and on the command line.
 template <typename Rule, std::size_t Count>

@@ -132,7 +132,13 @@ ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules) {
 }
 
 ShoeSizes shoe_sizes(const FootScan& foot, const MeasureSet& measures, const SizeRules& rules) {
-  if (!is_shoe_last(foot)) return shoe_sizes(sized_foot(measures), rules);
+  if (!is_shoe_last(foot)) {
+    ShoeSizes sizes = shoe_sizes(sized_foot(measures), rules);
+    if (foot.rules != MeasuringRules{}) {
+      sizes.notes.emplace_back("the scales are made for the usual definitions of measures");
+    }
+    return sizes;
+  }
   ShoeSizes none;
   none.allowance_mm = rules.allowance_mm;
   none.notes.emplace_back("this is a shoe last: sizes are told from feet");

@@ -62,12 +62,13 @@ Result<void> print_measures(const ScanRecord& record, const std::string& format)
 }
 
 Result<void> run(const MeasureCommand& command) {
+  const auto settings = measuring_settings();
+  if (!settings) return tl::make_unexpected(settings.error());
   const auto file = read_cloud(command.cloud);
   if (!file) return tl::make_unexpected(file.error());
-  const Settings settings = station_settings();
   AlignmentOptions options;
   options.side = side_from_string(command.side);
-  options.rules = command.rules.over(settings.measures);
+  options.rules = command.rules.over(settings->measures);
   auto foot = align_foot(file->cloud, options).and_then(find_landmarks);
   if (!foot) return tl::make_unexpected(foot.error());
   foot->warnings.insert(foot->warnings.begin(), file->notes.begin(), file->notes.end());
@@ -76,7 +77,7 @@ Result<void> run(const MeasureCommand& command) {
 
   ScanRecord record;
   record.foot = std::move(*foot);
-  record.sizes = shoe_sizes(record.foot, *measures, settings.sizes);
+  record.sizes = shoe_sizes(record.foot, *measures, settings->sizes);
   record.measures = std::move(*measures);
   if (!command.report.empty()) {
     if (auto written = write_report(record, command); !written) return written;

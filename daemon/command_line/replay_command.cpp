@@ -73,13 +73,15 @@ std::string text_of(const json& results) {
 }
 
 Result<void> run(const ReplayCommand& command) {
+  const auto station = measuring_settings();
+  if (!station) return tl::make_unexpected(station.error());
   const auto capture = read_capture(command.recording);
   if (!capture) return tl::make_unexpected(capture.error());
 
   PipelineSettings settings;
   settings.station = "replay";
-  settings.sizes = station_settings().sizes;
-  settings.measures = station_settings().measures;
+  settings.sizes = station->sizes;
+  settings.measures = station->measures;
   settings.side = side_from_string(command.side);
   settings.refine_views = command.poses == "auto" ? !capture->simulated : command.poses == "refine";
   ProgressLine line;

@@ -18,6 +18,16 @@ Result<FoundSettings> find_station_settings() {
   return FoundSettings{*file, std::move(*settings)};
 }
 
+Result<Settings> measuring_settings() {
+  auto found = find_station_settings();
+  if (found) return std::move(found->settings);
+  const bool is_named = process_environment("INSTEP_CONFIG").has_value();
+  if (is_named || found.error().code != ErrorCode::kNotFound) {
+    return tl::make_unexpected(found.error());
+  }
+  return Settings{};
+}
+
 Settings station_settings() {
   if (auto found = find_station_settings()) return std::move(found->settings);
   Settings settings;

@@ -16,7 +16,11 @@ struct FoundSettings {
 };
 Result<FoundSettings> find_station_settings();
 
-/// The same, but with the defaults (and the environment) where there is no sound file: enough to
+/// What a person or a program is to measure by: the defaults only where there is no file at all. One
+/// that is named or found but unsound fails, as its definitions may be others than the defaults'.
+Result<Settings> measuring_settings();
+
+/// For whoever only talks to a daemon: the defaults (and the environment) where there is no sound file: enough to
 /// reach a daemon.
 Settings station_settings();
 

@@ -89,9 +89,11 @@ Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> im
   return fuse_views(views, fusion, one_thread_each, go_on);
 }
 
-/// The part of the truth that is about one foot: see Capture::truth.
-std::map<std::string, double> truth_of(const Capture& capture, Side side) {
-  const std::string prefix = std::string(to_string(side)) + "_";
+/// The part of the truth that is about one foot: see Capture::truth. It is known by the usual
+/// definitions only.
+std::map<std::string, double> truth_of(const Capture& capture, const FootScan& foot) {
+  if (foot.rules != MeasuringRules{}) return {};
+  const std::string prefix = std::string(to_string(foot.side)) + "_";
   std::map<std::string, double> own;
   for (const auto& [id, value] : capture.truth) {
     const bool is_sided = id.rfind("left_", 0) == 0 || id.rfind("right_", 0) == 0;
@@ -110,7 +112,7 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   record.devices = capture.cameras;
   record.calibration = capture.calibration;
   record.simulated = capture.simulated;
-  record.truth = truth_of(capture, foot.side);
+  record.truth = truth_of(capture, foot);
   record.foot = std::move(foot);
   record.sizes = shoe_sizes(record.foot, measures, settings.sizes);
   record.measures = std::move(measures);

@@ -44,14 +44,30 @@ class ChosenRules : public testing::Test {
 };
 
 TEST_F(ChosenRules, AreThoseOfTheSettingsUnlessSaidOtherwise) {
-  EXPECT_EQ(result_of("")["axis"], "pt_toe2");
+  const json usual = result_of("");
+  EXPECT_EQ(usual["axis"], "pt_toe2");
+  EXPECT_EQ(usual["warnings"].dump().find("definitions"), std::string::npos);
+  EXPECT_EQ(usual["sizes"].dump().find("definitions"), std::string::npos);
   const std::string settings = "[measures]\naxis = \"brannock\"\nheel_breadth = \"40mm\"\n";
   EXPECT_EQ(result_of(settings)["axis"], "brannock");
   const json said = result_of(settings, {"--axis", "pca"});
   EXPECT_EQ(said["axis"], "pca");
+  EXPECT_NE(said["warnings"].dump().find("axis pca, ball girth upright"), std::string::npos);
+  EXPECT_NE(said["sizes"].dump().find("usual definitions"), std::string::npos);
   for (const auto& measure : said["measures"]) {
     if (measure["id"] != "heel_breadth") continue;
     EXPECT_NE(measure["definition"].get<std::string>().find("40 mm"), std::string::npos);
+  }
+}
+
+TEST_F(ChosenRules, OfUnsoundSettingsAreNotPassedOver) {
+  for (const auto* settings :
+       {"[measures]\naxis = \"brannok\"\n",
+        "[measures]\naxis = \"brannock\"\n[capture]\nwarmup_frames = -1\n"}) {
+    const auto run = measure(settings, {});
+    EXPECT_EQ(run.exit_code, 1) << settings;
+    EXPECT_TRUE(run.output.empty()) << run.output;
+    EXPECT_NE(run.errors.find("instep.toml"), std::string::npos) << run.errors;
   }
 }
 

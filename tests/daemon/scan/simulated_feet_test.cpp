@@ -72,9 +72,12 @@ TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
   PipelineSettings settings;
   settings.measures.axis = AxisRule::kMedialTangent;
   settings.measures.ball_girth = BallGirthRule::kShortest;
-  const auto records = measure_capture(capture_of(*station), settings, {});
+  Capture capture = capture_of(*station);
+  capture.truth["ball_girth"] = 250.0;
+  const auto records = measure_capture(capture, settings, {});
   ASSERT_TRUE(records) << records.error().line();
   EXPECT_EQ(records->front().foot.rules, settings.measures);
+  EXPECT_TRUE(records->front().truth.empty()) << "a truth by other definitions";
   const auto& measures = records->front().measures;
   EXPECT_NE(measures.find("foot_length")->definition.find("brannock"), std::string::npos);
   EXPECT_NE(measures.find("ball_girth")->definition.find("shortest"), std::string::npos);
