@@ -19,7 +19,7 @@ struct GpioOutputSettings {
 
 /// What the station shows and lights by GPIO lines, each of them if it is there: the tables
 /// [lamp.ready], [lamp.busy], [lamp.fault] and [projector]. A station with one lamp has it at
-/// lamp.ready: it is lit whenever the pedal would start a scan.
+/// lamp.ready: it is lit while the pedal starts a scan and nothing is wrong.
 struct OutputSettings {
   std::optional<GpioOutputSettings> ready_lamp;
   std::optional<GpioOutputSettings> busy_lamp;
