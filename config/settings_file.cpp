@@ -231,9 +231,11 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   Table root(toml, "", faults);
   section(root, "station", faults, [&](Table& table) { read_station(table, settings.station); });
   section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
+  const auto faults_before_pedal = faults.count();
   section(root, "pedal", faults,
           [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
-  const bool gpio_pedal = settings.pedal.kind == PedalKind::kGpio;
+  const bool gpio_pedal =
+      settings.pedal.kind == PedalKind::kGpio && faults.count() == faults_before_pedal;
   read_outputs(root, settings.outputs, gpio_pedal ? &settings.pedal.gpio.place : nullptr, faults);
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });

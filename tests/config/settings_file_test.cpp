@@ -230,6 +230,14 @@ TEST(SettingsFile, TellsWhatStandsBesideNumbersThatNoComputerHolds) {
                           HasSubstr(":12: no number can be as large, or as small, as 1844674407")));
 }
 
+TEST(SettingsFile, MistakesNoFaultyPedalForALampOnItsLine) {
+  EXPECT_THAT(read("[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nline = \"a\"\nchip = 3\n"
+                   "[lamp.ready]\nline = \"a\"\nchip = \"other\"\n" +
+                   std::string(kCamera))
+                  .faults,
+              ElementsAre(HasSubstr(":5: pedal.gpio.chip must be text")));
+}
+
 TEST(SettingsFile, TellsTheLimitsOfANumberAsItIsWritten) {
   const std::string whole = ": whole numbers go from -9223372036854775808 to 9223372036854775807";
   const std::string fraction =
