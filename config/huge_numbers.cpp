@@ -1,71 +1,67 @@
 #include "config/huge_numbers.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
-#include <system_error>
+#include <cctype>
+#include <string_view>
 
 namespace instep {
 namespace {
 
-/// The line's place in the text, without its end; empty at the text's end if there is no such line.
-std::pair<std::size_t, std::size_t> place_of(const std::string& text, unsigned line) {
-  std::size_t begin = 0;
-  for (unsigned before = 1; before < line && begin != std::string::npos; ++before) {
-    begin = text.find('\n', begin);
-    if (begin != std::string::npos) ++begin;
+bool is_of_a_number(char letter) {
+  return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+         std::string_view("+-._").find(letter) != std::string_view::npos;
+}
+
+/// The byte at a place; the text's end if there is no such place.
+std::size_t byte_at(const std::string& text, TomlPlace place) {
+  std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0;  // a byte order mark is no character
+  for (unsigned line = 1; line < place.line && at < text.size(); ++line) {
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
   }
-  begin = std::min(begin, text.size());
-  return {begin, std::min(text.find('\n', begin), text.size())};
-}
-
-template <typename Number>
-bool overflows(const std::string& digits) {
-  Number number{};
-  return std::from_chars(digits.data(), digits.data() + digits.size(), number).ec ==
-         std::errc::result_out_of_range;
-}
-
-/// Of a number as TOML writes it, from its first digit on.
-bool is_huge(std::string number) {
-  number.erase(std::remove(number.begin(), number.end(), '_'), number.end());
-  const bool is_whole = number.find_first_of(".eE") == std::string::npos;
-  return is_whole ? overflows<std::int64_t>(number) : overflows<double>(number);
-}
-
-std::size_t end_of_number(const std::string& text, std::size_t begin) {
-  std::size_t end = begin;
-  while (end < text.size()) {
-    const bool sign = text[end] == '+' || text[end] == '-';
-    const bool in_exponent = end > begin && (text[end - 1] == 'e' || text[end - 1] == 'E');
-    if (sign ? !in_exponent
-             : std::string_view("0123456789_.eE").find(text[end]) == std::string::npos)
-      break;
-    ++end;
+  for (unsigned column = 1; column < place.column && at < text.size(); ++column) {
+    ++at;
+    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) ++at;
   }
-  return end;
+  return at;
+}
+
+bool is_whole(const std::string& number) {
+  const std::size_t prefix = number.find_first_of("xob");
+  return prefix != std::string::npos || number.find_first_of(".eE") == std::string::npos;
+}
+
+/// The parser has checked the form of a number before it says any of these.
+bool tells_of_a_huge_number(const std::string& fault) {
+  return fault.find("is not representable in 64 bits") != std::string::npos ||
+         (fault.find("floating-point") != std::string::npos &&
+          fault.find("could not be interpreted as a value") != std::string::npos);
+}
+
+/// Longer than the parser looks, which stays at its begin.
+bool tells_of_an_endless_number(const std::string& fault) {
+  return fault.find("numeric value too long") != std::string::npos;
 }
 
 }  // namespace
 
-std::vector<std::string> take_out_huge_numbers(std::string& text, unsigned line) {
-  std::vector<std::string> huge;
-  const auto [line_begin, line_end] = place_of(text, line);
-  const std::string before = text.substr(line_begin, line_end - line_begin);
-  std::string after;
-  for (std::size_t at = 0; at < before.size();) {
-    if (before[at] < '0' || before[at] > '9') {
-      after += before[at++];
-      continue;
-    }
-    const std::size_t end = end_of_number(before, at);
-    const std::string number = before.substr(at, end - at);
-    if (is_huge(number)) huge.push_back(number);
-    after += is_huge(number) ? "0" : number;
-    at = end;
-  }
-  text.replace(line_begin, line_end - line_begin, after);
-  return huge;
+std::optional<std::string> take_out_huge_number(std::string& text, TomlPlace place,
+                                                const std::string& fault) {
+  const bool is_endless = tells_of_an_endless_number(fault);
+  if (!is_endless && !tells_of_a_huge_number(fault)) return std::nullopt;
+  // The parser stands behind the number when it gives up.
+  std::size_t begin = byte_at(text, place);
+  std::size_t end = begin;
+  while (is_endless && end < text.size() && is_of_a_number(text[end])) ++end;
+  while (!is_endless && begin > 0 && is_of_a_number(text[begin - 1])) --begin;
+  if (begin == end) return std::nullopt;
+  const std::string number = text.substr(begin, end - begin);
+  text.replace(begin, end - begin, 1, '0');
+  return number;
+}
+
+std::string limits_of(const std::string& number) {
+  return is_whole(number) ? "whole numbers go from -9223372036854775808 to 9223372036854775807"
+                          : "numbers go from -1.7976931348623157e308 to 1.7976931348623157e308";
 }
 
 }  // namespace instep

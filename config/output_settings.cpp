@@ -12,8 +12,8 @@ namespace {
 /// A line that a table names.
 struct Claim {
   std::string table;
-  unsigned line = 0;  ///< of the table in the file
   const GpioPlace* place = nullptr;
+  unsigned line = 0;  ///< of the table in the file; the first claim's is never blamed
 };
 
 void read_output(SettingsTable& parent, const std::string& key,
@@ -27,7 +27,7 @@ void read_output(SettingsTable& parent, const std::string& key,
   require_gpio_place(table, faults);
   table.choose("active", output->active_low, {{"low", true}, {"high", false}});
   table.finish();
-  claims.push_back({table.name(), table.line(), &output->place});
+  claims.push_back({table.name(), &output->place, table.line()});
 }
 
 void check_lines_differ(const std::vector<Claim>& claims, SettingsFaults& faults) {
@@ -59,7 +59,7 @@ void read_outputs(SettingsTable& root, OutputSettings& outputs, const GpioPlace*
                   SettingsFaults& faults) {
   const auto faults_before = faults.count();
   std::vector<Claim> claims;
-  if (pedal != nullptr) claims.push_back({"pedal.gpio", 1, pedal});
+  if (pedal != nullptr) claims.push_back({"pedal.gpio", pedal});
   if (const toml::table* found = root.table("lamp")) {
     SettingsTable lamp(*found, "lamp", faults);
     read_output(lamp, "ready", outputs.ready_lamp, claims, faults);

@@ -37,8 +37,8 @@ struct OutputSettings {
   std::vector<Named> named() const;
 };
 
-/// Reads the tables of `root`, and leaves a fault where one of them, or `pedal` (may be null),
-/// names the line of another.
+/// Reads the tables of `root`, and leaves a fault where one of them, or `pedal` (null if there
+/// is none without a fault), names the line of another.
 void read_outputs(SettingsTable& root, OutputSettings& outputs, const GpioPlace* pedal,
                   SettingsFaults& faults);
 

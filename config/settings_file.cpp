@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <system_error>
 
 #include "config/distinct_cameras.h"
@@ -230,9 +231,11 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   Table root(toml, "", faults);
   section(root, "station", faults, [&](Table& table) { read_station(table, settings.station); });
   section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
+  const auto faults_before_pedal = faults.count();
   section(root, "pedal", faults,
           [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
-  const bool gpio_pedal = settings.pedal.kind == PedalKind::kGpio;
+  const bool gpio_pedal =
+      settings.pedal.kind == PedalKind::kGpio && faults.count() == faults_before_pedal;
   read_outputs(root, settings.outputs, gpio_pedal ? &settings.pedal.gpio.place : nullptr, faults);
   section(root, "simulation", faults,
           [&](Table& table) { read_simulation(table, settings.simulation, base); });
@@ -247,23 +250,30 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
   root.finish();
 }
 
-/// False if it has to be read once more, without numbers that hid the rest.
+std::string shortened(const std::string& number) {
+  constexpr std::size_t kMost = 60;
+  return number.size() <= kMost ? number : number.substr(0, kMost) + "...";
+}
+
+/// False if it has to be read once more, without a number that hid the rest: a 0 is in its place,
+/// in one of the lines `with_zeros`.
 bool read_once(std::string& text, const std::filesystem::path& file, Settings& settings,
-               SettingsFaults& faults) {
+               SettingsFaults& faults, std::set<unsigned>& with_zeros) {
   try {
     const toml::table toml = toml::parse(text, file.string());
+    // What is wrong with a 0 is no fault of the file.
+    for (const unsigned line : with_zeros) faults.pass_over(line);
     read_all(toml, file.parent_path(), settings, faults);
   } catch (const toml::parse_error& error) {
-    const unsigned line = error.source().begin.line;
-    const auto huge = take_out_huge_numbers(text, line);
-    for (const auto& number : huge) {
-      faults.add(line, "no number can be as large, or as small, as " + number);
-    }
-    if (!huge.empty()) {
-      faults.pass_over(line);  // what is wrong with the 0 in its place
+    const auto [line, column] = error.source().begin;
+    const std::string fault(error.description());
+    if (const auto number = take_out_huge_number(text, {line, column}, fault)) {
+      faults.add(line, "no number can be as large, or as small, as " + shortened(*number) + ": " +
+                           limits_of(*number));
+      with_zeros.insert(line);
       return false;
     }
-    faults.add(line, std::string(error.description()) + ": write TOML, such as name = \"Bern\"");
+    faults.add(line, fault + ": write TOML, such as name = \"Bern\"");
   }
   return true;
 }
@@ -274,9 +284,10 @@ SettingsReading read_settings(std::string_view text, const std::filesystem::path
   SettingsReading reading;
   SettingsFaults faults(file.string());
   std::string readable(text);
+  std::set<unsigned> with_zeros;
   constexpr int kMostReadings = 32;  // beyond these, enough has been said
   for (int i = 0; i < kMostReadings; ++i) {
-    if (read_once(readable, file, reading.settings, faults)) break;
+    if (read_once(readable, file, reading.settings, faults, with_zeros)) break;
   }
   reading.faults = faults.in_order();
   return reading;

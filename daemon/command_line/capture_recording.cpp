@@ -71,7 +71,10 @@ Result<Recording> capture_recording(const std::vector<std::unique_ptr<DepthCamer
     if (length.frames_per_camera) {
       done = std::max(done, (round + 1.0) / static_cast<double>(*length.frames_per_camera));
     }
-    progress(std::min(done, 1.0));
+    if (!progress(std::min(done, 1.0))) {
+      return fail(ErrorCode::kCancelled, "the recording was stopped, nothing of it is kept",
+                  "record again when you are ready");
+    }
   }
   Recording recording = writer->recording();
   if (auto good = writer->finish(); !good) return tl::make_unexpected(good.error());

@@ -19,14 +19,16 @@ struct RecordingLength {
   std::optional<std::chrono::milliseconds> time;  ///< of the cameras' own clocks
 };
 
-/// Told after each round of the cameras how much of the length is done, from 0 to 1.
-using RecordingProgress = std::function<void(double done)>;
+/// Told after each round of the cameras how much of the length is done, from 0 to 1. False: it is
+/// no longer wanted.
+using RecordingProgress = std::function<bool(double done)>;
 
 /// Takes good frames from all cameras in turn and writes them as a recording, whole or not at all.
 /// `header` gives platform, truth and notes; its cameras are those given. Each camera's times are
 /// counted from its first frame, since cameras share no clock. Frames that are not good are left
-/// out. Fails with what a camera says (a camera that gives nothing for 2 s fails with kTimeout) or
-/// what RecordingWriter says; the cameras are stopped in any case.
+/// out. Fails with kCancelled if it is no longer wanted, with what a camera says (a camera that
+/// gives nothing for 2 s fails with kTimeout) or what RecordingWriter says; the cameras are stopped
+/// in any case.
 Result<Recording> capture_recording(const std::vector<std::unique_ptr<DepthCamera>>& cameras,
                                     Recording header, const RecordingLength& length,
                                     const std::filesystem::path& folder,

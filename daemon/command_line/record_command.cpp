@@ -12,6 +12,7 @@
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/capture_recording.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/stop_request.h"
 #include "daemon/station/devices.h"
 
 namespace instep {
@@ -69,11 +70,14 @@ Result<void> run(const RecordCommand& command) {
     if (!truth) return tl::make_unexpected(truth.error());
     header.truth = std::move(*truth);
   }
+  const StopRequest stop;  // a killed program would leave the light on
   const auto light = light_of(settings->outputs);
   ProgressLine line;
-  const auto recording =
-      capture_recording(devices->cameras, header, length_of(command), command.folder,
-                        [&](double done) { line.show("recording", done); });
+  const auto recording = capture_recording(devices->cameras, header, length_of(command),
+                                           command.folder, [&](double done) {
+                                             line.show("recording", done);
+                                             return !stop.is_made();
+                                           });
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},
                      {"simulated", recording->simulated},

@@ -32,7 +32,7 @@ void TaskThread::run(const std::shared_ptr<Shared>& shared) {
   std::unique_lock lock(shared->mutex);
   while (true) {
     shared->changed.wait(lock, [&] { return shared->stopping || !shared->tasks.empty(); });
-    if (shared->stopping) break;
+    if (shared->tasks.empty()) break;
     {
       const Task task = std::move(shared->tasks.front());
       shared->tasks.pop_front();
@@ -59,14 +59,21 @@ void TaskThread::post(Task task) {
 bool TaskThread::stop(std::chrono::milliseconds limit) {
   if (!thread_.joinable()) return true;
   std::deque<Task> dropped;
-  bool ended = false;
-  {
-    std::unique_lock lock(shared_->mutex);
-    shared_->stopping = true;
-    dropped.swap(shared_->tasks);
-    shared_->changed.notify_all();
-    ended = shared_->changed.wait_for(lock, limit, [&] { return shared_->ended; });
-  }
+  std::unique_lock lock(shared_->mutex);
+  dropped.swap(shared_->tasks);
+  return leave(std::move(lock), limit);
+}
+
+bool TaskThread::finish(std::chrono::milliseconds limit) {
+  if (!thread_.joinable()) return true;
+  return leave(std::unique_lock(shared_->mutex), limit);
+}
+
+bool TaskThread::leave(std::unique_lock<std::mutex> lock, std::chrono::milliseconds limit) {
+  shared_->stopping = true;
+  shared_->changed.notify_all();
+  const bool ended = shared_->changed.wait_for(lock, limit, [&] { return shared_->ended; });
+  lock.unlock();
   if (ended) {
     thread_.join();
   } else {

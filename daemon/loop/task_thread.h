@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -33,12 +34,17 @@ class TaskThread {
   TaskThread(const TaskThread&) = delete;
   TaskThread& operator=(const TaskThread&) = delete;
 
-  /// Ignored after stop().
+  /// Ignored after stop() and finish().
   void post(Task task);
 
   /// Drops waiting tasks and waits for the running one. False if it did not end within the limit;
   /// the thread is then abandoned.
   bool stop(std::chrono::milliseconds limit);
+
+  /// Takes no more tasks and waits for those it has. False if they did not end within the limit;
+  /// the thread is then abandoned with them, and does them yet if it can. No call but the
+  /// destructor may follow.
+  bool finish(std::chrono::milliseconds limit);
 
   /// A task runs or waits.
   bool is_busy() const;
@@ -47,6 +53,8 @@ class TaskThread {
  private:
   struct Shared;
   static void run(const std::shared_ptr<Shared>& shared);
+  /// Waits until the thread ends, and gives it up at the limit.
+  bool leave(std::unique_lock<std::mutex> lock, std::chrono::milliseconds limit);
 
   std::shared_ptr<Shared> shared_;
   std::thread thread_;

@@ -1,5 +1,6 @@
 #include "daemon/station/output_keeper.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace instep {
@@ -21,22 +22,38 @@ std::optional<ErrorCode> cause_of(const std::optional<Error>& trouble) {
   return trouble->code == ErrorCode::kDeviceGone ? ErrorCode::kNotFound : trouble->code;
 }
 
+Error silent() {
+  return {ErrorCode::kTimeout, Remedy::kOperator, "it does not answer",
+          "unplug its board and plug it in again"};
+}
+
 }  // namespace
 
-OutputKeeper::OutputKeeper(EventLoop& loop, Open open, std::function<void()> on_change,
-                           std::chrono::milliseconds refresh)
+OutputKeeper::OutputKeeper(EventLoop& loop, const std::string& name, Open open,
+                           std::function<void()> on_change, const Pace& pace)
     : loop_(loop),
       open_(std::move(open)),
       on_change_(std::move(on_change)),
-      refresh_(refresh),
-      line_(std::make_shared<std::unique_ptr<OutputLine>>()) {
+      pace_(pace),
+      line_(std::make_shared<std::unique_ptr<OutputLine>>()),
+      thread_(name) {
   refresh_timer_ = loop_.timer([this] { write(); });
+  patience_timer_ = loop_.timer([this] { note(silent()); });
   write();
 }
 
 OutputKeeper::~OutputKeeper() {
-  // With the last task that holds it the line goes, which puts it off.
-  thread_.stop(kLastMoment);
+  put_off();
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(*last_moment_ -
+                                                                 std::chrono::steady_clock::now());
+  thread_.finish(std::max(left, std::chrono::milliseconds(1)));
+}
+
+void OutputKeeper::put_off() {
+  if (last_moment_) return;
+  last_moment_ = std::chrono::steady_clock::now() + kLastMoment;
+  // The line's end puts it off, which may hang as any call of it.
+  thread_.post([line = line_](TaskProgress&) { line->reset(); });
 }
 
 void OutputKeeper::set(bool on) {
@@ -48,6 +65,7 @@ void OutputKeeper::set(bool on) {
 void OutputKeeper::write() {
   writing_ = true;
   refresh_timer_.clear();
+  patience_timer_.set(pace_.patience);
   thread_.post(
       [this, line = line_, open = open_, on = wanted_, post = loop_.poster()](TaskProgress&) {
         const auto outcome = write_to(*line, open, on);
@@ -58,10 +76,15 @@ void OutputKeeper::write() {
 
 void OutputKeeper::written(bool on, const std::optional<Error>& trouble) {
   writing_ = false;
-  wanted_ == on ? refresh_timer_.set(refresh_) : write();
-  if (cause_of(trouble) == cause_of(trouble_)) return;
+  patience_timer_.clear();
+  wanted_ == on ? refresh_timer_.set(pace_.refresh) : write();
+  note(trouble);
+}
+
+void OutputKeeper::note(const std::optional<Error>& trouble) {
+  const bool is_news = cause_of(trouble) != cause_of(trouble_);
   trouble_ = trouble;
-  on_change_();
+  if (is_news) on_change_();
 }
 
 }  // namespace instep

@@ -24,18 +24,22 @@ bool is_fault(StationState state) {
 
 StationSignals::StationSignals(EventLoop& loop, const OutputSettings& outputs, const Open& open,
                                const std::function<void()>& on_change,
-                               std::chrono::milliseconds refresh) {
+                               const OutputKeeper::Pace& pace) {
   const auto add = [&](const char* name, const std::optional<GpioOutputSettings>& output,
                        bool (*is_on)(StationState)) {
     if (!output) return;
     const auto open_it = [open, chosen = *output] { return open(chosen); };
     signals_.push_back(
-        {name, is_on, std::make_unique<OutputKeeper>(loop, open_it, on_change, refresh)});
+        {name, is_on, std::make_unique<OutputKeeper>(loop, name, open_it, on_change, pace)});
   };
   add("lamp.ready", outputs.ready_lamp, is_ready);
   add("lamp.busy", outputs.busy_lamp, is_busy);
   add("lamp.fault", outputs.fault_lamp, is_fault);
   add("projector", outputs.projector, is_capturing);
+}
+
+StationSignals::~StationSignals() {
+  for (const auto& signal : signals_) signal.keeper->put_off();
 }
 
 void StationSignals::show(StationState state) {

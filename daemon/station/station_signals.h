@@ -28,8 +28,11 @@ class StationSignals {
 
   /// `on_change`: status() tells of another trouble. The loop and the keepers: as OutputKeeper.
   StationSignals(EventLoop& loop, const OutputSettings& outputs, const Open& open,
-                 const std::function<void()>& on_change,
-                 std::chrono::milliseconds refresh = OutputKeeper::kRefresh);
+                 const std::function<void()>& on_change, const OutputKeeper::Pace& pace = {});
+  /// Puts all off at once, so that OutputKeeper::kLastMoment holds for all together.
+  ~StationSignals();
+  StationSignals(const StationSignals&) = delete;
+  StationSignals& operator=(const StationSignals&) = delete;
 
   void show(StationState state);
   std::vector<OutputStatus> status() const;

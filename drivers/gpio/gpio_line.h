@@ -39,7 +39,7 @@ class GpioLine {
   /// Fails with kBusy if somebody uses it, and names him. Takes nothing.
   Result<void> check_free() const;
 
-  /// Why requesting it failed just now (errno): kBusy names who holds it.
+  /// Why requesting or setting it failed just now (errno): kBusy names who holds it.
   Error request_failure(int reason) const;
 
  private:

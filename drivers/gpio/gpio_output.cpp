@@ -24,6 +24,9 @@ GpioOutput::~GpioOutput() {
 
 Result<void> GpioOutput::set(bool on) {
   if (gpiod_line_set_value(line_.get(), on ? 1 : 0) == 0) return {};
+  if (const int reason = errno; reason != ENODEV) {
+    return tl::make_unexpected(line_.request_failure(reason));
+  }
   return fail(ErrorCode::kDeviceGone, "the GPIO chip of an output left", "plug its board in again");
 }
 

@@ -13,6 +13,7 @@
 namespace instep {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -220,13 +221,59 @@ TEST(SettingsFile, TellsWhatStandsBesideNumbersThatNoComputerHolds) {
       std::string(kCamera) + "station_from_camera = [ 1e+999, 1, 18446744073709551616 ]\n");
   EXPECT_THAT(reading.faults,
               ElementsAre(HasSubstr(":2: no number can be as large, or as small, as 9999999999"),
-                          HasSubstr(":4: no number can be as large, or as small, as 1e400"),
+                          HasSubstr(":4: no number can be as large, or as small, as -1e400"),
                           HasSubstr(":5: station.point_spacing_mm = 10.5 is outside"),
                           HasSubstr(":6: station.refine_views must be true or false"),
                           HasSubstr(":8: pedal.debounce_ms = 1 is outside"),
                           HasSubstr(":9: no number can be as large, or as small, as 9_223"),
                           HasSubstr(":12: no number can be as large, or as small, as 1e+999"),
                           HasSubstr(":12: no number can be as large, or as small, as 1844674407")));
+}
+
+TEST(SettingsFile, MistakesNoFaultyPedalForALampOnItsLine) {
+  EXPECT_THAT(read("[pedal]\nkind = \"gpio\"\n[pedal.gpio]\nline = \"a\"\nchip = 3\n"
+                   "[lamp.ready]\nline = \"a\"\nchip = \"other\"\n" +
+                   std::string(kCamera))
+                  .faults,
+              ElementsAre(HasSubstr(":5: pedal.gpio.chip must be text")));
+}
+
+TEST(SettingsFile, TellsTheLimitsOfANumberAsItIsWritten) {
+  const std::string whole = ": whole numbers go from -9223372036854775808 to 9223372036854775807";
+  const std::string fraction =
+      ": numbers go from -1.7976931348623157e308 to 1.7976931348623157e308";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"-9223372036854775809", whole},   {"+99999999999999999999", whole},
+      {"0xFFFFFFFFFFFFFFFF", whole},     {"0o7777777777777777777777", whole},
+      {"0b" + std::string(64, '1'), ""}, {"-1e400", fraction},
+      {"1_0.5e9_99", fraction},          {std::string(500, '9'), ""}};
+  for (const auto& [number, limits] : cases) {
+    for (const std::string end : {"", "\n", "\r\n", " # 0xFFFFFFFFFFFFFFFFFFFF\n"}) {
+      EXPECT_THAT(read("[capture]\nframes_per_camera = " + number + end).faults,
+                  testing::Contains(HasSubstr(":2: no number can be as large, or as small, as " +
+                                              number.substr(0, 60) + limits)))
+          << number << end;
+    }
+  }
+  for (const char* number : {"9223372036854775807", "-9223372036854775808"}) {
+    EXPECT_THAT(read(kCamera + ("[capture]\nframes_per_camera = " + std::string(number))).faults,
+                ElementsAre(HasSubstr("outside 1 to 120")));
+  }
+}
+
+TEST(SettingsFile, BlamesNoTextForANumberThatIsTooLarge) {
+  const std::string name = "[station]\nname = \"99999999999999999999\"";
+  EXPECT_TRUE(read(name + " # 1e999\n" + kCamera).good());
+  EXPECT_THAT(read(name + " junk\n").faults,
+              ElementsAre(AllOf(HasSubstr(":2: "), HasSubstr("saw 'j'"))));
+  EXPECT_THAT(read("[station]\n99999999999999999999 = 1979-13-99 # 1e999\n").faults,
+              ElementsAre(AllOf(HasSubstr(":2: "), HasSubstr("write TOML"))));
+  // Both faults of a line; a text of two bytes a letter, and a byte order mark, before the number.
+  EXPECT_THAT(read("\xef\xbb\xbf"
+                   "name = [\"99999999999999999999 \xc3\xa4\", "
+                   "88888888888888888888] junk\n")
+                  .faults,
+              ElementsAre(HasSubstr("as small, as 88888888888888888888: "), HasSubstr("saw 'j'")));
 }
 
 TEST(SettingsFile, SaysNoMoreThanOnceThatANumberIsTooLarge) {

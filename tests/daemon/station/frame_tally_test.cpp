@@ -37,7 +37,10 @@ TEST(FrameTally, TellsTheFirstOfWhatIsWrong) {
   frame.status = FrameStatus::kCorrupt;
   frame.raw.clear();
   EXPECT_EQ(tally.count(frame), FrameFault::kErrorFlagged);
-  EXPECT_EQ(tally.counts().damaged(), 4U);
+  EXPECT_EQ(tally.counts().short_of_pixels, 2U);
+  EXPECT_EQ(tally.counts().stale, 1U);
+  EXPECT_EQ(tally.counts().error_flagged, 1U);
+  EXPECT_EQ(tally.counts().empty, 0U);
   EXPECT_EQ(tally.counts().good, 0U);
 }
 

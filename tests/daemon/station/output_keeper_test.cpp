@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
 #include <thread>
 #include <vector>
@@ -15,21 +16,24 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kOften = 5ms;
+constexpr OutputKeeper::Pace kPatient{kOften, 1h};
 
 class OutputKeeperTest : public testing::Test {
  protected:
-  OutputKeeperTest() {
-    thread_.call([this] {
-      keeper_.emplace(
-          thread_.loop(), [this] { return board_.open("lamp"); },
-          [this] { said_.push_back(trouble()); }, kOften);
-    });
-  }
   ~OutputKeeperTest() override {
     board_.let_go();
     thread_.stop();
   }
 
+  void keep(const OutputKeeper::Pace& pace) {
+    keep(pace, [this] { return board_.open("lamp"); });
+  }
+  void keep(const OutputKeeper::Pace& pace, const OutputKeeper::Open& open) {
+    thread_.call([&] {
+      keeper_.emplace(
+          thread_.loop(), "lamp", open, [this] { said_.push_back(trouble()); }, pace);
+    });
+  }
   void set(bool on) {
     thread_.call([&] { keeper_->set(on); });
   }
@@ -45,6 +49,7 @@ class OutputKeeperTest : public testing::Test {
 };
 
 TEST_F(OutputKeeperTest, DoesTheLastWishAndPutsTheLineOffAtItsEnd) {
+  keep(kPatient);
   for (const bool on : {true, false, true}) set(on);
   ASSERT_TRUE(becomes(true));
   thread_.stop();
@@ -54,6 +59,7 @@ TEST_F(OutputKeeperTest, DoesTheLastWishAndPutsTheLineOffAtItsEnd) {
 }
 
 TEST_F(OutputKeeperTest, SaysOnceThatTheBoardLeftAndLightsTheLampWhenItIsBack) {
+  keep(kPatient);
   set(true);
   ASSERT_TRUE(becomes(true));
   for (int round = 0; round < 3; ++round) {
@@ -70,6 +76,7 @@ TEST_F(OutputKeeperTest, SaysOnceThatTheBoardLeftAndLightsTheLampWhenItIsBack) {
 
 // The loop goes on, and of what was wanted meanwhile only the last is done.
 TEST_F(OutputKeeperTest, HoldsNothingUpWhileTheBoardHangs) {
+  keep(kPatient);
   board_.hang();
   for (int i = 0; i < 101; ++i) set(i % 2 == 0);
   board_.let_go();
@@ -78,6 +85,7 @@ TEST_F(OutputKeeperTest, HoldsNothingUpWhileTheBoardHangs) {
 }
 
 TEST_F(OutputKeeperTest, GivesALineThatHangsUpAtItsEnd) {
+  keep(kPatient);
   set(true);
   ASSERT_TRUE(becomes(true));
   board_.hang();
@@ -91,6 +99,50 @@ TEST_F(OutputKeeperTest, GivesALineThatHangsUpAtItsEnd) {
   // Its thread, which is left behind, puts it off.
   EXPECT_TRUE(board_.wait_for_changes(2));
   EXPECT_FALSE(board_.is_on("lamp"));
+}
+
+// Nothing is under way when the board begins to hang: putting the line off is what hangs.
+TEST_F(OutputKeeperTest, GivesUpAtItsEndALineThatRestedWhenItsBoardBeganToHang) {
+  keep({1h, 1h});
+  set(true);
+  ASSERT_TRUE(becomes(true));
+  board_.hang();
+  thread_.stop();
+  const auto begin = std::chrono::steady_clock::now();
+  keeper_.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 1s);
+  board_.let_go();
+  EXPECT_TRUE(board_.wait_for_changes(2));
+  EXPECT_FALSE(board_.is_on("lamp"));
+}
+
+TEST_F(OutputKeeperTest, SaysThatTheBoardHangsAndThatItGoesOn) {
+  keep({kOften, 50ms});
+  set(true);
+  ASSERT_TRUE(becomes(true));
+  thread_.call([&] { said_.clear(); });
+  board_.hang();
+  ASSERT_TRUE(thread_.wait_until([&] { return !said_.empty(); }));
+  thread_.call([&] {
+    EXPECT_EQ(keeper_->trouble()->line(),
+              "it does not answer: unplug its board and plug it in again");
+  });
+  board_.let_go();
+  EXPECT_TRUE(thread_.wait_until([&] { return !keeper_->trouble(); }));
+  thread_.call([&] { EXPECT_EQ(said_.back(), ""); });
+}
+
+TEST_F(OutputKeeperTest, TellsTheLatestTroubleAndItsFirstAlone) {
+  std::atomic<int> chips = 1;
+  keep(kPatient, [&chips]() -> Result<std::unique_ptr<OutputLine>> {
+    return fail(ErrorCode::kNotFound, "none of " + std::to_string(chips), "plug it in");
+  });
+  ASSERT_TRUE(thread_.wait_until([&] { return trouble() == "none of 1"; }));
+  chips = 2;
+  EXPECT_TRUE(thread_.wait_until([&] { return trouble() == "none of 2"; }));
+  thread_.stop();
+  EXPECT_EQ(said_, std::vector<std::string>{"none of 1"});
+  keeper_.reset();  // before what it opens with
 }
 
 }  // namespace

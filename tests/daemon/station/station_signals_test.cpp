@@ -69,6 +69,19 @@ TEST_F(StationSignalsTest, ShowTheStateAndLightTheCaptureAlone) {
   EXPECT_EQ(lit(), Lit());
 }
 
+TEST_F(StationSignalsTest, GiveABoardThatHangsUpAllAtOnce) {
+  open({line("lamp.ready"), line("lamp.busy"), line("lamp.fault"), line("projector")});
+  ASSERT_TRUE(shows(StationState::kCapturing, {"lamp.busy", "projector"}));
+  board_.hang();
+  thread_.stop();
+  const auto begin = std::chrono::steady_clock::now();
+  signals_.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, 3 * OutputKeeper::kLastMoment);
+  board_.let_go();
+  EXPECT_TRUE(board_.wait_for_changes(4));
+  EXPECT_EQ(lit(), std::set<std::string>());
+}
+
 TEST_F(StationSignalsTest, AreOnlyThoseThatTheSettingsName) {
   OutputSettings outputs;
   outputs.projector = line("projector");

@@ -18,8 +18,8 @@ using std::chrono::steady_clock;
 
 constexpr auto kLong = 40s;
 
-/// A station in front of real lines of the kernel: three lamps on one chip, the projector on
-/// another.
+/// A station in front of real lines of the kernel: three lamps and the projector, each on a
+/// chip of its own.
 class StationWithOutputs : public testing::Test {
  protected:
   void start() {
