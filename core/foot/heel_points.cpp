@@ -114,9 +114,10 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
   constexpr ReachPatch kOnSeenSkin{10.0, 12.0};
   constexpr ReachPatch kBesideGuess{8.0, 12.0};
   const Vector3d& origin = instep.position_mm;
-  const auto refined = outline.was_seen_below()
-                           ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
-                           : level_reach(outline.points(), origin, *point, kBesideGuess);
+  const auto refined =
+      outline.was_seen_below()
+          ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
+          : level_reach(outline.points(), origin, *point, kBesideGuess, ReachSort::kFurthest);
   return Landmark{refined.value_or(*point), 0.8,
                   "point of the heel's side view furthest from the instep point"};
 }
@@ -146,8 +147,9 @@ std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark
     return std::nullopt;
   }
   constexpr ReachPatch kWide{15.0, 10.0};
-  return Landmark{level_reach(outline.points(), origin, *point, kWide).value_or(*point), 0.7,
-                  "point of the back's side view nearest to the heel point"};
+  return Landmark{
+      level_reach(outline.points(), origin, *point, kWide, ReachSort::kNearest).value_or(*point),
+      0.7, "point of the back's side view nearest to the heel point"};
 }
 
 }  // namespace instep
