@@ -62,6 +62,15 @@ struct View {
     return seen;
   }
 
+  /// Whether a place is no further than the patch reaches.
+  bool holds(const Vector3d& place) const {
+    const Vector3d from = place - axis_place;
+    const double turn =
+        std::remainder(std::atan2(from.z(), from.x()) - angle, 2.0 * std::numbers::pi);
+    return std::abs(turn) * reach <= size.around_mm &&
+           std::abs(place.y() - across) <= size.across_mm;
+  }
+
   Vector3d place_of(const SeenPoint& point) const {
     const double turned = angle + point.around * size.around_mm / reach;
     const double away = reach + point.reach;
@@ -219,6 +228,9 @@ template <typename Finder>
 std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Vector3d& axis_place,
                                    const Vector3d& start, const ReachPatch& patch,
                                    const Finder& find) {
+  const View beginning(axis_place, start, patch);
+  const bool has_extent = patch.around_mm > 0.0 && patch.across_mm > 0.0 && beginning.reach > 0.0;
+  if (!has_extent) return std::nullopt;
   Vector3d place = start;
   for (int round = 0; round < kRounds; ++round) {
     const View view(axis_place, place, patch);
@@ -227,6 +239,7 @@ std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Ve
     const std::optional<SeenPoint> found = find(seen);
     if (!found) return std::nullopt;
     place = view.place_of(*found);
+    if (!beginning.holds(place)) return std::nullopt;
   }
   return place;
 }

@@ -6,7 +6,7 @@
 
 namespace instep {
 
-/// How much of the skin round a place is looked at, as half-widths.
+/// How much of the skin round a place is looked at, as half-widths > 0.
 struct ReachPatch {
   double around_mm = 0.0;  ///< on the way round the axis
   double across_mm = 0.0;  ///< along the axis
@@ -20,7 +20,8 @@ enum class ReachSort { kFurthest, kNearest };
 /// through `axis_place`.
 ///
 /// Seen round the axis such skin hardly rises or falls, so that few terms follow it over a wide
-/// patch, and the noise of many points averages out. Nothing where too few points are near, or
+/// patch, and the noise of many points averages out. The place is no further from `start` than the
+/// patch reaches. Nothing where too few points are near, where a half-width is not > 0, or
 /// where nothing in the patch is stationary in the way that is asked for.
 
 /// Where the skin is smooth: a cubic over the way round, a parabola across.

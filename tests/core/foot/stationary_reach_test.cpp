@@ -102,7 +102,7 @@ TEST(StationaryReach, FindsTheNearestPlaceOfAnAnkle) {
 std::vector<Vector3d> bent(double around, double across) {
   std::vector<Vector3d> points;
   for (double turn = -0.3; turn <= 0.3; turn += 0.01) {
-    for (double aside = -15.0; aside <= 15.0; aside += 1.0) {
+    for (double aside = -30.0; aside <= 30.0; aside += 1.0) {
       const double reach = 100.0 + around * turn * turn + across * aside * aside;
       points.push_back(kAxis + Vector3d(reach * std::cos(turn), aside, reach * std::sin(turn)));
     }
@@ -121,6 +121,27 @@ TEST(StationaryReach, TellsTheFurthestPlaceFromTheNearest) {
   EXPECT_TRUE(level_reach(round, kAxis, start, kPatch, ReachSort::kFurthest));
   EXPECT_TRUE(furthest_reach(round, kAxis, start, kPatch));
   EXPECT_FALSE(furthest_reach(bent(-150.0, 0.02), kAxis, start, kPatch));
+}
+
+TEST(StationaryReach, DoesNotWanderFurtherThanThePatchReaches) {
+  const auto round = bent(-150.0, -0.01);
+  const auto found = [&](double aside) {
+    const Vector3d start = kAxis + Vector3d(100.0 - 0.01 * aside * aside, aside, 0.0);
+    return furthest_reach(round, kAxis, start, kPatch);
+  };
+  ASSERT_TRUE(found(10.0));
+  EXPECT_NEAR(found(10.0)->y(), 0.0, 0.1);
+  EXPECT_FALSE(found(20.0));
+}
+
+TEST(StationaryReach, SaysNothingOverAPatchWithoutExtent) {
+  const auto round = bent(-150.0, -0.01);
+  const Vector3d start = kAxis + Vector3d(100.0, 0.0, 0.0);
+  for (const ReachPatch& patch : {ReachPatch{}, ReachPatch{12.0, 0.0}, ReachPatch{-12.0, 12.0}}) {
+    EXPECT_FALSE(furthest_reach(round, kAxis, start, patch));
+    EXPECT_FALSE(level_reach(round, kAxis, start, patch, ReachSort::kFurthest));
+  }
+  EXPECT_FALSE(furthest_reach(round, start, start, kPatch));
 }
 
 TEST(StationaryReach, SaysNothingWhereTheSkinIsNotStationary) {
