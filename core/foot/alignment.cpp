@@ -55,8 +55,8 @@ std::vector<std::string> doubts(const FootScan& foot) {
   return warnings;
 }
 
-/// Says so where the axis is not the one that was asked for.
-void keep_rule(FootScan& foot, AxisRule found) {
+/// Takes the axis that was found for the foot's own, and says so where another was asked for.
+void settle_for(FootScan& foot, AxisRule found) {
   if (foot.rules.axis == found) return;
   foot.warnings.push_back("the axis " + std::string(name_of(foot.rules.axis, kAxisRules)) +
                           " was not found: " + std::string(name_of(found, kAxisRules)) +
@@ -98,7 +98,7 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   take_axis(foot, axis, standing_from_input);
   foot.rules = options.rules;
   foot.warnings = doubts(foot);
-  keep_rule(foot, axis.rule);
+  settle_for(foot, axis.rule);
   if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
 }
@@ -143,13 +143,16 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   return found;
 }
 
-void realign(FootScan& foot) {
+bool realign(FootScan& foot) {
   const StandingPlane floor = floor_again(foot);
   const RigidTransform standing_from_cloud = floor.standing_from_input();
   OutlineAxis start;
   start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
   const auto standing = transformed(standing_from_cloud, foot.cloud).positions;
-  take_axis(foot, find_foot_axis(standing, start, foot.side, foot.rules.axis), standing_from_cloud);
+  const FootAxis axis = find_foot_axis(standing, start, foot.side, foot.rules.axis);
+  if (axis.rule != foot.rules.axis) return false;
+  take_axis(foot, axis, standing_from_cloud);
+  return true;
 }
 
 }  // namespace instep

@@ -37,7 +37,8 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
 
 /// Finds floor, axis and ends again on a foot that stands in its own frame already, as after points
 /// were taken away: moves its cloud into the new frame, adds the move to `foot_from_input`, and
-/// sets the three landmarks, all others gone. The side stays.
-void realign(FootScan& foot);
+/// sets the three landmarks, all others gone. The side stays. False, with the foot as it was, where
+/// the points do not show the axis of the foot's rules any more.
+[[nodiscard]] bool realign(FootScan& foot);
 
 }  // namespace instep

@@ -65,6 +65,10 @@ std::optional<double> along_heel(const Points& points, double length) {
 
 std::optional<double> along_medial_ruler(const Points& points, double length) {
   const BorderProfile medial = border(points, 1.0, kBorderSmoothingMm);
+  // Where the heel is raised the ruler would lie on the shank, and turn with the height.
+  for (const double share : {kHeelFromShare, kHeelToShare}) {
+    if (!medial.reach(share * length)) return std::nullopt;
+  }
   const auto heel = medial.furthest(0.05 * length, 0.35 * length);
   const auto ball = medial.furthest(0.60 * length, 0.80 * length);
   if (!heel || !ball) return std::nullopt;

@@ -71,7 +71,7 @@ Result<double> foot_breadth_horizontal(const Landmarks& landmarks) {
 }
 
 Result<double> heel_breadth(const Landmarks& landmarks) {
-  return extent_across(landmarks, "heel_medial", "heel_lateral");
+  return extent_across(landmarks, "heel_breadth_medial", "heel_breadth_lateral");
 }
 
 Result<double> ball_length(const Landmarks& landmarks) {

@@ -16,12 +16,12 @@ namespace instep {
 /// A point of anatomy found on the cloud.
 struct Landmark {
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< foot frame
-  double confidence = 0.0;                                ///< 0 (a guess) to 1
+  double confidence = 0.0;                                ///< 0 to 1; by proportion under 0.35
   std::string rule;                                       ///< how it was found, in a few words
   /// Within this of the true place with 95 % probability, as far as the points tell.
   std::optional<double> radius_mm = std::nullopt;
 
-  /// Nothing of it was seen on the cloud.
+  /// The points hardly tell where it is. Of `toe2_tip` FootScan::has_seen_toes() tells instead.
   bool is_placed_by_proportion() const { return confidence < 0.35; }
 };
 

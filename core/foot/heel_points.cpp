@@ -19,6 +19,7 @@ constexpr double kSmoothingMm = 9.0;
 constexpr double kStepMm = 0.5;
 constexpr double kHalfWidthShare = 0.12;  ///< beside the axis
 constexpr double kHeelSlope = 0.45;       ///< radians: from the instep point down to the heel
+constexpr double kHeelRangeShare = 0.1;   ///< to either side of the line that slopes so
 constexpr double kJunctionSlope = 0.62;   ///< radians: from the heel up to the junction
 constexpr double kLeastRise = 0.40;
 constexpr double kMostRise = 0.85;
@@ -104,20 +105,24 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
   const auto heel = side_view(outline, down, [&](const Vector3d& point) {
     return point.x() < 0.2 * length && point.z() < 0.2 * length;
   });
-  const double middle = Vector3d(-down.z(), 0.0, down.x()).dot(instep.position_mm);
-  const auto point =
-      best_place(heel, middle - 0.1 * length, middle + 0.1 * length,
-                 [&](const Vector3d& place) { return seen_from_side(place, instep.position_mm); });
+  const Vector3d along(-down.z(), 0.0, down.x());
+  const double middle = along.dot(instep.position_mm);
+  const double range = kHeelRangeShare * length;
+  const auto point = best_place(heel, middle - range, middle + range, [&](const Vector3d& place) {
+    return seen_from_side(place, instep.position_mm);
+  });
   if (!point) return std::nullopt;
   // The round edge of the sole begins about there. Where it was not seen, the place where the
   // points put for it begin is none to look for.
   constexpr ReachPatch kOnSeenSkin{10.0, 12.0};
   constexpr ReachPatch kBesideGuess{8.0, 12.0};
   const Vector3d& origin = instep.position_mm;
-  const auto refined = outline.was_seen_below()
-                           ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
-                           : level_reach(outline.points(), origin, *point, kBesideGuess);
-  return Landmark{refined.value_or(*point), 0.8,
+  const auto refined =
+      outline.was_seen_below()
+          ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
+          : level_reach(outline.points(), origin, *point, kBesideGuess, ReachSort::kFurthest);
+  const bool is_in_range = refined && std::abs(along.dot(*refined) - middle) <= range;
+  return Landmark{is_in_range ? *refined : *point, 0.8,
                   "point of the heel's side view furthest from the instep point"};
 }
 
@@ -142,11 +147,13 @@ std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark
         return -seen_from_side(place, origin);
       });
   constexpr double kMarginRad = 0.02;
-  if (!point || rise(*point) < kLeastRise || rise(*point) > highest_rise - kMarginRad) {
-    return std::nullopt;
-  }
+  const auto is_between_rays = [&](const Vector3d& place) {
+    return rise(place) >= kLeastRise && rise(place) <= highest_rise - kMarginRad;
+  };
+  if (!point || !is_between_rays(*point)) return std::nullopt;
   constexpr ReachPatch kWide{15.0, 10.0};
-  return Landmark{level_reach(outline.points(), origin, *point, kWide).value_or(*point), 0.7,
+  const auto refined = level_reach(outline.points(), origin, *point, kWide, ReachSort::kNearest);
+  return Landmark{refined && is_between_rays(*refined) ? *refined : *point, 0.7,
                   "point of the back's side view nearest to the heel point"};
 }
 

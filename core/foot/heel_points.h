@@ -12,12 +12,13 @@ namespace instep {
 /// Where along the axis the heel's breadth is taken. Nothing if no breadth is found at all.
 std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule);
 
-/// The outline's sides there.
+/// The outline's sides there: by HeelBreadthRule::kSixth the heel's medial and lateral point.
 std::optional<Landmark> find_heel_medial(const FootOutline& outline, HeelBreadthRule rule);
 std::optional<Landmark> find_heel_lateral(const FootOutline& outline, HeelBreadthRule rule);
 
 /// Where a tape comes round the heel: the point of the heel's side view furthest from the instep
-/// point. The distance is stationary there, so that a girth hardly feels where along the heel it
+/// point, within a tenth of the foot's length of the line that falls from there by 26 degrees. The
+/// distance is stationary there, so that a girth hardly feels where along the heel it
 /// was found.
 std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep);
 

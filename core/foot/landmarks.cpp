@@ -65,8 +65,11 @@ void mark_hindfoot(const FootOutline& outline, bool has_leg, HeelBreadthRule rul
   // Where there is no leg, as on a last, the heel stands so high that the outline misses its
   // breadth.
   if (has_leg) {
-    marking.add("heel_medial", find_heel_medial(outline, rule));
-    marking.add("heel_lateral", find_heel_lateral(outline, rule));
+    // Angles are counted from the heel's points, whatever its breadth is taken by.
+    marking.add("heel_medial", find_heel_medial(outline, HeelBreadthRule::kSixth));
+    marking.add("heel_lateral", find_heel_lateral(outline, HeelBreadthRule::kSixth));
+    marking.add("heel_breadth_medial", find_heel_medial(outline, rule));
+    marking.add("heel_breadth_lateral", find_heel_lateral(outline, rule));
     marking.add("medial_malleolus", find_medial_malleolus(outline));
   }
   const auto instep = marking.add("instep_point", find_instep_point(outline));

@@ -7,8 +7,9 @@ namespace instep {
 
 /// Adds to an aligned foot the points of anatomy that its measures hang on. Each carries the rule
 /// that found it and a confidence; where the shape gives no clear answer the point stands at the
-/// fraction of the foot's length (FL) that feet have on average, with confidence 0.3 and a warning
-/// that names it. The outline is what lies up to 25 mm above the floor.
+/// fraction of the foot's length (FL) that feet have on average, or close to it, with a confidence
+/// of 0.3 to 0.35 and a warning that names it. The outline is what lies up to 25 mm above the
+/// floor.
 ///
 /// | name                       | rule                                                          |
 /// |----------------------------|---------------------------------------------------------------|
@@ -25,7 +26,9 @@ namespace instep {
 /// |                            | the two above has the shortest tape; else 0.48 FL             |
 /// | `arch_point`               | highest place of the underside in 0.35-0.60 FL, a quarter of  |
 /// |                            | the breadth from the medial border                            |
-/// | `heel_medial`, `_lateral`  | the outline at FL / 6, or as FootScan::rules have it          |
+/// | `heel_medial`, `_lateral`  | the outline at FL / 6                                         |
+/// | `heel_breadth_medial`,     | the outline where FootScan::rules have the heel's breadth     |
+/// | `heel_breadth_lateral`     | taken                                                         |
 /// | `heel_point`               | point of the heel's side view furthest from the instep point  |
 /// | `junction`                 | point of the back's side view nearest to the heel point, where|
 /// |                            | leg and foot meet                                             |

@@ -85,7 +85,8 @@ const std::vector<LengthRule>& length_rules() {
       {"ball_height",
        ball_height,
        {"metatarsale_tibiale", "metatarsale_fibulare"},
-       "greatest height over the floor of the section of the ball girth",
+       "greatest height over the floor of the upright section over metatarsale tibiale and "
+       "fibulare",
        LengthRule::Kind::kLength,
        kFloorDoubtMm},
       {"arch_height",
@@ -170,7 +171,8 @@ std::vector<GirthRule> girth_rules(const FootScan& foot) {
       {"waist_girth",
        waist_tape,
        {"metatarsale_tibiale", "metatarsale_fibulare", "instep_point", "medial_arch"},
-       "stretched tape in the plane midway between those of the ball and the instep girth"},
+       "stretched tape in the plane midway between the upright one over metatarsale tibiale and "
+       "fibulare and the one over instep point, lateral midfoot and medial arch"},
       instep_rule(foot),
       {"short_heel_girth",
        short_heel_tape,

@@ -18,8 +18,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kUndersideShare = 0.08;  ///< of the length: an arch may be so high
-constexpr double kWallHeightMm = 64.0;
-constexpr double kMiddleMm = 20.0;  ///< height over the floor that lies within the foot
+constexpr double kLowMm = 64.0;           ///< what stands higher says nothing of the ground below
+constexpr double kMiddleMm = 20.0;        ///< height over the floor that lies within the foot
 constexpr double kCellMm = 8.0;
 constexpr std::size_t kNeighbours = 14;
 
@@ -58,7 +58,7 @@ bool is_sole_open(const FootScan& foot) {
   std::map<Cell, bool> ground;
   std::map<long, std::pair<long, long>> rows;
   for (const auto& point : foot.cloud.positions) {
-    if (point.z() > kWallHeightMm) continue;
+    if (point.z() > kLowMm) continue;
     const Cell cell = cell_of(point);
     auto& is_covered = ground[cell];
     is_covered = is_covered || point.z() < kUndersideShare * length_of(foot);
@@ -80,15 +80,18 @@ bool is_sole_open(const FootScan& foot) {
 }
 
 void close_open_sole(FootScan& foot) {
+  // As high as the lowest seen end of a wall may be, and as much above it as tells its bend.
+  const SoleSettings settings;
+  const double wall_height = settings.walls.highest_mm + settings.walls.bend_reach_mm;
   std::vector<std::size_t> low;
   for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
-    if (foot.cloud.positions[i].z() < kWallHeightMm) low.push_back(i);
+    if (foot.cloud.positions[i].z() < wall_height) low.push_back(i);
   }
   PointCloud walls = foot.cloud.subset(low);
   if (walls.size() < kNeighbours) return;
   if (!walls.has_normals()) walls.normals = wall_normals(walls.positions, length_of(foot));
   const std::size_t seen = walls.size();
-  close_sole(walls, 0.0);
+  close_sole(walls, 0.0, settings);
   std::vector<std::size_t> added;
   for (std::size_t i = seen; i < walls.size(); ++i) added.push_back(i);
   if (added.empty()) return;

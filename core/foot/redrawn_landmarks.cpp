@@ -37,6 +37,7 @@ std::uint64_t hash_of(const Vector3d& point) {
   return hash;
 }
 
+/// None where the axis is not found again.
 RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices) {
   FootScan part;
   part.side = foot.side;
@@ -44,7 +45,8 @@ RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>
   part.rules = foot.rules;
   part.cloud = foot.cloud.subset(indices);
   part.landmarks = foot.landmarks;
-  realign(part);
+  // Along another axis its landmarks would be those of another foot.
+  if (!realign(part)) return {};
   mark(part);
   return {std::move(part.landmarks), part.foot_from_input.inverse()};
 }

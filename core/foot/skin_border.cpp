@@ -220,6 +220,7 @@ Vector3d SkinBorder::position(const Place& place) const {
 
 std::optional<SkinBorder::Peak> SkinBorder::furthest(
     double from, double to, const std::function<double(double)>& handicap) const {
+  if (!(from <= to)) return std::nullopt;
   const auto weighed = [&](const Place& place) {
     return place.reach - (handicap ? handicap(place.along) : 0.0);
   };

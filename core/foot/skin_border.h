@@ -54,8 +54,9 @@ class SkinBorder {
     double rise = 0.0;  ///< above the higher end of the searched range; 0 at an end
   };
 
-  /// The furthest place in a range; nothing where the range holds no points. A `handicap` (mm, by
-  /// place) is taken off before comparing, so that among nearly equal places a likely one wins.
+  /// The furthest place in a range; nothing where the range holds no points, or ends before it
+  /// begins. A `handicap` (mm, by place) is taken off before comparing, so that among nearly equal
+  /// places a likely one wins.
   std::optional<Peak> furthest(double from, double to,
                                const std::function<double(double)>& handicap = {}) const;
 

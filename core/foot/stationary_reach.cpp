@@ -62,6 +62,15 @@ struct View {
     return seen;
   }
 
+  /// Whether a place is no further than the patch reaches.
+  bool holds(const Vector3d& place) const {
+    const Vector3d from = place - axis_place;
+    const double turn =
+        std::remainder(std::atan2(from.z(), from.x()) - angle, 2.0 * std::numbers::pi);
+    return std::abs(turn) * reach <= size.around_mm &&
+           std::abs(place.y() - across) <= size.across_mm;
+  }
+
   Vector3d place_of(const SeenPoint& point) const {
     const double turned = angle + point.around * size.around_mm / reach;
     const double away = reach + point.reach;
@@ -116,8 +125,13 @@ SmoothTerms smooth_terms(const SeenPoint& at) {
 
 using SmoothFit = Fit<8, decltype(&smooth_terms)>;
 
-/// Newton's way to where a smooth surface is level.
-std::optional<Vector2d> level_place(const SmoothTerms& c) {
+/// Second derivative of a smooth surface on the way round.
+double bend_around(const SmoothTerms& c, const Vector2d& place) {
+  return 2.0 * c(2) + 6.0 * c(3) * place.x();
+}
+
+/// Newton's way to where a smooth surface is level, and on the way round furthest or nearest.
+std::optional<Vector2d> level_place(const SmoothTerms& c, ReachSort sort) {
   constexpr int kSteps = 8;
   Vector2d place = Vector2d::Zero();
   for (int step = 0; step < kSteps; ++step) {
@@ -126,23 +140,25 @@ std::optional<Vector2d> level_place(const SmoothTerms& c) {
     const Vector2d slope(c(1) + 2.0 * c(2) * u + 3.0 * c(3) * u * u + c(6) * v + c(7) * v * v,
                          c(4) + 2.0 * c(5) * v + c(6) * u + 2.0 * c(7) * u * v);
     Eigen::Matrix2d bend;
-    bend << 2.0 * c(2) + 6.0 * c(3) * u, c(6) + 2.0 * c(7) * v, c(6) + 2.0 * c(7) * v,
+    bend << bend_around(c, place), c(6) + 2.0 * c(7) * v, c(6) + 2.0 * c(7) * v,
         2.0 * c(5) + 2.0 * c(7) * u;
     if (!(std::abs(bend.determinant()) > 1e-12)) return std::nullopt;
     place -= bend.inverse() * slope;
     if (!(place.cwiseAbs().maxCoeff() < 1.0)) return std::nullopt;
   }
-  return place;
+  const double bend = bend_around(c, place);
+  const bool is_wanted = sort == ReachSort::kFurthest ? bend < 0.0 : bend > 0.0;
+  return is_wanted ? std::optional(place) : std::nullopt;
 }
 
-std::optional<SeenPoint> level_point(const SeenPatch& patch) {
+std::optional<SeenPoint> level_point(const SeenPatch& patch, ReachSort sort) {
   const auto first = SmoothFit::to(patch, smooth_terms);
   if (!first) return std::nullopt;
   const auto kept = without_strays(
       patch, [&](const SeenPoint& point) { return first->terms.dot(smooth_terms(point)); });
   if (kept.size() < kFewestPoints) return std::nullopt;
   const auto fit = SmoothFit::to(kept, smooth_terms);
-  const auto level = fit ? level_place(fit->terms) : std::nullopt;
+  const auto level = fit ? level_place(fit->terms, sort) : std::nullopt;
   if (!level) return std::nullopt;
   SeenPoint point{level->x(), level->y(), 0.0};
   point.reach = fit->terms.dot(smooth_terms(point));
@@ -200,7 +216,8 @@ std::optional<SeenPoint> furthest_point(const SeenPatch& patch) {
   const auto edge = likeliest_edge(kept);
   if (!edge || std::abs(edge->row.place) > kMostAround - kSearchStep) return std::nullopt;
   const auto& terms = edge->fit.terms;
-  if (!(terms(4) < 0.0)) return std::nullopt;
+  const bool falls_off = terms(1) < 0.0 && terms(2) < 0.0 && terms(4) < 0.0;
+  if (!falls_off) return std::nullopt;
   const double across = std::clamp(-terms(3) / (2.0 * terms(4)), -1.0, 1.0);
   SeenPoint point{edge->row.place, across, 0.0};
   point.reach = (*edge)(point);
@@ -211,6 +228,9 @@ template <typename Finder>
 std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Vector3d& axis_place,
                                    const Vector3d& start, const ReachPatch& patch,
                                    const Finder& find) {
+  const View beginning(axis_place, start, patch);
+  const bool has_extent = patch.around_mm > 0.0 && patch.across_mm > 0.0 && beginning.reach > 0.0;
+  if (!has_extent) return std::nullopt;
   Vector3d place = start;
   for (int round = 0; round < kRounds; ++round) {
     const View view(axis_place, place, patch);
@@ -219,6 +239,7 @@ std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Ve
     const std::optional<SeenPoint> found = find(seen);
     if (!found) return std::nullopt;
     place = view.place_of(*found);
+    if (!beginning.holds(place)) return std::nullopt;
   }
   return place;
 }
@@ -226,8 +247,10 @@ std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Ve
 }  // namespace
 
 std::optional<Vector3d> level_reach(const std::vector<Vector3d>& points, const Vector3d& axis_place,
-                                    const Vector3d& start, const ReachPatch& patch) {
-  return found_from(points, axis_place, start, patch, level_point);
+                                    const Vector3d& start, const ReachPatch& patch,
+                                    ReachSort sort) {
+  return found_from(points, axis_place, start, patch,
+                    [sort](const SeenPatch& seen) { return level_point(seen, sort); });
 }
 
 std::optional<Vector3d> furthest_reach(const std::vector<Vector3d>& points,

@@ -10,12 +10,14 @@ namespace instep {
 /// is left. With 0 it is an arc; with 1, as flesh that is pressed on a floor, it bends most where
 /// it was last seen and settles gently; with more it comes down in a long slope.
 ///
-/// `turn`: angle, in radians above 0, between the skin's direction where it begins and the
-/// platform; `height` of that place. Corners as inward distance (from 0 on) and height (down to 0).
+/// `turn`: angle, in radians above 0 and at most pi/2, between the skin's direction where it begins
+/// and the platform; `height` of that place. Corners as inward distance (from 0 on) and height
+/// (down to 0).
 std::vector<Eigen::Vector2d> free_skin(double turn, double falloff, double height);
 
-/// The falloff, from 1 on, of the skin that begins with a bend (curvature times height). A skin
-/// that was seen to bend less must bend more below, and has 1.
+/// The falloff, 1 to 8, of the skin that begins with a bend (curvature times height). A skin that
+/// was seen to bend less than one of 1 does must bend more below, and has 1; one that was seen to
+/// bend more than one of 8 does has 8 (to within 0.02), and begins with a lesser bend than its own.
 double falloff_of_bend(double turn, double bend_of_height);
 
 }  // namespace instep

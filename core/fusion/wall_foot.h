@@ -19,10 +19,10 @@ struct WallSettings {
 
 /// The lower end of a wall as it was seen.
 struct WallShape {
-  double height = 0.0;       ///< over the platform, mm
-  double sine_of_dip = 0.0;  ///< of the angle of the normal below the horizon; cut to 0..0.95
-  double bend = 0.0;         ///< curvature on the way down, 1/mm; 0 for a straight wall
-  double most_inset_mm = 0.0;
+  double height = 0.0;         ///< over the platform, mm
+  double sine_of_dip = 0.0;    ///< of the angle of the normal below the horizon; cut to 0..0.95
+  double bend = 0.0;           ///< curvature on the way down, 1/mm; 0 for a straight wall
+  double most_inset_mm = 0.0;  ///< the contact lies no further inward; see WallFoot
 };
 
 /// The lowest seen piece of the wall of a foot, and how its skin is taken to go on, unseen, to the

@@ -104,6 +104,7 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
     solution = kriging.solve(kriging.level() / (kAllowance * likeliest) + kLeastSmoothing);
     if (!solution) return std::nullopt;
   }
+  if (!std::isfinite(patch.misfit_)) return std::nullopt;
   patch.roughness_ = likeliest / radius;
   patch.solution_ = std::move(*solution);
   patch.kriging_->forget_kernel();

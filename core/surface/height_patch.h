@@ -25,7 +25,8 @@ class HeightPatch {
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:
   /// of the neighbourhood round `centre`. `roughness` > 0: likely value, to within a factor of ten
   /// or so. More points than kMostHeightSamples are averaged over cells. Nothing if the points do
-  /// not determine a surface (fewer than four, all on one line). O(min(points, 64)^3 + points).
+  /// not determine a surface (fewer than four, all on one line) or tell nothing of its likelihood.
+  /// O(min(points, 64)^3 + points).
   static std::optional<HeightPatch> fit(const std::vector<OrientedPoint>& points,
                                         const Eigen::Vector3d& centre,
                                         const Eigen::Vector3d& outward, double radius,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -15,16 +16,16 @@ using Eigen::Vector3d;
 
 constexpr double kLength = 250.0;
 
-/// Walls round in height whose furthest places make a given border to either side, of a foot 250 mm
-/// long: all that the points of the ball are told from.
+/// Walls round in height whose furthest places make a given border to either side of a foot: all
+/// that the points of the ball are told from.
 FootOutline outline_with(const std::function<double(double)>& medial,
                          const std::function<double(double)>& lateral, double noise_mm,
-                         std::uint64_t seed) {
+                         std::uint64_t seed, double length = kLength) {
   test::RandomNumbers random(seed);
   FootScan foot;
   constexpr double kRoundMm = 12.0;
   for (int i = 0; i < 20000; ++i) {
-    const double x = random.uniform(0.0, kLength);
+    const double x = random.uniform(0.0, length);
     const double angle = random.uniform(-0.5, 0.5) * std::numbers::pi;
     const double in = kRoundMm * (1.0 - std::cos(angle)) - noise_mm * random.normal();
     const bool is_medial = random.uniform() < 0.5;
@@ -32,7 +33,7 @@ FootOutline outline_with(const std::function<double(double)>& medial,
                                       kRoundMm * (1.0 + std::sin(angle)));
   }
   foot.landmarks["pternion"].position_mm = Vector3d::Zero();
-  foot.landmarks["acropodion"].position_mm = Vector3d(kLength, 0.0, 10.0);
+  foot.landmarks["acropodion"].position_mm = Vector3d(length, 0.0, 10.0);
   return FootOutline(foot);
 }
 
@@ -85,6 +86,22 @@ TEST(BallPoints, DoNotJumpOnANearlyStraightBorder) {
     ASSERT_TRUE(fibulare);
     EXPECT_NEAR(fibulare->position_mm.x(), weighed(155.0, 0.004, 0.63 * kLength), 2.0) << seed;
   }
+}
+
+TEST(BallPoints, OfASmallChildKeepTheirDistance) {
+  // So short a foot has its tibiale less than 15 mm in front of where the search for the fibulare
+  // begins in longer ones.
+  constexpr double kShort = 120.0;
+  const auto knuckle = [](double place) {
+    return [=](double x) { return std::max(20.0, bulging(place, 0.3)(x)); };
+  };
+  const auto outline = outline_with(knuckle(66.0), knuckle(65.0), 0.0, 7, kShort);
+  const auto tibiale = find_metatarsale_tibiale(outline);
+  ASSERT_TRUE(tibiale);
+  ASSERT_LT(tibiale->position_mm.x(), 0.5 * kShort + 15.0);
+  const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
+  ASSERT_TRUE(fibulare);
+  EXPECT_NEAR(fibulare->position_mm.x(), tibiale->position_mm.x() - 15.0, 1e-6);
 }
 
 }  // namespace

@@ -162,6 +162,22 @@ TEST_F(RealFeet, AreToldFromLasts) {
   EXPECT_FALSE(is_shoe_last(measured(cloud("lab_left.ply", 1.0)).foot));
 }
 
+TEST_F(RealFeet, HaveBrannocksAxisAndRaisedHeelsHaveNot) {
+  AlignmentOptions options;
+  options.rules.axis = AxisRule::kMedialTangent;
+  for (const char* name : {"Uomo_STD_T25_43.ply", "Donna_STD_38_T30.ply"}) {
+    const auto last =
+        align_foot(test::read_shape(test::trial_data() / "lasts" / name).cloud, options);
+    ASSERT_TRUE(last) << name;
+    EXPECT_EQ(last->rules.axis, AxisRule::kSecondToe) << name;
+  }
+  for (const auto& points : {cloud("retail_left.stl", 1000.0), cloud("lab_left.ply", 1.0)}) {
+    const auto foot = align_foot(points, options);
+    ASSERT_TRUE(foot);
+    EXPECT_EQ(foot->rules.axis, AxisRule::kMedialTangent);
+  }
+}
+
 TEST_F(RealFeet, WithAClosedSoleAreMeasuredInAnyPose) {
   const auto points = cloud("retail_right.stl", 1000.0);
   const auto plain = measured(points);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "core/foot/alignment.h"
 #include "core/foot/foot_tapes.h"
@@ -172,6 +174,71 @@ TEST(HeelBreadthRule, TakesTheBreadthAtItsPlace) {
   EXPECT_NEAR(by(HeelBreadthRule::kSixth), breadth(kLength / 6.0), 0.5);
   EXPECT_NEAR(by(HeelBreadthRule::kFortyMm), breadth(40.0), 0.5);
   EXPECT_NEAR(by(HeelBreadthRule::kWidestFifth), widest, 0.5);
+}
+
+/// Value and definition of every measure but one.
+std::map<std::string, std::string> others_than(const std::string& id, const MeasuringRules& rules) {
+  std::map<std::string, std::string> others;
+  const auto set = measure_foot(measured_by(rules)).value();
+  for (const auto& measure : set.measures) {
+    if (measure.id == id) continue;
+    const double value = std::isnan(measure.value_mm) ? *measure.value_deg : measure.value_mm;
+    others[measure.id] = std::to_string(value) + " " + measure.definition;
+  }
+  return others;
+}
+
+TEST(MeasuringRules, LeaveMeasuresThatTheyDoNotNameAsTheyAre) {
+  MeasuringRules ball;
+  ball.ball_girth = BallGirthRule::kShortest;
+  EXPECT_EQ(others_than("ball_girth", ball), others_than("ball_girth", {}));
+  MeasuringRules instep;
+  instep.instep_girth = InstepGirthRule::kUpright;
+  EXPECT_EQ(others_than("instep_girth", instep), others_than("instep_girth", {}));
+  const auto by_sixth = others_than("heel_breadth", {});
+  EXPECT_TRUE(by_sixth.contains("toe1_angle") && by_sixth.contains("toe5_angle"));
+  for (const auto rule : {HeelBreadthRule::kFortyMm, HeelBreadthRule::kWidestFifth}) {
+    MeasuringRules heel;
+    heel.heel_breadth = rule;
+    EXPECT_EQ(others_than("heel_breadth", heel), by_sixth);
+  }
+}
+
+/// The heel lifted by 31 mm, as in a shoe: nothing of it is within 25 mm of the floor.
+PointCloud on_a_raised_heel() {
+  PointCloud cloud = FootBody{}.points();
+  for (auto& point : cloud.positions) {
+    point.z() += 0.2 * std::max(0.0, 0.6 * kLength - point.x());
+  }
+  return cloud;
+}
+
+TEST(AxisRule, GivesWayToTheSecondToesWithAWarning) {
+  for (const auto axis : {AxisRule::kMedialTangent, AxisRule::kHeelCentre}) {
+    AlignmentOptions options;
+    options.rules.axis = axis;
+    options.up = Eigen::Vector3d::UnitZ();
+    const auto foot = align_foot(on_a_raised_heel(), options).value();
+    EXPECT_EQ(foot.rules.axis, AxisRule::kSecondToe);
+    const std::string warning =
+        "the axis " + std::string(name_of(axis, kAxisRules)) + " was not found: pt_toe2 is used";
+    EXPECT_EQ(std::count(foot.warnings.begin(), foot.warnings.end(), warning), 1);
+  }
+}
+
+TEST(AxisRule, ThatIsNotFoundAgainLeavesTheFootAlone) {
+  AlignmentOptions options;
+  options.rules.axis = AxisRule::kMedialTangent;
+  auto foot = align_foot(FootBody{}.points(), options).value();
+  ASSERT_EQ(foot.rules.axis, AxisRule::kMedialTangent);
+  EXPECT_TRUE(realign(foot));
+  std::erase_if(foot.cloud.positions,
+                [](const auto& point) { return point.x() < 0.35 * kLength && point.z() < 27.0; });
+  foot.cloud.normals.clear();
+  foot.cloud.origins.clear();
+  const RigidTransform before = foot.foot_from_input;
+  EXPECT_FALSE(realign(foot));
+  EXPECT_TRUE(foot.foot_from_input.isApprox(before, 1e-15));
 }
 
 }  // namespace

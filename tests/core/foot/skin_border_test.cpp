@@ -105,6 +105,8 @@ TEST(SkinBorder, KnowsNothingWhereThereAreNoPoints) {
   EXPECT_FALSE(border.at(200.0));
   EXPECT_FALSE(SkinBorder({}, kFromAbove, 9.0).at(0.0));
   EXPECT_FALSE(SkinBorder({}, kFromAbove, 9.0).furthest(-10.0, 10.0));
+  EXPECT_TRUE(border.furthest(-10.0, 10.0));
+  EXPECT_FALSE(border.furthest(10.0, -10.0));
 }
 
 }  // namespace

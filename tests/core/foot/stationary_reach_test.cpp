@@ -39,8 +39,8 @@ std::vector<Vector3d> heel(double above, double below, double noise, std::uint64
 TEST(StationaryReach, FindsTheFurthestPlaceOfARoundHeel) {
   const auto points = heel(28.0, 28.0, 0.0, 1);
   const Vector3d start = kFurthest + Vector3d(0.5, 2.0, 2.0);
-  for (const auto& found :
-       {level_reach(points, kAxis, start, kPatch), furthest_reach(points, kAxis, start, kPatch)}) {
+  for (const auto& found : {level_reach(points, kAxis, start, kPatch, ReachSort::kFurthest),
+                            furthest_reach(points, kAxis, start, kPatch)}) {
     ASSERT_TRUE(found);
     EXPECT_LT((*found - kFurthest).norm(), 0.15);
   }
@@ -60,7 +60,9 @@ TEST(StationaryReach, FindsWhereTheRoundEdgeOfTheSoleBegins) {
     squares += off * off / kHeels;
     EXPECT_NEAR(kAway.dot(*found - kFurthest), 0.0, 0.2);
     // A smooth surface is drawn up by the edge.
-    level_sum += kDown.dot(*level_reach(points, kAxis, kFurthest, kPatch) - kFurthest) / kHeels;
+    level_sum += kDown.dot(*level_reach(points, kAxis, kFurthest, kPatch, ReachSort::kFurthest) -
+                           kFurthest) /
+                 kHeels;
   }
   EXPECT_LT(std::abs(sum), 0.5);
   EXPECT_LT(std::sqrt(squares), 0.7);
@@ -90,9 +92,56 @@ TEST(StationaryReach, FindsTheNearestPlaceOfAnAnkle) {
   }
   const Vector3d truth =
       kAxis + nearest * Vector3d(std::cos(0.6), 0.0, std::sin(0.6)) + 3.0 * Vector3d::UnitY();
-  const auto found = level_reach(points, kAxis, truth + Vector3d(-2.0, 1.0, 2.0), kPatch);
+  const auto found =
+      level_reach(points, kAxis, truth + Vector3d(-2.0, 1.0, 2.0), kPatch, ReachSort::kNearest);
   ASSERT_TRUE(found);
   EXPECT_LT((*found - truth).norm(), 0.05);
+}
+
+/// Skin round kAxis, whose distance from it bends by so much on the way round and across.
+std::vector<Vector3d> bent(double around, double across) {
+  std::vector<Vector3d> points;
+  for (double turn = -0.3; turn <= 0.3; turn += 0.01) {
+    for (double aside = -30.0; aside <= 30.0; aside += 1.0) {
+      const double reach = 100.0 + around * turn * turn + across * aside * aside;
+      points.push_back(kAxis + Vector3d(reach * std::cos(turn), aside, reach * std::sin(turn)));
+    }
+  }
+  return points;
+}
+
+TEST(StationaryReach, TellsTheFurthestPlaceFromTheNearest) {
+  const Vector3d start = kAxis + Vector3d(100.0, 1.0, 1.0);
+  const auto hollow = bent(150.0, -0.02);
+  EXPECT_TRUE(level_reach(hollow, kAxis, start, kPatch, ReachSort::kNearest));
+  EXPECT_FALSE(level_reach(hollow, kAxis, start, kPatch, ReachSort::kFurthest));
+  EXPECT_FALSE(furthest_reach(hollow, kAxis, start, kPatch));
+  const auto round = bent(-150.0, -0.02);
+  EXPECT_FALSE(level_reach(round, kAxis, start, kPatch, ReachSort::kNearest));
+  EXPECT_TRUE(level_reach(round, kAxis, start, kPatch, ReachSort::kFurthest));
+  EXPECT_TRUE(furthest_reach(round, kAxis, start, kPatch));
+  EXPECT_FALSE(furthest_reach(bent(-150.0, 0.02), kAxis, start, kPatch));
+}
+
+TEST(StationaryReach, DoesNotWanderFurtherThanThePatchReaches) {
+  const auto round = bent(-150.0, -0.01);
+  const auto found = [&](double aside) {
+    const Vector3d start = kAxis + Vector3d(100.0 - 0.01 * aside * aside, aside, 0.0);
+    return furthest_reach(round, kAxis, start, kPatch);
+  };
+  ASSERT_TRUE(found(10.0));
+  EXPECT_NEAR(found(10.0)->y(), 0.0, 0.1);
+  EXPECT_FALSE(found(20.0));
+}
+
+TEST(StationaryReach, SaysNothingOverAPatchWithoutExtent) {
+  const auto round = bent(-150.0, -0.01);
+  const Vector3d start = kAxis + Vector3d(100.0, 0.0, 0.0);
+  for (const ReachPatch& patch : {ReachPatch{}, ReachPatch{12.0, 0.0}, ReachPatch{-12.0, 12.0}}) {
+    EXPECT_FALSE(furthest_reach(round, kAxis, start, patch));
+    EXPECT_FALSE(level_reach(round, kAxis, start, patch, ReachSort::kFurthest));
+  }
+  EXPECT_FALSE(furthest_reach(round, start, start, kPatch));
 }
 
 TEST(StationaryReach, SaysNothingWhereTheSkinIsNotStationary) {
@@ -103,9 +152,11 @@ TEST(StationaryReach, SaysNothingWhereTheSkinIsNotStationary) {
       slope.emplace_back(reach * std::cos(turn), aside, reach * std::sin(turn));
     }
   }
-  EXPECT_FALSE(level_reach(slope, Vector3d::Zero(), {100, 0, 0}, kPatch));
+  for (const auto sort : {ReachSort::kFurthest, ReachSort::kNearest}) {
+    EXPECT_FALSE(level_reach(slope, Vector3d::Zero(), {100, 0, 0}, kPatch, sort));
+    EXPECT_FALSE(level_reach({}, kAxis, kFurthest, kPatch, sort));
+  }
   EXPECT_FALSE(furthest_reach(slope, Vector3d::Zero(), {100, 0, 0}, kPatch));
-  EXPECT_FALSE(level_reach({}, kAxis, kFurthest, kPatch));
 }
 
 }  // namespace
