@@ -69,9 +69,10 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// How far a point is from a place, seen along `outward`. Seen in space, noise would choose the
-/// points at the rim: on a bent surface those that stand out are nearer than those that lie low,
-/// and a patch of them lies too low by about the variance over the radius of curvature.
+/// How far a point is from a place, seen along `outward`, as wide patches ask: in space, noise
+/// would choose the points at the rim: on a bent surface those that stand out are nearer than those
+/// that lie low, and a patch of them lies too low by about the variance over the radius of
+/// curvature.
 double beside(const Eigen::Vector3d& place, const Eigen::Vector3d& point,
               const Eigen::Vector3d& outward) {
   return outward.cross(point - place).norm();
@@ -158,13 +159,17 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
                                              const Eigen::Vector3d& place, double width) const {
   const bool wider = width > surroundings.reach;
   const auto found = wider ? index_.around(place, kRoundBends * width) : surroundings.nearest;
+  const auto distance_of = [&](const OrientedPoint& point) {
+    return wider ? beside(place, point.position, surroundings.outward)
+                 : (point.position - place).norm();
+  };
   Members members;
   members.radius = std::max(width, surroundings.reach);
   members.all.reserve(found.size());
   for (const auto& neighbour : found) {
     const OrientedPoint& point = points_[neighbour.index];
     if (point.normal.dot(surroundings.outward) < kBehind) continue;
-    if (wider && beside(place, point.position, surroundings.outward) > width) continue;
+    if (wider && distance_of(point) > width) continue;
     members.all.push_back(neighbour.index);
     members.outward += point.normal;
   }
@@ -175,9 +180,9 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
   for (const auto i : members.all) {
     if (points_[i].normal.dot(members.outward) < kFacing) continue;
     members.front.push_back(i);
-    farthest = std::max(farthest, (points_[i].position - place).squaredNorm());
+    farthest = std::max(farthest, distance_of(points_[i]));
   }
-  members.front_radius = std::sqrt(farthest);
+  members.front_radius = farthest;
   return members;
 }
 
