@@ -13,6 +13,7 @@
 #include "core/foot/foot_tapes.h"
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/rough_tape.h"
+#include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
 #include "core/fusion/close_sole.h"
 
@@ -312,9 +313,20 @@ Result<Measure> take(const GirthRule& rule, const FootScan& foot, const MeasureO
   return measure;
 }
 
-void keep(MeasureSet& set, const char* id, Result<Measure> measure) {
+/// What a shoe last has nothing of: no scan brings it.
+bool is_of_feet_only(const std::string& id) {
+  for (const char* one : {"heel_breadth", "arch_height", "toe1_height", "toe1_angle", "toe5_angle",
+                          "short_heel_girth", "ankle_girth"}) {
+    if (id == one) return true;
+  }
+  return false;
+}
+
+void keep(MeasureSet& set, const char* id, bool is_last, Result<Measure> measure) {
   if (measure) {
     set.measures.push_back(*std::move(measure));
+  } else if (is_last && is_of_feet_only(id)) {
+    set.withheld.push_back({id, "a shoe last has none"});
   } else {
     set.withheld.push_back({id, measure.error().line()});
   }
@@ -331,8 +343,9 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
     }
   }
   MeasureSet set;
+  const bool is_last = is_shoe_last(foot);
   for (const auto& rule : length_rules()) {
-    keep(set, rule.id, take(rule, foot));
+    keep(set, rule.id, is_last, take(rule, foot));
     if (!go_on()) return cancelled();
   }
   const auto rules = girth_rules(foot);
@@ -344,7 +357,9 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
     if (!go_on()) wanted = false;
   });
   if (!wanted) return cancelled();
-  for (std::size_t i = 0; i < rules.size(); ++i) keep(set, rules[i].id, *std::move(girths[i]));
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    keep(set, rules[i].id, is_last, *std::move(girths[i]));
+  }
   return set;
 }
 

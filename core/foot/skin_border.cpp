@@ -218,7 +218,7 @@ Vector3d SkinBorder::position(const Place& place) const {
   return place.along * view_.along + place.reach * view_.outwards + place.across * view_.across;
 }
 
-std::optional<SkinBorder::Peak> SkinBorder::furthest(
+std::optional<SkinBorder::Place> SkinBorder::furthest(
     double from, double to, const std::function<double(double)>& handicap) const {
   if (!(from <= to)) return std::nullopt;
   const auto weighed = [&](const Place& place) {
@@ -228,17 +228,9 @@ std::optional<SkinBorder::Peak> SkinBorder::furthest(
   const auto look_at = [&](double along) {
     const auto place = at(along);
     if (place && (!best || weighed(*place) > weighed(*best))) best = place;
-    return place;
   };
-  std::optional<Place> first;
-  std::optional<Place> last;
   const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / kStepMm)));
-  for (int i = 0; i <= steps; ++i) {
-    const auto place = look_at(from + (to - from) * i / steps);
-    if (!place) continue;
-    if (!first) first = place;
-    last = place;
-  }
+  for (int i = 0; i <= steps; ++i) look_at(from + (to - from) * i / steps);
   if (!best) return std::nullopt;
   for (double step = 0.5 * kStepMm; step > kFinestStepMm; step *= 0.5) {
     const double middle = best->along;
@@ -246,7 +238,7 @@ std::optional<SkinBorder::Peak> SkinBorder::furthest(
       if (along >= from && along <= to) look_at(along);
     }
   }
-  return Peak{*best, weighed(*best) - std::max(weighed(*first), weighed(*last))};
+  return best;
 }
 
 }  // namespace instep

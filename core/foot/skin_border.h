@@ -50,15 +50,11 @@ class SkinBorder {
   /// A place of the border in the frame of the points.
   Eigen::Vector3d position(const Place& place) const;
 
-  struct Peak : Place {
-    double rise = 0.0;  ///< above the higher end of the searched range; 0 at an end
-  };
-
   /// The furthest place in a range; nothing where the range holds no points, or ends before it
   /// begins. A `handicap` (mm, by place) is taken off before comparing, so that among nearly equal
   /// places a likely one wins.
-  std::optional<Peak> furthest(double from, double to,
-                               const std::function<double(double)>& handicap = {}) const;
+  std::optional<Place> furthest(double from, double to,
+                                const std::function<double(double)>& handicap = {}) const;
 
  private:
   /// Samples that have a say in a place.

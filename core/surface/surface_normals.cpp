@@ -16,8 +16,6 @@ constexpr std::size_t kNearestLinks = 10;
 
 /// Across a larger bend (one less its cosine) a normal tells little of its neighbour's side.
 constexpr double kLargestBend = 0.12;
-/// Rounding leaves no bend below none.
-constexpr double kSmallestBend = 0.0;
 constexpr double kReached = -1.0;
 /// A part whose normals face away from the middle by this share of what they could needs no
 /// neighbours to tell its side.
@@ -150,8 +148,8 @@ std::vector<std::size_t> CellNormals::orient_part(std::size_t root,
     part.push_back(bend.to);
     if (normals_[bend.from].dot(normals_[bend.to]) < 0.0) normals_[bend.to] *= -1.0;
     for (const auto next : links_of(bend.to)) {
-      const double size =
-          std::max(1.0 - std::abs(normals_[bend.to].dot(normals_[next])), kSmallestBend);
+      // Rounding could leave less than none.
+      const double size = std::max(1.0 - std::abs(normals_[bend.to].dot(normals_[next])), 0.0);
       if (size >= least_bends[next]) continue;
       least_bends[next] = size;
       bends.push({size, bend.to, next});

@@ -19,9 +19,9 @@
 #include "core/geometry/mesh_sampling.h"
 #include "core/median.h"
 #include "tests/bench/feet/thread_time.h"
+#include "tests/support/cases/point_patterns.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/places.h"
-#include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 
 namespace instep::bench {
@@ -50,12 +50,8 @@ PointCloud turned(const PointCloud& cloud, double angle, const Vector3d& axis,
 }
 
 PointCloud noisy(PointCloud cloud, double sigma_mm, std::uint64_t seed) {
-  test::RandomNumbers random(seed);
-  for (auto& place : cloud.positions) {
-    for (int axis = 0; axis < 3; ++axis) place(axis) += sigma_mm * random.normal();
-  }
   cloud.normals.clear();
-  return cloud;
+  return test::with_isotropic_noise(std::move(cloud), sigma_mm, seed);
 }
 
 struct Variant {

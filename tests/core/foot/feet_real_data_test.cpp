@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/shoe_sizes.h"
+#include "tests/support/cases/point_patterns.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/places.h"
-#include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 
 namespace instep {
@@ -36,12 +37,8 @@ PointCloud turned(const PointCloud& cloud, double angle) {
 }
 
 PointCloud noisy(PointCloud cloud, double sigma_mm, std::uint64_t seed) {
-  test::RandomNumbers random(seed);
-  for (auto& point : cloud.positions) {
-    for (int axis = 0; axis < 3; ++axis) point(axis) += sigma_mm * random.normal();
-  }
   cloud.normals.clear();
-  return cloud;
+  return test::with_isotropic_noise(std::move(cloud), sigma_mm, seed);
 }
 
 /// `times_doubt`: of the measures' own intervals, where the points are not the same.
@@ -112,15 +109,23 @@ TEST_F(RealFeet, MeasureTheSameHoweverTheyStand) {
   }
 }
 
+/// Thinned they move by less than half a millimetre; noise moves them, from draw to draw, within
+/// what they claim.
 TEST_F(RealFeet, KeepTheirGirthsWhenThinnedAndWithNoise) {
   for (const char* name : {"retail_left.stl", "retail_right.stl"}) {
     const auto points = cloud(name, 1000.0);
     const auto whole = measured(points);
-    for (const auto& other : {test::half_of(points), noisy(points, 0.5, 1)}) {
-      const auto same = measured(other);
+    const auto half = measured(test::half_of(points));
+    for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
+      EXPECT_NEAR(half.set.find(id)->value_mm, whole.set.find(id)->value_mm, 0.5) << name << id;
+    }
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const auto with_noise = measured(noisy(points, 0.5, seed));
       for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
-        EXPECT_NEAR(same.set.find(id)->value_mm, whole.set.find(id)->value_mm, 0.5)
-            << name << " " << id << " of " << other.size() << " points";
+        const Measure& before = *whole.set.find(id);
+        const Measure& after = *with_noise.set.find(id);
+        EXPECT_NEAR(after.value_mm, before.value_mm, std::hypot(*after.u95_mm, *before.u95_mm))
+            << name << " " << id << " " << seed;
       }
     }
   }
@@ -155,6 +160,9 @@ TEST_F(RealFeet, AreToldFromLasts) {
     EXPECT_LT(last.set.find("foot_length")->u95_mm.value(), 5.0) << name;
     EXPECT_LT(last.set.find("ball_girth")->u95_mm.value(), 3.0) << name;
     EXPECT_EQ(last.set.find("heel_breadth"), nullptr) << name;
+    for (const auto& withheld : last.set.withheld) {
+      EXPECT_EQ(withheld.reason, "a shoe last has none") << name << " " << withheld.id;
+    }
     EXPECT_EQ(last.set.find("toe1_angle"), nullptr) << name;
     EXPECT_EQ(last.set.find("ankle_girth"), nullptr) << name;
   }
