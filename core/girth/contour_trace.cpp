@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/geometry/plane_vectors.h"
+#include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
+
+/// Pieces of a chord that a tape lies on: it leaves the curve at the ends of pieces only.
+constexpr int kPiecesUnderTape = 8;
 
 constexpr int kMostCorrections = 12;
 /// A last move of Newton that is shorter, in steps, leaves an error of its square.
@@ -102,6 +107,29 @@ double Contour::length() const {
     const std::size_t next = (i + 1) % points.size();
     const double turn = turn_between(outward[i], outward[next]);
     sum += (points[next] - points[i]).norm() * (1.0 + turn * turn / 24.0);
+  }
+  return sum;
+}
+
+double Contour::tape_length() const {
+  const auto fine = refined(kPiecesUnderTape);
+  const auto hull = convex_hull(fine);
+  const std::size_t count = hull.size();
+  if (count < 3) return perimeter(hull);
+  const auto side = [&](std::size_t i) { return (hull[(i + 1) % count] - hull[i % count]).eval(); };
+  // Both run counter-clockwise, so the hull's corners are met one after the other on the curve.
+  auto at = std::find(fine.begin(), fine.end(), hull.front());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector2d& corner = hull[(i + 1) % count];
+    const auto next = std::next(at) == fine.end() ? fine.begin() : std::next(at);
+    const bool touches = *next == corner;
+    at = std::find(next, fine.end(), corner);
+    if (at == fine.end()) at = std::find(fine.begin(), next, corner);
+    // At a corner the turn is no arc's: the neighbour's tells.
+    const double turn =
+        std::min(turn_between(side(i + count - 1), side(i)), turn_between(side(i), side(i + 1)));
+    sum += side(i).norm() * (touches ? 1.0 + turn * turn / 24.0 : 1.0);
   }
   return sum;
 }

@@ -18,6 +18,10 @@ struct Contour {
   /// second order of the turn.
   double length() const;
 
+  /// Length of a tape stretched round the curve: straight where it bridges hollows, and along the
+  /// curve, by arcs like those of length(), where it touches.
+  double tape_length() const;
+
   /// The curve with `parts` pieces for each chord, by cubics that meet its ends in place and
   /// direction.
   std::vector<Eigen::Vector2d> refined(int parts) const;

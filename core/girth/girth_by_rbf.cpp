@@ -25,7 +25,7 @@ constexpr double kEvidenceInGrains = 2.5;
 constexpr double kLongestSection = 6.0;
 /// A stretch without a seen point that is worth a warning, in grains.
 constexpr double kNotableGapInGrains = 6.0;
-/// Chords are refined so that the hull loses less than 0.001 mm to them.
+/// Pieces that a chord is told in, so that the contour looks round.
 constexpr int kPiecesOfChord = 8;
 /// Points along a loop, against those along the best founded one.
 constexpr double kLeastFounded = 0.25;
@@ -192,7 +192,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   girth.contact_mm = band->unit_mm * (length + doubt.waves);
   for (const auto& point : contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
-  girth.stretched_mm = perimeter(convex_hull(girth.contour)) + band->unit_mm * doubt.waves;
+  girth.stretched_mm = band->unit_mm * (contour.tape_length() + doubt.waves);
   girth.contact_u95_mm = band->unit_mm * doubt.contact_u95;
   girth.stretched_u95_mm = band->unit_mm * doubt.stretched_u95;
   girth.points = cloud.size();

@@ -12,34 +12,48 @@ constexpr double kLeastDetermined = 1e-3;
 /// say in how rough the surface is.
 constexpr double kLargestScale = 1e3;
 
+/// Of squared distances, by `factor`.
+template <class Squares, class Factor, class Values>
+void set_kernel(HeightKernel kernel, const Squares& squared, const Factor& factor,
+                Values&& values) {
+  if (kernel == HeightKernel::kCubic) {
+    values = factor * squared * squared.sqrt();
+  } else {
+    values = -factor * squared * squared * squared.sqrt();
+  }
+}
+
 /// Sum of the kernels round `places` times `shares`, at each of `samples`.
-Eigen::ArrayXd kernels_at(const Eigen::Matrix2Xd& samples, const Eigen::Matrix2Xd& places,
-                          const Eigen::VectorXd& shares) {
+Eigen::ArrayXd kernels_at(HeightKernel kernel, const Eigen::Matrix2Xd& samples,
+                          const Eigen::Matrix2Xd& places, const Eigen::VectorXd& shares) {
   const Eigen::ArrayXd x = samples.row(0);
   const Eigen::ArrayXd y = samples.row(1);
   Eigen::ArrayXd squared(samples.cols());
+  Eigen::ArrayXd one(samples.cols());
   Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(samples.cols());
   for (Eigen::Index i = 0; i < shares.size(); ++i) {
     squared = (x - places(0, i)).square() + (y - places(1, i)).square();
-    sum += shares[i] * squared * squared.sqrt();
+    set_kernel(kernel, squared, shares[i], one);
+    sum += one;
   }
   return sum;
 }
 
 /// Its lower triangle; both sides scaled.
-Eigen::MatrixXd kernel_between(const Eigen::Matrix2Xd& places, const Eigen::ArrayXd& scales) {
+Eigen::MatrixXd kernel_between(HeightKernel kernel, const Eigen::Matrix2Xd& places,
+                               const Eigen::ArrayXd& scales) {
   const Eigen::Index count = places.cols();
   const Eigen::ArrayXd x = places.row(0);
   const Eigen::ArrayXd y = places.row(1);
-  Eigen::MatrixXd kernel(count, count);
+  Eigen::MatrixXd matrix(count, count);
   Eigen::ArrayXd squared(count);
   for (Eigen::Index j = 0; j < count; ++j) {
     const Eigen::Index rest = count - j;
     squared.tail(rest) = (x.tail(rest) - x[j]).square() + (y.tail(rest) - y[j]).square();
-    kernel.col(j).tail(rest) =
-        scales[j] * scales.tail(rest) * squared.tail(rest) * squared.tail(rest).sqrt();
+    set_kernel(kernel, squared.tail(rest), scales[j] * scales.tail(rest),
+               matrix.col(j).tail(rest).array());
   }
-  return kernel;
+  return matrix;
 }
 
 /// Takes a * b' + b * a' from the lower triangle.
@@ -62,9 +76,11 @@ bool span_a_plane(const Eigen::Matrix2Xd& places) {
 
 }  // namespace
 
-std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eigen::Index terms) {
+std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eigen::Index terms,
+                                               HeightKernel kernel) {
   if (samples.size() < 4 || !span_a_plane(samples.places)) return std::nullopt;
   HeightKriging kriging;
+  kriging.kernel_ = kernel;
   kriging.places_ = samples.places;
   const double most = samples.variances.maxCoeff();
   kriging.level_ = most;
@@ -76,12 +92,13 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
   kriging.qr_.compute(scales.asDiagonal() * monomials(samples.places, terms));
   kriging.qr_.setThreshold(kLeastDetermined);
   const Eigen::Index rank = kriging.qr_.rank();
-  if (rank < 3 || rank >= samples.size()) return std::nullopt;
+  const Eigen::Index least = kernel == HeightKernel::kCubic ? 3 : Quadratic::RowsAtCompileTime;
+  if (rank < least || rank >= samples.size()) return std::nullopt;
   kriging.basis_ = Eigen::MatrixXd::Identity(samples.size(), rank);
   kriging.basis_.applyOnTheLeft(kriging.qr_.householderQ().setLength(rank));
 
   const Eigen::MatrixXd& basis = kriging.basis_;
-  kriging.reduced_ = kernel_between(samples.places, kriging.scales_);
+  kriging.reduced_ = kernel_between(kernel, samples.places, kriging.scales_);
   kriging.on_basis_ = kriging.reduced_.selfadjointView<Eigen::Lower>() * basis;
   const Eigen::MatrixXd square = basis.transpose() * kriging.on_basis_;
   const Eigen::MatrixXd off =
@@ -153,7 +170,7 @@ Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::
                                     .transpose()
                                     .solve(sought.head(rank));
   Eigen::VectorXd right =
-      (scales_ * kernels_at(places_, places, shares)).matrix() - on_basis_ * along;
+      (scales_ * kernels_at(kernel_, places_, places, shares)).matrix() - on_basis_ * along;
   right -= basis_ * (basis_.transpose() * right).eval();
   const Eigen::VectorXd scaled = basis_ * along + solution.cholesky.solve(right);
   return scales_ * scaled.array();
@@ -173,8 +190,8 @@ double HeightKriging::kernel_square(const Solution& solution, const Eigen::Vecto
 double HeightKriging::wandering(const Solution& solution, const Eigen::VectorXd& influence,
                                 const Eigen::Matrix2Xd& places,
                                 const Eigen::VectorXd& shares) const {
-  const double between = kernels_at(places, places, shares).matrix().dot(shares);
-  const double across = kernels_at(places_, places, shares).matrix().dot(influence);
+  const double between = kernels_at(kernel_, places, places, shares).matrix().dot(shares);
+  const double across = kernels_at(kernel_, places_, places, shares).matrix().dot(influence);
   const Eigen::VectorXd scaled = influence.array() / scales_;
   return std::max(between - 2.0 * across + kernel_square(solution, scaled), 0.0);
 }

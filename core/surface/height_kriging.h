@@ -9,9 +9,13 @@
 
 namespace instep {
 
-/// The paper's system (eqs. 6 and 7, phi = r^3, a smoothing for each point) for heights over a
-/// plane, with a quadratic polynomial or a plane; read as kriging: once the polynomial is taken
-/// out, heights wander with covariance roughness * r^3 and carry noise on top.
+/// The basis function of each sample. The paper's r^3 bends as creased, uneven surfaces do; r^5
+/// (with its sign turned, for it is conditionally positive definite of order 3) as smooth ones do.
+enum class HeightKernel { kCubic, kQuintic };
+
+/// The paper's system (eqs. 6 and 7, phi = r^3 or r^5, a smoothing for each point) for heights over
+/// a plane, with a quadratic polynomial or a plane; read as kriging: once the polynomial is taken
+/// out, heights wander with covariance roughness * phi and carry noise on top.
 ///
 /// It is solved on the null space of the polynomial block, where it is positive definite: the
 /// kernel is projected there, one is put in its place on the polynomials, and Cholesky's method
@@ -19,9 +23,13 @@ namespace instep {
 /// depends on one number, the ratio of noise to roughness.
 class HeightKriging {
  public:
-  /// Nothing if the samples do not determine the polynomial (fewer than four, all on one line).
-  /// `terms`: 3 or 6. The variances count only against each other. O(n^2).
-  static std::optional<HeightKriging> of(const HeightSamples& samples, Eigen::Index terms);
+  /// Nothing if the samples do not determine the polynomial (fewer than four, all on one line; for
+  /// r^5 all six terms of it). `terms`: 3 or 6. The variances count only against each other.
+  /// O(n^2).
+  static std::optional<HeightKriging> of(const HeightSamples& samples, Eigen::Index terms,
+                                         HeightKernel kernel = HeightKernel::kCubic);
+
+  HeightKernel kernel() const { return kernel_; }
 
   /// Variance of a sample of weight one: the least certain one's.
   double level() const { return level_; }
@@ -74,6 +82,7 @@ class HeightKriging {
 
   double kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const;
 
+  HeightKernel kernel_ = HeightKernel::kCubic;
   Eigen::Matrix2Xd places_;
   Eigen::ArrayXd scales_;
   double level_ = 0.0;

@@ -27,6 +27,9 @@ constexpr double kRoughnessStep = 1.0 / 1.5;
 constexpr double kAllowance = 4.0;
 /// Variance that the polynomial's coefficients have beforehand, for comparing models.
 constexpr double kCoefficientVariance = 0.1;
+/// The smoother kernel has to be likelier by so much (of twice the log likelihood): beside a crease
+/// it overshoots, where r^3 does not.
+constexpr double kLeastGain = 6.0;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
@@ -64,6 +67,58 @@ double likeliest_roughness(const KrigingLikelihood& likelihood, double variance,
                               KrigingLikelihood::Prior{usual, kRoughnessSpread});
 }
 
+/// A surface and what is thought of it, in unit scale.
+struct Fit {
+  HeightKriging kriging;
+  HeightKriging::Solution solution;
+  double misfit = 0.0;
+  double roughness = 0.0;
+  double wander = 0.0;  ///< the roughness that the heights show themselves
+};
+
+std::optional<Fit> exact_fit(std::optional<HeightKriging> kriging, double usual) {
+  if (!kriging) return std::nullopt;
+  auto solution = kriging->solve(kLeastSmoothing);
+  if (!solution) return std::nullopt;
+  const double misfit = misfit_of_exact(*kriging, *solution);
+  const double wander = solution->excess / static_cast<double>(kriging->free());
+  return Fit{std::move(*kriging), std::move(*solution), misfit, usual, wander};
+}
+
+/// By r^3 unless r^5 is plainly likelier.
+std::optional<Fit> likelier_exact_fit(const HeightSamples& samples, HeightKriging cubic,
+                                      double usual) {
+  auto fit = exact_fit(std::move(cubic), usual);
+  auto smoother = exact_fit(
+      HeightKriging::of(samples, Quadratic::RowsAtCompileTime, HeightKernel::kQuintic), usual);
+  if (smoother && (!fit || smoother->misfit + kLeastGain < fit->misfit)) return smoother;
+  return fit;
+}
+
+std::optional<Fit> noisy_fit(HeightKriging kriging, double usual) {
+  const KrigingLikelihood likelihood(kriging);
+  const double likeliest = likeliest_roughness(likelihood, kriging.level(), usual);
+  const double misfit = likelihood.misfit(kriging.level(), likeliest);
+  auto solution = kriging.solve(kriging.level() / (kAllowance * likeliest) + kLeastSmoothing);
+  if (!solution) return std::nullopt;
+  return Fit{std::move(kriging), std::move(*solution), misfit, likeliest, likeliest};
+}
+
+/// Points so many that they were averaged lie so close that both kernels say the same.
+std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, double usual) {
+  const bool few = points < kFewestForQuadratic;
+  auto kriging = HeightKriging::of(samples, few ? 3 : Quadratic::RowsAtCompileTime);
+  if (!kriging) return std::nullopt;
+  const double of_polynomial = misfit_of_polynomial(*kriging, samples.size());
+  auto fit = !are_exact(*kriging) ? noisy_fit(std::move(*kriging), usual)
+             : few || points > kMostHeightSamples
+                 ? exact_fit(std::move(kriging), usual)
+                 : likelier_exact_fit(samples, std::move(*kriging), usual);
+  if (!fit) return std::nullopt;
+  fit->misfit += of_polynomial;
+  return std::isfinite(fit->misfit) ? std::move(fit) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& points,
@@ -84,32 +139,16 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
     patch.cells_ = std::move(averages.cells);
     patch.shares_ = std::move(averages.shares);
   }
-  patch.kriging_ = HeightKriging::of(samples, points.size() < kFewestForQuadratic ? 3 : 6);
-  if (!patch.kriging_) return std::nullopt;
-  const HeightKriging& kriging = *patch.kriging_;
-  const double usual = std::max(roughness * radius, 1e-12);
-  patch.misfit_ = misfit_of_polynomial(kriging, samples.size());
-  double likeliest = usual;
-  std::optional<HeightKriging::Solution> solution;
-  if (are_exact(kriging)) {
-    solution = kriging.solve(kLeastSmoothing);
-    if (!solution) return std::nullopt;
-    patch.misfit_ += misfit_of_exact(kriging, *solution);
-    patch.wander_ = solution->excess / static_cast<double>(kriging.free());
-  } else {
-    const KrigingLikelihood likelihood(kriging);
-    likeliest = likeliest_roughness(likelihood, kriging.level(), usual);
-    patch.misfit_ += likelihood.misfit(kriging.level(), likeliest);
-    patch.wander_ = likeliest;
-    solution = kriging.solve(kriging.level() / (kAllowance * likeliest) + kLeastSmoothing);
-    if (!solution) return std::nullopt;
-  }
-  if (!std::isfinite(patch.misfit_)) return std::nullopt;
-  patch.roughness_ = likeliest / radius;
-  patch.solution_ = std::move(*solution);
+  auto fit = fit_to(samples, points.size(), std::max(roughness * radius, 1e-12));
+  if (!fit) return std::nullopt;
+  patch.misfit_ = fit->misfit;
+  patch.wander_ = fit->wander;
+  patch.roughness_ = fit->roughness / radius;
+  patch.polynomial_ = fit->kriging.polynomial(fit->solution) + trend;
+  patch.set_columns(samples.places, fit->kriging.weights(fit->solution));
+  patch.kriging_ = std::move(fit->kriging);
   patch.kriging_->forget_kernel();
-  patch.polynomial_ = kriging.polynomial(patch.solution_) + trend;
-  patch.set_columns(samples.places, kriging.weights(patch.solution_));
+  patch.solution_ = std::move(fit->solution);
   return patch;
 }
 
@@ -159,6 +198,7 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const double x = local.x();
   const double y = local.y();
   const Quadratic& c = polynomial_;
+  const bool quintic = kriging_->kernel() == HeightKernel::kQuintic;
   Group cubes = Group::Zero();
   Group slopes_x = Group::Zero();
   Group slopes_y = Group::Zero();
@@ -166,15 +206,17 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
     const Group along = x - x_.segment<kGroup>(i);
     const Group across = y - y_.segment<kGroup>(i);
     const Group squared = along.square() + across.square();
-    const Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
+    Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
+    if (quintic) weighted *= -squared;
     cubes += weighted * squared;
     slopes_x += weighted * along;
     slopes_y += weighted * across;
   }
   const double height =
       c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + cubes.sum();
-  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + 3.0 * slopes_x.sum();
-  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + 3.0 * slopes_y.sum();
+  const double power = quintic ? 5.0 : 3.0;
+  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + power * slopes_x.sum();
+  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + power * slopes_y.sum();
   const Eigen::Vector3d gradient(-slope_x, -slope_y, 1.0);
   return {radius_ * (local.z() - height), axes_.transpose() * gradient};
 }

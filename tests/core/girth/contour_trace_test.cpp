@@ -73,6 +73,31 @@ TEST(Contour, WithoutTurnsIsAsLongAsItsChords) {
   EXPECT_NEAR(square.length(), 8.0, 1e-12);
 }
 
+TEST(Contour, ATapeRoundACircleIsAsLongAsItsArcs) {
+  const double length = 2.0 * kPi * kRadius;
+  const auto circle = circle_of_corners(100);
+  EXPECT_NEAR(circle.tape_length(), length, 1e-6 * length);
+  EXPECT_LT(polygon_length(circle.refined(8)), (1.0 - 2e-6) * length) << "by chords alone";
+}
+
+/// A circle with its right side pressed in: the tape spans the hollow.
+TEST(Contour, ATapeBridgesAHollowInAStraightLine) {
+  constexpr int kCorners = 1200;
+  constexpr double kFrom = kPi / 3.0;  // of the hollow, to as far below
+  Contour pressed;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * kPi * i / kCorners;
+    const Vector2d outward(std::cos(angle), std::sin(angle));
+    const bool hollow = outward.x() > std::cos(kFrom) + 1e-9;
+    pressed.outward.push_back(hollow ? Vector2d(outward.x(), -outward.y()) : outward);
+    pressed.points.emplace_back(hollow ? 1.0 - outward.x() : outward.x(), outward.y());
+  }
+  const double arc = 2.0 * kPi - 2.0 * kFrom;
+  const double bridge = 2.0 * std::sin(kFrom);
+  EXPECT_NEAR(pressed.tape_length(), arc + bridge, 2e-3);
+  EXPECT_NEAR(polygon_length(pressed.points), 2.0 * kPi, 2e-3) << "the contour goes in and out";
+}
+
 TEST(Contour, RefinedStaysOnTheCircle) {
   const auto circle = circle_of_corners(40);
   const auto fine = circle.refined(8);

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <optional>
 
 #include "tests/support/random_numbers.h"
 
@@ -28,9 +29,21 @@ HeightSamples wavy_samples(Index count, std::uint64_t seed) {
   return samples;
 }
 
-double cubed(const Vector2d& a, const Vector2d& b) {
-  return std::pow((a - b).norm(), 3);
-}
+/// The kernels with the polynomials that they are solved with.
+struct Model {
+  Index terms;
+  HeightKernel kernel = HeightKernel::kCubic;
+
+  double at(const Vector2d& a, const Vector2d& b) const {
+    const double distance = (a - b).norm();
+    return kernel == HeightKernel::kCubic ? std::pow(distance, 3) : -std::pow(distance, 5);
+  }
+  std::optional<HeightKriging> of(const HeightSamples& samples) const {
+    return HeightKriging::of(samples, terms, kernel);
+  }
+};
+
+constexpr Model kModels[] = {{3}, {6}, {6, HeightKernel::kQuintic}};
 
 Eigen::RowVectorXd terms_at(const Vector2d& p, Index terms) {
   Eigen::RowVectorXd all(6);
@@ -40,11 +53,11 @@ Eigen::RowVectorXd terms_at(const Vector2d& p, Index terms) {
 
 /// Covariance of the samples for a roughness of one, with a noise of `ratio` times that of the
 /// least certain one.
-MatrixXd covariance_of(const HeightSamples& samples, double ratio) {
+MatrixXd covariance_of(const HeightSamples& samples, double ratio, const Model& model) {
   MatrixXd covariance(samples.size(), samples.size());
   for (Index i = 0; i < samples.size(); ++i) {
     for (Index j = 0; j < samples.size(); ++j) {
-      covariance(i, j) = cubed(samples.places.col(i), samples.places.col(j));
+      covariance(i, j) = model.at(samples.places.col(i), samples.places.col(j));
     }
     covariance(i, i) += ratio * samples.variances[i] / samples.variances.maxCoeff();
   }
@@ -60,10 +73,11 @@ MatrixXd polynomial_block(const HeightSamples& samples, Index terms) {
 }
 
 /// All of eq. 7.
-MatrixXd full_system(const HeightSamples& samples, double ratio, Index terms) {
+MatrixXd full_system(const HeightSamples& samples, double ratio, const Model& model) {
+  const Index terms = model.terms;
   const Index count = samples.size();
   MatrixXd system = MatrixXd::Zero(count + terms, count + terms);
-  system.topLeftCorner(count, count) = covariance_of(samples, ratio);
+  system.topLeftCorner(count, count) = covariance_of(samples, ratio, model);
   system.topRightCorner(count, terms) = polynomial_block(samples, terms);
   system.bottomLeftCorner(terms, count) = polynomial_block(samples, terms).transpose();
   return system;
@@ -77,9 +91,9 @@ struct Sought {
   Sought() { places << 0.1, -0.4, 0.9, 0.2, 0.3, 0.0, -0.2, -0.6; }
 };
 
-double sum_of_heights(const HeightSamples& samples, double ratio, Index terms,
+double sum_of_heights(const HeightSamples& samples, double ratio, const Model& model,
                       const Sought& sought) {
-  const auto kriging = HeightKriging::of(samples, terms).value();
+  const auto kriging = model.of(samples).value();
   const auto solution = kriging.solve(ratio).value();
   const VectorXd weights = kriging.weights(solution);
   const Quadratic polynomial = kriging.polynomial(solution);
@@ -88,7 +102,7 @@ double sum_of_heights(const HeightSamples& samples, double ratio, Index terms,
     const Vector2d place = sought.places.col(i);
     double height = terms_at(place, 6).dot(polynomial);
     for (Index j = 0; j < samples.size(); ++j) {
-      height += weights[j] * cubed(place, samples.places.col(j));
+      height += weights[j] * model.at(place, samples.places.col(j));
     }
     sum += sought.shares[i] * height;
   }
@@ -96,11 +110,12 @@ double sum_of_heights(const HeightSamples& samples, double ratio, Index terms,
 }
 
 TEST(HeightKriging, IsTheSolutionOfTheFullSystemByLu) {
-  for (const Index terms : {3, 6}) {
+  for (const Model& model : kModels) {
+    const Index terms = model.terms;
     for (const Index count : {8, 20, 60}) {
       for (const double ratio : {1e-6, 1e-3, 0.1, 10.0}) {
         const auto samples = wavy_samples(count, 1);
-        const auto kriging = HeightKriging::of(samples, terms);
+        const auto kriging = model.of(samples);
         ASSERT_TRUE(kriging);
         EXPECT_DOUBLE_EQ(kriging->level(), samples.variances.maxCoeff());
         EXPECT_EQ(kriging->free(), count - terms);
@@ -108,7 +123,7 @@ TEST(HeightKriging, IsTheSolutionOfTheFullSystemByLu) {
         ASSERT_TRUE(solution);
         VectorXd right = VectorXd::Zero(count + terms);
         right.head(count) = samples.heights;
-        const VectorXd expected = full_system(samples, ratio, terms).fullPivLu().solve(right);
+        const VectorXd expected = full_system(samples, ratio, model).fullPivLu().solve(right);
         const VectorXd weights = expected.head(count);
         EXPECT_LT((kriging->weights(*solution) - weights).norm(), 1e-8 * weights.norm())
             << terms << " terms, " << count << " samples, ratio " << ratio;
@@ -124,12 +139,13 @@ TEST(HeightKriging, IsTheSolutionOfTheFullSystemByLu) {
 /// log det V + log det P' V^-1 P, of the covariance V and the polynomial block P, is what a
 /// likelihood that integrates over the polynomial has for its volume.
 TEST(HeightKriging, VolumesAreThoseOfTheRestrictedLikelihood) {
-  for (const Index terms : {3, 6}) {
+  for (const Model& model : kModels) {
+    const Index terms = model.terms;
     for (const double ratio : {1e-3, 0.1, 10.0}) {
       const auto samples = wavy_samples(25, 2);
-      const auto kriging = HeightKriging::of(samples, terms).value();
+      const auto kriging = model.of(samples).value();
       const auto solution = kriging.solve(ratio).value();
-      const MatrixXd covariance = covariance_of(samples, ratio);
+      const MatrixXd covariance = covariance_of(samples, ratio, model);
       const MatrixXd block = polynomial_block(samples, terms);
       const Eigen::FullPivLU<MatrixXd> lu(covariance);
       const MatrixXd information = block.transpose() * lu.solve(block);
@@ -156,6 +172,16 @@ TEST(HeightKriging, KnowsNothingOfSamplesThatDetermineNoPlane) {
   EXPECT_FALSE(HeightKriging::of(wavy_samples(6, 4), 6)) << "nothing is left over the quadratic";
 }
 
+TEST(HeightKriging, TheQuinticKernelNeedsTheWholeQuadratic) {
+  const auto samples = wavy_samples(20, 3);
+  EXPECT_TRUE(HeightKriging::of(samples, 6, HeightKernel::kQuintic));
+  EXPECT_FALSE(HeightKriging::of(samples, 3, HeightKernel::kQuintic));
+  auto on_a_circle = samples;
+  on_a_circle.places.colwise().normalize();
+  EXPECT_TRUE(HeightKriging::of(on_a_circle, 6));
+  EXPECT_FALSE(HeightKriging::of(on_a_circle, 6, HeightKernel::kQuintic));
+}
+
 /// On a circle xx + yy is a constant: one of six terms too many.
 TEST(HeightKriging, PassesThroughSamplesOnACircle) {
   auto samples = wavy_samples(16, 5);
@@ -166,24 +192,24 @@ TEST(HeightKriging, PassesThroughSamplesOnACircle) {
     samples.heights[i] = std::sin(3.0 * angle);
   }
   at_samples.places = samples.places.leftCols(4);
-  EXPECT_NEAR(sum_of_heights(samples, 1e-10, 6, at_samples),
+  EXPECT_NEAR(sum_of_heights(samples, 1e-10, Model{6}, at_samples),
               samples.heights.head(4).dot(at_samples.shares), 1e-6);
 }
 
 TEST(HeightKriging, InfluenceIsWhatMovingASampleDoesToTheSum) {
   const Sought sought;
-  for (const Index terms : {3, 6}) {
+  for (const Model& model : kModels) {
     for (const double ratio : {1e-4, 0.05, 2.0}) {
       const auto samples = wavy_samples(30, 6);
-      const auto kriging = HeightKriging::of(samples, terms).value();
+      const auto kriging = model.of(samples).value();
       const VectorXd influence =
           kriging.influence(kriging.solve(ratio).value(), sought.places, sought.shares);
       ASSERT_EQ(influence.size(), 30);
-      const double before = sum_of_heights(samples, ratio, terms, sought);
+      const double before = sum_of_heights(samples, ratio, model, sought);
       for (Index i = 0; i < samples.size(); ++i) {
         auto moved = samples;
         moved.heights[i] += 0.25;
-        const double after = sum_of_heights(moved, ratio, terms, sought);
+        const double after = sum_of_heights(moved, ratio, model, sought);
         EXPECT_NEAR(influence[i], (after - before) / 0.25, 1e-8) << "sample " << i;
       }
     }
@@ -205,6 +231,7 @@ HeightSamples without(const HeightSamples& samples, Index gone) {
 
 TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
   constexpr Index kTerms = 6;
+  constexpr Model model{kTerms};
   for (const double ratio : {1e-7, 1e-3}) {
     auto samples = wavy_samples(25, 6);
     samples.variances.setConstant(1e-4);
@@ -213,15 +240,15 @@ TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
       const auto rest = without(samples, i);
       VectorXd to_rest(rest.size() + kTerms);
       for (Index j = 0; j < rest.size(); ++j) {
-        to_rest[j] = cubed(samples.places.col(i), rest.places.col(j));
+        to_rest[j] = model.at(samples.places.col(i), rest.places.col(j));
       }
       to_rest.tail(kTerms) = terms_at(samples.places.col(i), kTerms).transpose();
-      const VectorXd shares = full_system(rest, ratio, kTerms).fullPivLu().solve(to_rest);
+      const VectorXd shares = full_system(rest, ratio, model).fullPivLu().solve(to_rest);
       const double off = samples.heights[i] - shares.head(rest.size()).dot(rest.heights);
       const double expected = ratio - shares.dot(to_rest);
       mean += off * off / expected / static_cast<double>(samples.size());
     }
-    const auto kriging = HeightKriging::of(samples, kTerms).value();
+    const auto kriging = model.of(samples).value();
     const auto solution = kriging.solve(ratio).value();
     EXPECT_NEAR(kriging.left_out(solution) / mean, 1.0, 1e-4) << ratio;
   }
@@ -229,7 +256,8 @@ TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
 
 TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
   const Sought sought;
-  for (const Index terms : {3, 6}) {
+  for (const Model& model : kModels) {
+    const Index terms = model.terms;
     for (const double ratio : {1e-4, 0.05, 2.0}) {
       const auto samples = wavy_samples(30, 7);
       const Index count = samples.size();
@@ -238,17 +266,18 @@ TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
       for (Index i = 0; i < sought.shares.size(); ++i) {
         const Vector2d place = sought.places.col(i);
         const double share = sought.shares[i];
-        for (Index j = 0; j < count; ++j) beside[j] += share * cubed(place, samples.places.col(j));
+        for (Index j = 0; j < count; ++j)
+          beside[j] += share * model.at(place, samples.places.col(j));
         beside.tail(terms) += share * terms_at(place, terms).transpose();
         for (Index j = 0; j < sought.shares.size(); ++j) {
-          own += share * sought.shares[j] * cubed(place, sought.places.col(j));
+          own += share * sought.shares[j] * model.at(place, sought.places.col(j));
         }
       }
-      const VectorXd solved = full_system(samples, ratio, terms).fullPivLu().solve(beside);
+      const VectorXd solved = full_system(samples, ratio, model).fullPivLu().solve(beside);
       const VectorXd noise = ratio / samples.variances.maxCoeff() * samples.variances;
       const double expected = own - beside.dot(solved) - solved.head(count).cwiseAbs2().dot(noise);
 
-      const auto kriging = HeightKriging::of(samples, terms).value();
+      const auto kriging = model.of(samples).value();
       const auto solution = kriging.solve(ratio).value();
       const VectorXd influence = kriging.influence(solution, sought.places, sought.shares);
       EXPECT_NEAR(kriging.wandering(solution, influence, sought.places, sought.shares), expected,
