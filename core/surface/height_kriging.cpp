@@ -53,6 +53,26 @@ void subtract_both_ways(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
   }
 }
 
+/// Diagonal of the inverse of what was decomposed, by the columns of the inverse of the factor:
+/// each begins as far down as it stands to the right.
+Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
+  const Eigen::MatrixXd& factor = cholesky.matrixLLT();
+  const Eigen::Index count = factor.cols();
+  Eigen::VectorXd diagonal(count);
+  Eigen::VectorXd column(count);
+  for (Eigen::Index from = 0; from < count; ++from) {
+    column.tail(count - from).setZero();
+    column[from] = 1.0;
+    for (Eigen::Index i = from; i < count; ++i) {
+      column[i] /= factor(i, i);
+      const Eigen::Index rest = count - i - 1;
+      column.tail(rest) -= column[i] * factor.col(i).tail(rest);
+    }
+    diagonal[from] = column.tail(count - from).squaredNorm();
+  }
+  return diagonal;
+}
+
 /// A quadratic along one line has as many terms as a plane.
 bool span_a_plane(const Eigen::Matrix2Xd& places) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(monomials(places, 3));
@@ -131,13 +151,12 @@ Quadratic HeightKriging::polynomial(const Solution& solution) const {
 
 double HeightKriging::left_out(const Solution& solution) const {
   const Eigen::Index count = places_.cols();
-  const Eigen::MatrixXd root =
-      solution.cholesky.matrixL().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::VectorXd own = inverse_diagonal(solution.cholesky);
   double sum = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
     // The inverse system without the ones that stand on the polynomials.
-    const double own = root.col(i).squaredNorm() - basis_.row(i).squaredNorm();
-    if (own > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own;
+    const double free = own[i] - basis_.row(i).squaredNorm();
+    if (free > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / free;
   }
   return sum / static_cast<double>(count);
 }
