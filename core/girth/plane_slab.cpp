@@ -128,17 +128,15 @@ PlaneSlab within(const PlaneSlab& slab, double half_width) {
 
 SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
     : cloud_(cloud), plane_(plane), heights_(cloud.size()) {
-  const TapePlane seen_from = plane;  // a copy, which writing heights cannot change
   Reach along;
   Reach across;
   Reach above;
-  double* height = heights_.data();
-  for (const auto& position : cloud.positions) {
-    const Eigen::Vector2d place = seen_from.project(position);
-    *height = seen_from.distance(position);
+  for (std::size_t i = 0; i < heights_.size(); ++i) {
+    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
+    heights_[i] = plane.distance(cloud.positions[i]);
     along.add(place.x());
     across.add(place.y());
-    above.add(*height++);
+    above.add(heights_[i]);
   }
   size_ = std::hypot(along.length(), across.length(), above.length());
 }
