@@ -23,6 +23,8 @@ constexpr double kWidestWandering = 0.06;
 constexpr double kBlendedNoise = 0.5;
 /// More than this part of a length is no correction but a guess.
 constexpr double kMostWaves = 0.001;
+/// Unseen waves that lengthen a line by less than this part of it are not looked at closer.
+constexpr double kLeastWaves = 1e-7;
 /// Variance of a direction (square radians) beyond which waves would be folds.
 constexpr double kSteepestWaves = 0.01;
 /// What first order leaves out, against the length.
@@ -128,8 +130,9 @@ void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points,
   }
   sums.noise_waves += 0.5 * stretch.length * std::min(noise, kSteepestWaves);
   const double unseen = 0.5 * stretch.length * std::min(tilt.variance, kSteepestWaves);
-  const double bending = stretch.sheet.patch->fine_bending();
   sums.unseen_waves += unseen;
+  if (unseen < kLeastWaves * stretch.length) return;
+  const double bending = stretch.sheet.patch->fine_bending();
   sums.likely_waves += bending * bending * unseen;
 }
 

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/geometry/stray_points.h"
@@ -39,20 +38,6 @@ constexpr double kNormalCellInSigmas = 3.3;
 constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
 
-/// Size of the cloud as the plane sees it, so that it turns with the two.
-double extent(const PointCloud& cloud, const TapePlane& plane) {
-  Eigen::Matrix3d directions;
-  directions << plane.u(), plane.v(), plane.normal();
-  Eigen::Array3d least = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array3d most = -least;
-  for (const auto& position : cloud.positions) {
-    const Eigen::Array3d place = (directions.transpose() * position).array();
-    least = (place < least).select(place, least);
-    most = (place > most).select(place, most);
-  }
-  return (most - least).matrix().norm();
-}
-
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
   for (const auto& place : places) box.extend(place.head<2>().eval());
@@ -75,8 +60,9 @@ struct Probe {
   double spacing = 0.0;  ///< in the unit
 };
 
-/// Widens a slab until it is a ring of points that tells their spacing. `size`: of the cloud.
-Result<Probe> probe(SlabSource& slabs, double size) {
+/// Widens a slab until it is a ring of points that tells their spacing.
+Result<Probe> probe(SlabSource& slabs) {
+  const double size = slabs.size();
   bool found_some = false;
   for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
     PlaneSlab slab = slabs.slab(half_width);
@@ -216,7 +202,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
                 "scan again");
   }
   SlabSource slabs(cloud, plane);
-  const auto found = probe(slabs, extent(cloud, plane));
+  const auto found = probe(slabs);
   if (!found) return tl::make_unexpected(found.error());
   PlaneBand band = gather_enough(slabs, *found, 0.0);
   drop_strays(band);

@@ -19,6 +19,18 @@ constexpr double kWiderThanOthers = 1.2;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
 
+/// From the least to the most of some numbers.
+struct Reach {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+
+  void add(double number) {
+    least = std::min(least, number);
+    most = std::max(most, number);
+  }
+  double length() const { return most - least; }
+};
+
 /// A place by its first coordinate, to be put in order with little to move.
 struct Found {
   double x;
@@ -32,11 +44,13 @@ bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
   return std::tuple(one.x(), one.y(), one.z(), a) < std::tuple(other.x(), other.y(), other.z(), b);
 }
 
-/// As they come.
-PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+/// As they come. `height_of`: of a point over the plane, by its number.
+template <class HeightOf>
+PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width,
+                         const HeightOf& height_of) {
   PlaneSlab slab;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double height = plane.distance(cloud.positions[i]);
+    const double height = height_of(i);
     if (std::abs(height) > half_width) continue;
     const Eigen::Vector2d place = plane.project(cloud.positions[i]);
     slab.indices.push_back(i);
@@ -77,10 +91,8 @@ std::vector<Found> in_order(const PlaneSlab& slab) {
   return order;
 }
 
-}  // namespace
-
-PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  const PlaneSlab found = unordered_slab(cloud, plane, half_width);
+/// Each place once.
+PlaneSlab ordered_slab(const PlaneSlab& found) {
   const std::vector<Found> order = in_order(found);
   PlaneSlab slab;
   slab.indices.reserve(order.size());
@@ -92,6 +104,14 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
     slab.places.push_back(place);
   }
   return slab;
+}
+
+}  // namespace
+
+PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+  return ordered_slab(unordered_slab(cloud, plane, half_width, [&](std::size_t point) {
+    return plane.distance(cloud.positions[point]);
+  }));
 }
 
 PlaneSlab within(const PlaneSlab& slab, double half_width) {
@@ -106,10 +126,26 @@ PlaneSlab within(const PlaneSlab& slab, double half_width) {
   return part;
 }
 
+SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
+    : cloud_(cloud), plane_(plane), heights_(cloud.size()) {
+  Reach along;
+  Reach across;
+  Reach above;
+  for (std::size_t i = 0; i < heights_.size(); ++i) {
+    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
+    heights_[i] = plane.distance(cloud.positions[i]);
+    along.add(place.x());
+    across.add(place.y());
+    above.add(heights_[i]);
+  }
+  size_ = std::hypot(along.length(), across.length(), above.length());
+}
+
 PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
-    widest_ = slab_of(cloud_, plane_, half_width_);
+    widest_ = ordered_slab(unordered_slab(cloud_, plane_, half_width_,
+                                          [&](std::size_t point) { return heights_[point]; }));
   }
   return within(widest_, half_width);
 }

@@ -22,11 +22,17 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
 /// Those of a slab that lie at most `half_width` from the plane, in the same order.
 PlaneSlab within(const PlaneSlab& slab, double half_width);
 
-/// Slabs of one cloud at one plane, of widths that only what they hold can tell: looks through the
-/// cloud for more than is asked for, and seldom again. Borrows the cloud.
+/// Slabs of one cloud at one plane, of widths that only what they hold can tell: measures the
+/// height of each point once, then picks more than is asked for, and seldom again. Borrows the
+/// cloud; takes a third of its memory.
 class SlabSource {
  public:
-  SlabSource(const PointCloud& cloud, const TapePlane& plane) : cloud_(cloud), plane_(plane) {}
+  /// O(n).
+  SlabSource(const PointCloud& cloud, const TapePlane& plane);
+
+  /// Size of the cloud as the plane sees it, so that it turns with the two: the diagonal of its box
+  /// there. Of at least one point.
+  double size() const { return size_; }
 
   /// As slab_of() gives it.
   PlaneSlab slab(double half_width);
@@ -34,6 +40,8 @@ class SlabSource {
  private:
   const PointCloud& cloud_;
   TapePlane plane_;
+  std::vector<double> heights_;  ///< of the cloud's points
+  double size_ = 0.0;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it
 };

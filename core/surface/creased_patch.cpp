@@ -100,7 +100,8 @@ struct TwoSheets {
   }
 };
 
-/// Gives each point to the sheet that bounds the body there, until nothing changes.
+/// Gives each point to the sheet that bounds the body there, until nothing changes. Nothing as soon
+/// as the sheets hardly turn, as those of a smooth bend do from the first.
 std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
@@ -108,6 +109,7 @@ std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
     sheets.planes = planes_of(points, sheets.sides);
     const auto& [first, second] = sheets.planes;
     if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
+    if (sheets.turn() < kLeastTurn) return std::nullopt;
     sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
     const Sides before = sheets.sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -194,7 +196,7 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
                                               double roughness) {
   if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
   const auto sheets = two_sheets(points);
-  if (!sheets || sheets->turn() < kLeastTurn) return std::nullopt;
+  if (!sheets) return std::nullopt;
   std::array<std::vector<OrientedPoint>, 2> parts;
   std::array<std::vector<std::size_t>, 2> members;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -57,14 +57,34 @@ Eigen::MatrixXd kernel_between(HeightKernel kernel, const Eigen::Matrix2Xd& plac
 }
 
 /// Takes a * b' + b * a' from the lower triangle.
-void subtract_both_ways(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
-                        Eigen::MatrixXd& matrix) {
+void subtract_both_ways(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                        const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& matrix) {
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
     const Eigen::Index rest = matrix.cols() - j;
     for (Eigen::Index k = 0; k < a.cols(); ++k) {
       matrix.col(j).tail(rest) -= b(j, k) * a.col(k).tail(rest) + a(j, k) * b.col(k).tail(rest);
     }
   }
+}
+
+/// Diagonal of the inverse of what was decomposed, by the columns of the inverse of the factor:
+/// each begins as far down as it stands to the right.
+Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
+  const Eigen::MatrixXd& factor = cholesky.matrixLLT();
+  const Eigen::Index count = factor.cols();
+  Eigen::VectorXd diagonal(count);
+  Eigen::VectorXd column(count);
+  for (Eigen::Index from = 0; from < count; ++from) {
+    column.tail(count - from).setZero();
+    column[from] = 1.0;
+    for (Eigen::Index i = from; i < count; ++i) {
+      column[i] /= factor(i, i);
+      const Eigen::Index rest = count - i - 1;
+      column.tail(rest) -= column[i] * factor.col(i).tail(rest);
+    }
+    diagonal[from] = column.tail(count - from).squaredNorm();
+  }
+  return diagonal;
 }
 
 /// A quadratic along one line has as many terms as a plane.
@@ -94,19 +114,56 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
   const Eigen::Index rank = kriging.qr_.rank();
   const Eigen::Index least = kernel == HeightKernel::kCubic ? 3 : Quadratic::RowsAtCompileTime;
   if (rank < least || rank >= samples.size()) return std::nullopt;
-  kriging.basis_ = Eigen::MatrixXd::Identity(samples.size(), rank);
-  kriging.basis_.applyOnTheLeft(kriging.qr_.householderQ().setLength(rank));
-
-  const Eigen::MatrixXd& basis = kriging.basis_;
-  kriging.reduced_ = kernel_between(kernel, samples.places, kriging.scales_);
-  kriging.on_basis_ = kriging.reduced_.selfadjointView<Eigen::Lower>() * basis;
-  const Eigen::MatrixXd square = basis.transpose() * kriging.on_basis_;
-  const Eigen::MatrixXd off =
-      kriging.on_basis_ - 0.5 * basis * (square + Eigen::MatrixXd::Identity(rank, rank));
-  subtract_both_ways(off, basis, kriging.reduced_);
+  kriging.set_reflectors(rank);
+  kriging.set_kernel(kernel_between(kernel, samples.places, kriging.scales_));
   kriging.heights_ = scales.asDiagonal() * samples.heights;
-  kriging.free_heights_ = kriging.heights_ - basis * (basis.transpose() * kriging.heights_).eval();
+  kriging.free_heights_ = kriging.off_polynomials(kriging.heights_);
   return kriging;
+}
+
+/// The reflections of the decomposition as one block, I - V T V' (Schreiber and Van Loan 1989): its
+/// first columns span the polynomials, the others all that is off them.
+void HeightKriging::set_reflectors(Eigen::Index rank) {
+  const Eigen::Index count = places_.cols();
+  reflectors_ = qr_.matrixQR().leftCols(rank).triangularView<Eigen::StrictlyLower>();
+  reflectors_.diagonal().setOnes();
+  Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(rank, rank);
+  for (Eigen::Index j = 0; j < rank; ++j) {
+    const double size = qr_.hCoeffs()[j];
+    factor(j, j) = size;
+    factor.col(j).head(j) = -size * (factor.topLeftCorner(j, j) *
+                                     (reflectors_.leftCols(j).transpose() * reflectors_.col(j)));
+  }
+  scaled_reflectors_ = reflectors_ * factor;
+  basis_ = Eigen::MatrixXd::Identity(count, rank) -
+           scaled_reflectors_ * reflectors_.topRows(rank).transpose();
+}
+
+/// `kernel`: the lower triangle.
+void HeightKriging::set_kernel(const Eigen::MatrixXd& kernel) {
+  const Eigen::Index rank = basis_.cols();
+  const Eigen::Index rest = free();
+  const Eigen::MatrixXd reflected = kernel.selfadjointView<Eigen::Lower>() * scaled_reflectors_;
+  on_basis_ = kernel.leftCols(rank);
+  on_basis_.topRows(rank) =
+      kernel.topLeftCorner(rank, rank).selfadjointView<Eigen::Lower>().toDenseMatrix();
+  on_basis_ -= reflected * reflectors_.topRows(rank).transpose();
+  const Eigen::MatrixXd off =
+      reflected - 0.5 * reflectors_ * (scaled_reflectors_.transpose() * reflected);
+  reduced_ = kernel.bottomRightCorner(rest, rest);
+  subtract_both_ways(off.bottomRows(rest), reflectors_.bottomRows(rest), reduced_);
+}
+
+Eigen::VectorXd HeightKriging::off_polynomials(const Eigen::VectorXd& scaled) const {
+  const Eigen::VectorXd along = scaled_reflectors_.transpose() * scaled;
+  return scaled.tail(free()) - reflectors_.bottomRows(free()) * along;
+}
+
+Eigen::VectorXd HeightKriging::from_off_polynomials(const Eigen::VectorXd& reduced) const {
+  const Eigen::VectorXd along = reflectors_.bottomRows(free()).transpose() * reduced;
+  Eigen::VectorXd scaled = -(scaled_reflectors_ * along);
+  scaled.tail(free()) += reduced;
+  return scaled;
 }
 
 double HeightKriging::log_determined() const {
@@ -121,11 +178,11 @@ std::optional<HeightKriging::Solution> HeightKriging::solve(double ratio) const 
   solution.ratio = ratio;
   solution.cholesky.compute(system);
   if (solution.cholesky.info() != Eigen::Success) return std::nullopt;
-  solution.on_null_space = solution.cholesky.solve(free_heights_);
-  if (!solution.on_null_space.allFinite()) return std::nullopt;
-  solution.log_volume = 2.0 * solution.cholesky.matrixLLT().diagonal().array().log().sum() -
-                        static_cast<double>(basis_.cols()) * std::log(1.0 + ratio);
-  solution.excess = free_heights_.dot(solution.on_null_space);
+  const Eigen::VectorXd solved = solution.cholesky.solve(free_heights_);
+  if (!solved.allFinite()) return std::nullopt;
+  solution.on_null_space = from_off_polynomials(solved);
+  solution.log_volume = 2.0 * solution.cholesky.matrixLLT().diagonal().array().log().sum();
+  solution.excess = free_heights_.dot(solved);
   return solution;
 }
 
@@ -148,13 +205,17 @@ Quadratic HeightKriging::polynomial(const Solution& solution) const {
 
 double HeightKriging::left_out(const Solution& solution) const {
   const Eigen::Index count = places_.cols();
-  const Eigen::MatrixXd root =
-      solution.cholesky.matrixL().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::Index rest = free();
+  // The diagonal of the inverse, reflected from both sides.
+  Eigen::MatrixXd solved = Eigen::MatrixXd::Zero(count, basis_.cols());
+  solved.bottomRows(rest) = solution.cholesky.solve(reflectors_.bottomRows(rest));
+  const Eigen::MatrixXd square = reflectors_.transpose() * solved;
+  Eigen::VectorXd own =
+      (scaled_reflectors_ * square - 2.0 * solved).cwiseProduct(scaled_reflectors_).rowwise().sum();
+  own.tail(rest) += inverse_diagonal(solution.cholesky);
   double sum = 0.0;
   for (Eigen::Index i = 0; i < count; ++i) {
-    // The inverse system without the ones that stand on the polynomials.
-    const double own = root.col(i).squaredNorm() - basis_.row(i).squaredNorm();
-    if (own > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own;
+    if (own[i] > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own[i];
   }
   return sum / static_cast<double>(count);
 }
@@ -169,10 +230,10 @@ Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::
                                     .triangularView<Eigen::Upper>()
                                     .transpose()
                                     .solve(sought.head(rank));
-  Eigen::VectorXd right =
+  const Eigen::VectorXd right =
       (scales_ * kernels_at(kernel_, places_, places, shares)).matrix() - on_basis_ * along;
-  right -= basis_ * (basis_.transpose() * right).eval();
-  const Eigen::VectorXd scaled = basis_ * along + solution.cholesky.solve(right);
+  const Eigen::VectorXd solved = solution.cholesky.solve(off_polynomials(right));
+  const Eigen::VectorXd scaled = basis_ * along + from_off_polynomials(solved);
   return scales_ * scaled.array();
 }
 
@@ -180,11 +241,11 @@ Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::
 /// off them it is what was solved, less the ratio.
 double HeightKriging::kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const {
   const Eigen::VectorXd along = basis_.transpose() * scaled;
-  const Eigen::VectorXd off = scaled - basis_ * along;
+  const Eigen::VectorXd off = off_polynomials(scaled);
   const Eigen::VectorXd rooted = solution.cholesky.matrixU() * off;
   const Eigen::VectorXd crossed = on_basis_ * along;
   return rooted.squaredNorm() - solution.ratio * off.squaredNorm() +
-         crossed.dot(basis_ * along + 2.0 * off);
+         crossed.dot(2.0 * scaled - basis_ * along);
 }
 
 double HeightKriging::wandering(const Solution& solution, const Eigen::VectorXd& influence,

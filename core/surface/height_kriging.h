@@ -17,8 +17,8 @@ enum class HeightKernel { kCubic, kQuintic };
 /// a plane, with a quadratic polynomial or a plane; read as kriging: once the polynomial is taken
 /// out, heights wander with covariance roughness * phi and carry noise on top.
 ///
-/// It is solved on the null space of the polynomial block, where it is positive definite: the
-/// kernel is projected there, one is put in its place on the polynomials, and Cholesky's method
+/// It is solved on the null space of the polynomial block, where it is positive definite and by as
+/// many rows smaller as there are terms: reflections turn the kernel there, and Cholesky's method
 /// does the rest. Unequal variances are made equal first, by weighing each sample, so that all
 /// depends on one number, the ratio of noise to roughness.
 class HeightKriging {
@@ -35,10 +35,10 @@ class HeightKriging {
   double level() const { return level_; }
   /// Samples that the polynomial leaves over.
   Eigen::Index free() const { return places_.cols() - basis_.cols(); }
-  /// The kernel on the null space of the polynomials, with one in its place on them: the lower
-  /// triangle of a symmetric matrix.
+  /// The kernel on the null space of the polynomials, free() rows in an orthonormal basis of it:
+  /// the lower triangle of a symmetric matrix.
   const Eigen::MatrixXd& reduced() const { return reduced_; }
-  /// The weighed heights there.
+  /// The weighed heights there, in the same basis.
   const Eigen::VectorXd& free_heights() const { return free_heights_; }
   /// Log determinant of the polynomial block, for comparing models.
   double log_determined() const;
@@ -80,6 +80,11 @@ class HeightKriging {
  private:
   HeightKriging() = default;
 
+  void set_reflectors(Eigen::Index rank);
+  void set_kernel(const Eigen::MatrixXd& kernel);
+  /// The part off the polynomials in the basis of reduced(), and back.
+  Eigen::VectorXd off_polynomials(const Eigen::VectorXd& scaled) const;
+  Eigen::VectorXd from_off_polynomials(const Eigen::VectorXd& reduced) const;
   double kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const;
 
   HeightKernel kernel_ = HeightKernel::kCubic;
@@ -87,9 +92,11 @@ class HeightKriging {
   Eigen::ArrayXd scales_;
   double level_ = 0.0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
-  Eigen::MatrixXd basis_;     ///< orthonormal columns that span the polynomial block
-  Eigen::MatrixXd on_basis_;  ///< kernel times basis
-  Eigen::MatrixXd reduced_;   ///< lower triangle
+  Eigen::MatrixXd reflectors_;         ///< V of set_reflectors()
+  Eigen::MatrixXd scaled_reflectors_;  ///< V T
+  Eigen::MatrixXd basis_;              ///< orthonormal columns that span the polynomial block
+  Eigen::MatrixXd on_basis_;           ///< kernel times basis
+  Eigen::MatrixXd reduced_;            ///< lower triangle
   Eigen::VectorXd heights_;
   Eigen::VectorXd free_heights_;
 };

@@ -58,9 +58,14 @@ Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms) {
 
 Quadratic least_squares(const HeightSamples& samples) {
   const Eigen::MatrixXd values = monomials(samples.places, Quadratic::RowsAtCompileTime);
-  const Eigen::Matrix<double, 6, 6> normal = values.transpose() * values;
-  const Quadratic data = values.transpose() * samples.heights;
-  return normal.ldlt().solve(data);
+  // Products of columns one by one: there are many samples and few terms.
+  Eigen::Matrix<double, 6, 6> normal;
+  Quadratic data;
+  for (Eigen::Index i = 0; i < values.cols(); ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) normal(i, j) = values.col(i).dot(values.col(j));
+    data[i] = values.col(i).dot(samples.heights);
+  }
+  return normal.ldlt().solve(data);  // reads the lower triangle
 }
 
 CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend) {

@@ -53,8 +53,6 @@ KrigingLikelihood::Readings KrigingLikelihood::at(const Group& ratios) const {
     readings.excess += rest * rest / pivot;
   }
   readings.log_volume += product.log();
-  // On the polynomials stands a one.
-  readings.log_volume -= static_cast<double>(diagonal_.size() - free_) * (1.0 + ratios).log();
   readings.log_volume = (least > 0.0).select(readings.log_volume, kInfinity);
   readings.excess = (least > 0.0).select(readings.excess, 0.0);
   return readings;
@@ -113,8 +111,7 @@ double KrigingLikelihood::likeliest_variance(double least, double most, double s
 }
 
 double KrigingLikelihood::mean_diagonal() const {
-  const auto terms = static_cast<double>(diagonal_.size() - free_);
-  return (diagonal_.sum() - terms) / static_cast<double>(free_);
+  return diagonal_.mean();
 }
 
 }  // namespace instep

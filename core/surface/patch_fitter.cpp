@@ -38,7 +38,7 @@ constexpr double kTwin = 0.02;
 constexpr double kLeastReach = 0.033;
 /// Cosine to the outward direction of normals that tell of no crease, and how many, and which part
 /// of all, must tell of one.
-constexpr double kHardlyBent = 0.96;
+constexpr double kHardlyBent = 0.93;
 constexpr std::ptrdiff_t kFewestBent = 6;
 constexpr double kLeastBent = 0.05;
 /// The shape between the estimates of roughness may be rougher than they are.

@@ -14,8 +14,10 @@ namespace {
 constexpr std::size_t kFewestLinks = 7;
 constexpr std::size_t kNearestLinks = 10;
 
-/// Across a larger bend (one less its cosine) a normal tells little of its neighbour's side.
+/// Across a larger bend (one less its cosine) a normal tells little of its neighbour's side; across
+/// a smaller one than the second, of 8 degrees, there is no doubt.
 constexpr double kLargestBend = 0.12;
+constexpr double kHardlyABend = 0.01;
 constexpr double kReached = -1.0;
 /// A part whose normals face away from the middle by this share of what they could needs no
 /// neighbours to tell its side.
@@ -114,8 +116,10 @@ double CellNormals::outward_share(const std::vector<std::size_t>& cells,
 double CellNormals::agreement_with(const std::vector<bool>& sure,
                                    const std::vector<std::size_t>& cells) const {
   double agreement = 0.0;
+  std::vector<std::size_t> links;
   for (const std::size_t cell : cells) {
-    for (const std::size_t other : links_of(cell)) {
+    find_links(cell, links);
+    for (const std::size_t other : links) {
       if (sure[other]) agreement += normals_[cell].dot(normals_[other]);
     }
   }
@@ -123,14 +127,14 @@ double CellNormals::agreement_with(const std::vector<bool>& sure,
 }
 
 /// The cells round one, or where they are few its nearest ones.
-std::vector<std::size_t> CellNormals::links_of(std::size_t cell) const {
-  auto links = grid_.neighbourhood(cell);
-  if (links.size() >= kFewestLinks) return links;
+void CellNormals::find_links(std::size_t cell, std::vector<std::size_t>& links) const {
+  links.clear();
+  grid_.each_near(cell, [&](std::size_t near) { links.push_back(near); });
+  if (links.size() >= kFewestLinks) return;
   links.clear();
   for (const auto& nearest : middle_index_.nearest(middles_[cell], kNearestLinks)) {
     links.push_back(nearest.index);
   }
-  return links;
 }
 
 /// Turns the cells that hang together with `root`, round no sharp bend; returns them.
@@ -138,21 +142,28 @@ std::vector<std::size_t> CellNormals::links_of(std::size_t cell) const {
 std::vector<std::size_t> CellNormals::orient_part(std::size_t root,
                                                   std::vector<double>& least_bends) {
   std::vector<std::size_t> part;
+  std::vector<std::size_t> links;
   std::priority_queue<Bend> bends;
-  bends.push({0.0, root, root});
-  while (!bends.empty()) {
-    const Bend bend = bends.top();
-    bends.pop();
+  std::vector<Bend> flat;  // those that hardly bend wait for no other
+  flat.push_back({0.0, root, root});
+  while (!flat.empty() || !bends.empty()) {
+    const Bend bend = flat.empty() ? bends.top() : flat.back();
+    flat.empty() ? bends.pop() : flat.pop_back();
     if (least_bends[bend.to] == kReached) continue;
     least_bends[bend.to] = kReached;
     part.push_back(bend.to);
     if (normals_[bend.from].dot(normals_[bend.to]) < 0.0) normals_[bend.to] *= -1.0;
-    for (const auto next : links_of(bend.to)) {
+    find_links(bend.to, links);
+    for (const auto next : links) {
       // Rounding could leave less than none.
       const double size = std::max(1.0 - std::abs(normals_[bend.to].dot(normals_[next])), 0.0);
       if (size >= least_bends[next]) continue;
-      least_bends[next] = size;
-      bends.push({size, bend.to, next});
+      least_bends[next] = size < kHardlyABend ? 0.0 : size;
+      if (size < kHardlyABend) {
+        flat.push_back({size, bend.to, next});
+      } else {
+        bends.push({size, bend.to, next});
+      }
     }
   }
   return part;

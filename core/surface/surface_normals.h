@@ -20,10 +20,10 @@ class CellNormals {
               std::size_t fewest);
 
   /// Turns normals to agree with their neighbours along a minimum spanning tree of the bends (Hoppe
-  /// 1992), within parts that no sharp edge crosses. A part that plainly faces away from the middle
-  /// of all, or towards it, is turned as a whole: over a ring round the third axis the sum of
-  /// normal times place is twice its area, wherever the middle is taken. The others follow their
-  /// neighbours.
+  /// 1992; bends of less than 8 degrees in any order), within parts that no sharp edge crosses. A
+  /// part that plainly faces away from the middle of all, or towards it, is turned as a whole: over
+  /// a ring round the third axis the sum of normal times place is twice its area, wherever the
+  /// middle is taken. The others follow their neighbours.
   void orient_by_neighbours();
 
   /// The normal of each point: that of its cell.
@@ -36,7 +36,7 @@ class CellNormals {
     double outward = 0.0;
   };
 
-  std::vector<std::size_t> links_of(std::size_t cell) const;
+  void find_links(std::size_t cell, std::vector<std::size_t>& links) const;
   std::vector<std::size_t> orient_part(std::size_t root, std::vector<double>& least_bends);
   Eigen::Vector2d middle_of_all() const;
   double outward_share(const std::vector<std::size_t>& cells, const Eigen::Vector2d& middle) const;

@@ -166,16 +166,18 @@ TEST(LengthDoubt, HoldsOverAHole) {
                        [](std::uint64_t seed) { return with_hole(cylinder(6000, 0.1, seed)); }));
 }
 
-/// Exact points leave no doubt but that of the surface between them.
+/// Exact points leave no doubt but that of the surface between them; of a body that bends unevenly,
+/// for a circular cylinder is told nearly as well over a hole.
 TEST(LengthDoubt, IsLargerWithAHole) {
+  const auto shape = test::elliptic_cylinder(45, 30);
   double whole = 0.0;
   double open = 0.0;
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
-    const auto cloud = cylinder(6000, 0.0, seed);
+    const auto cloud = test::random_points(shape, 6000, -30, 30, 0.0, seed);
     whole += girth_of(cloud).contact_u95_mm.value();
     open += girth_of(with_hole(cloud)).contact_u95_mm.value();
   }
-  EXPECT_GT(open, 1.5 * whole);
+  EXPECT_GT(open, 3.0 * whole);
 }
 
 }  // namespace

@@ -39,6 +39,19 @@ TEST(PlaneSlab, SourceGivesTheSameSlabsWhateverWasAskedForBefore) {
   }
 }
 
+TEST(PlaneSlab, SourceKnowsTheSizeOfTheCloudAsThePlaneSeesIt) {
+  PointCloud cloud;
+  for (int corner = 0; corner < 8; ++corner) {
+    cloud.positions.emplace_back(7.0 + 2.0 * (corner & 1), 3.0 * (corner >> 1 & 1),
+                                 6.0 * (corner >> 2));
+  }
+  EXPECT_NEAR(SlabSource(cloud, level_plane()).size(), 7.0, 1e-12);
+  // Seen along a diagonal the box is wider.
+  const auto leaning = TapePlane::through({0, 0, 0}, {1, 1, 0}, {0, 0, 1}).value();
+  const double wide = 5.0 / std::sqrt(2.0);
+  EXPECT_NEAR(SlabSource(cloud, leaning).size(), std::hypot(wide, wide, 6.0), 1e-12);
+}
+
 TEST(PlaneSlab, IsInOrderOfPlacesWhereTheyAreFarFromEven) {
   PointCloud cloud;
   for (int i = 0; i < 400; ++i) {
