@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/foot/border_crest.h"
+
 namespace instep {
 namespace {
 
@@ -19,6 +21,7 @@ constexpr double kSpread = 0.03;
 constexpr double kAboveMm = 5.0;
 constexpr double kFrom = 0.10;
 constexpr double kTo = 0.45;
+constexpr CrestPatch kPatch{8.0, 10.0};
 
 }  // namespace
 
@@ -40,8 +43,15 @@ std::optional<Landmark> find_medial_malleolus(const FootOutline& outline) {
   const auto peak = side.furthest(kLowest * length, kHighest * length, [&](double height) {
     return std::pow((height / length - kUsual) / kSpread, 2);
   });
-  if (!peak || peak->along > top - kAboveMm) return std::nullopt;
-  return Landmark{side.position(*peak), 0.6,
+  if (!peak) return std::nullopt;
+  const auto crest =
+      crest_near(leg, side.view(), *peak, kPatch, UsualPlace{kUsual * length, kSpread * length});
+  const bool is_in_range =
+      crest && crest->along >= kLowest * length && crest->along <= kHighest * length;
+  const auto steadier = is_in_range ? side.at(crest->along) : std::nullopt;
+  const SkinBorder::Place place = steadier.value_or(*peak);
+  if (place.along > top - kAboveMm) return std::nullopt;
+  return Landmark{side.position(place), 0.6,
                   "most medial point at 0.22-0.38 of the foot's length over the floor, weighed by "
                   "nearness to 0.30"};
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foot/axis_turn.h"
+#include "core/foot/border_crest.h"
 #include "core/foot/robust_extreme.h"
 #include "core/foot/second_toe.h"
 
@@ -17,6 +18,10 @@ using Points = std::vector<Vector3d>;
 // A round leaves some 0.4 of the turn that is left.
 constexpr int kMostRounds = 8;
 constexpr double kStandsStillRad = 3e-4;
+// A heel is round: its rearmost place on a small patch wanders sideways, and turns the axis. How
+// far back it reaches is read on a small one, which no kink beside it can pull.
+constexpr CrestPatch kHeelPatch{15.0, 12.0};
+constexpr CrestPatch kReachPatch{7.0, 7.0};
 
 Points outline_points(const Points& points, double length) {
   Points low;
@@ -42,7 +47,14 @@ Points moved(const RigidTransform& transform, Points points) {
 
 Vector3d rearmost(const Points& points, double length) {
   const Vector3d back = -Vector3d::UnitX();
-  return robust_extreme(beyond(points, back, -0.15 * length), back);
+  const Points end = beyond(points, back, -0.15 * length);
+  const Vector3d start = robust_extreme(end, back);
+  const BorderView from_behind{Vector3d::UnitY(), back, Vector3d::UnitZ(), 0.0,
+                               kOutlineHeightShare * length};
+  const auto crest = crest_near(end, from_behind, {start.y(), -start.x(), start.z()}, kHeelPatch);
+  if (!crest) return start;
+  const auto close = crest_near(end, from_behind, *crest, kReachPatch);
+  return {close ? -close->reach : start.x(), crest->along, crest->across};
 }
 
 Vector3d foremost(const Points& points, double from) {

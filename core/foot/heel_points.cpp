@@ -17,10 +17,11 @@ constexpr double kHeelMm = 40.0;
 constexpr double kRearShare = 0.2;
 constexpr double kSmoothingMm = 9.0;
 constexpr double kStepMm = 0.5;
-constexpr double kHalfWidthShare = 0.12;  ///< beside the axis
-constexpr double kHeelSlope = 0.45;       ///< radians: from the instep point down to the heel
-constexpr double kHeelRangeShare = 0.1;   ///< to either side of the line that slopes so
-constexpr double kJunctionSlope = 0.62;   ///< radians: from the heel up to the junction
+constexpr double kHalfWidthShare = 0.12;   ///< beside the axis
+constexpr double kHeelSlope = 0.45;        ///< radians: from the instep point down to the heel
+constexpr double kHeelRangeShare = 0.1;    ///< to either side of the line that slopes so
+constexpr double kMostUnderFloorMm = 2.0;  ///< where the border's own end runs away
+constexpr double kJunctionSlope = 0.62;    ///< radians: from the heel up to the junction
 constexpr double kLeastRise = 0.40;
 constexpr double kMostRise = 0.85;
 
@@ -109,12 +110,13 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
   const double middle = along.dot(instep.position_mm);
   const double range = kHeelRangeShare * length;
   const auto point = best_place(heel, middle - range, middle + range, [&](const Vector3d& place) {
-    return seen_from_side(place, instep.position_mm);
+    const bool is_under_floor = place.z() < -kMostUnderFloorMm;
+    return is_under_floor ? -1e6 : seen_from_side(place, instep.position_mm);
   });
-  if (!point) return std::nullopt;
+  if (!point || point->z() < -kMostUnderFloorMm) return std::nullopt;
   // The round edge of the sole begins about there. Where it was not seen, the place where the
   // points put for it begin is none to look for.
-  constexpr ReachPatch kOnSeenSkin{10.0, 12.0};
+  constexpr ReachPatch kOnSeenSkin{10.0, 16.0};
   constexpr ReachPatch kBesideGuess{8.0, 12.0};
   const Vector3d& origin = instep.position_mm;
   const auto refined =

@@ -37,6 +37,8 @@ struct LengthRule {
   const char* definition;
   enum class Kind { kLength, kAngle } kind = Kind::kLength;
   double floor_doubt_mm = 0.0;  ///< of a height, where the floor is told by the sole alone
+  /// What the patch that tells a landmark pulls it aside by: over drawn feet, as below.
+  double own_doubt_mm = 0.0;
 };
 
 struct GirthRule {
@@ -44,8 +46,9 @@ struct GirthRule {
   std::function<Result<TapePlane>(const Landmarks&)> tape;
   std::vector<const char*> landmarks;
   const char* definition;
-  /// What the rule's own terms leave open where a landmark is told by a bend hardly seen: over
-  /// drawn feet (tests/bench/feet), and not to be seen in the scatter of redraws.
+  /// What the rule's own terms leave open where a landmark is told by a bend hardly seen, or by a
+  /// patch so wide that it pulls the landmark aside: over drawn feet (tests/bench/feet), and not to
+  /// be seen in the scatter of redraws.
   double own_doubt_mm = 0.0;
 };
 
@@ -72,11 +75,17 @@ const std::vector<LengthRule>& length_rules() {
       {"ball_length",
        ball_length,
        {"metatarsale_tibiale"},
-       "from the pternion to metatarsale tibiale, parallel to the axis"},
+       "from the pternion to metatarsale tibiale, parallel to the axis",
+       LengthRule::Kind::kLength,
+       0.0,
+       0.6},
       {"outside_ball_length",
        outside_ball_length,
        {"metatarsale_fibulare"},
-       "from the pternion to metatarsale fibulare, parallel to the axis"},
+       "from the pternion to metatarsale fibulare, parallel to the axis",
+       LengthRule::Kind::kLength,
+       0.0,
+       0.4},
       {"instep_height",
        instep_height,
        {},
@@ -140,7 +149,8 @@ GirthRule ball_rule(const FootScan& foot) {
   GirthRule rule{"ball_girth",
                  ball_tape,
                  {"metatarsale_tibiale", "metatarsale_fibulare"},
-                 "stretched tape in the upright plane over metatarsale tibiale and fibulare"};
+                 "stretched tape in the upright plane over metatarsale tibiale and fibulare",
+                 0.4};
   if (foot.rules.ball_girth == BallGirthRule::kShortest) {
     rule.tape = [lean = shortest_lean_deg(foot)](const Landmarks& landmarks) {
       return leaning_ball_tape(landmarks, lean);
@@ -188,7 +198,8 @@ std::vector<GirthRule> girth_rules(const FootScan& foot) {
       {"ankle_girth",
        ankle_tape,
        {"medial_malleolus"},
-       "stretched tape in the level plane over the medial malleolus"},
+       "stretched tape in the level plane over the medial malleolus",
+       0.5},
   };
 }
 
@@ -243,6 +254,7 @@ Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
   Measure measure;
   measure.id = rule.id;
   auto u95 = u95_of(rule, foot);
+  if (u95) u95 = std::hypot(*u95, rule.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, rule.floor_doubt_mm);
   if (rule.kind == LengthRule::Kind::kAngle) {
     measure.value_mm = std::numeric_limits<double>::quiet_NaN();

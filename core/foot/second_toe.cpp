@@ -15,6 +15,9 @@ constexpr double kBorderSmoothingMm = 9.0;
 constexpr double kToeSmoothingMm = 3.5;
 constexpr double kToeStripMm = 1.0;
 constexpr double kCleftMm = 1.0;  ///< depth from which a cleft parts two toes
+constexpr double kDeeper = 1.2;
+constexpr double kDeepestCleftMm = 1.6;     ///< toes in deeper noise cannot be told apart
+constexpr double kNearestToesShare = 0.07;  ///< of the ball's breadth, from tip to tip
 constexpr double kHalfToeMm = 6.0;
 constexpr double kToeRadiusShare =
     0.027;                           ///< of a toe's tip seen from above, over the foot's length
@@ -55,7 +58,16 @@ Vector2d square_to_toes(const BorderProfile& front, double from, double to) {
   return Vector2d(1.0, -slope).normalized();
 }
 
-/// The toes that show, each by the point of its border that stands out most.
+bool lie_like_toes(const std::vector<Vector2d>& tips, double breadth) {
+  for (std::size_t i = 1; i < tips.size(); ++i) {
+    if (std::abs(tips[i].y() - tips[i - 1].y()) < kNearestToesShare * breadth) return false;
+  }
+  return true;
+}
+
+/// The toes that show, each by the point of its border that stands out most. Noise and folds of
+/// socks make clefts of their own, and tips nearer to each other than toes: then a cleft must be
+/// deeper to part toes.
 std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vector2d& square,
                                    const BallBorders& ball) {
   const Vector2d along(-square.y(), square.x());
@@ -66,12 +78,15 @@ std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vec
     from = std::min(from, along.dot(point));
     to = std::max(to, along.dot(point));
   }
-  std::vector<Vector2d> found;
-  if (!(to - from < 2.0 * ball.breadth)) return found;
-  for (const auto& summit : toes.summits(from, to, kCleftMm)) {
-    found.push_back(summit.place * along + summit.reach * square);
+  if (!(to - from < 2.0 * ball.breadth)) return {};
+  for (double cleft = kCleftMm; cleft < kDeepestCleftMm; cleft *= kDeeper) {
+    std::vector<Vector2d> tips;
+    for (const auto& summit : toes.summits(from, to, cleft)) {
+      tips.push_back(summit.place * along + summit.reach * square);
+    }
+    if (lie_like_toes(tips, ball.breadth)) return tips;
   }
-  return found;
+  return {};
 }
 
 /// The foremost point of the toe that shows at `toe`, seen in the direction `square`. A tip is

@@ -35,6 +35,8 @@ class SkinBorder {
   /// The same border, smoothed over another length.
   SkinBorder smoothed_over(double smoothing_mm) const;
 
+  const BorderView& view() const { return view_; }
+
   struct Place {
     double along = 0.0;
     double reach = 0.0;   ///< outwards

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/median.h"
 
@@ -13,7 +14,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kRounds = 3;
+constexpr int kMostRounds = 6;
+constexpr double kStandsStillMm = 0.03;
 constexpr double kDeepestMm = 5.0;  ///< off the start: beyond is another face
 constexpr std::size_t kFewestPoints = 24;
 constexpr double kTimesMedian = 4.5;  ///< three standard deviations
@@ -232,14 +234,15 @@ std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Ve
   const bool has_extent = patch.around_mm > 0.0 && patch.across_mm > 0.0 && beginning.reach > 0.0;
   if (!has_extent) return std::nullopt;
   Vector3d place = start;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     const View view(axis_place, place, patch);
     const SeenPatch seen = view.of(points);
     if (seen.size() < kFewestPoints) return std::nullopt;
     const std::optional<SeenPoint> found = find(seen);
     if (!found) return std::nullopt;
-    place = view.place_of(*found);
+    const Vector3d before = std::exchange(place, view.place_of(*found));
     if (!beginning.holds(place)) return std::nullopt;
+    if ((place - before).norm() < kStandsStillMm) break;
   }
   return place;
 }

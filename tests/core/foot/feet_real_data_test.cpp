@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "core/foot/alignment.h"
@@ -109,9 +111,11 @@ TEST_F(RealFeet, MeasureTheSameHoweverTheyStand) {
   }
 }
 
-/// Thinned they move by less than half a millimetre; noise moves them, from draw to draw, within
-/// what they claim.
+/// Thinned they move by less than half a millimetre; so they do with noise, but for a draw in six
+/// at the ball, where the tape itself is out by a quarter of a millimetre; and always within what
+/// they claim.
 TEST_F(RealFeet, KeepTheirGirthsWhenThinnedAndWithNoise) {
+  constexpr std::uint64_t kDraws = 8;
   for (const char* name : {"retail_left.stl", "retail_right.stl"}) {
     const auto points = cloud(name, 1000.0);
     const auto whole = measured(points);
@@ -119,15 +123,20 @@ TEST_F(RealFeet, KeepTheirGirthsWhenThinnedAndWithNoise) {
     for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
       EXPECT_NEAR(half.set.find(id)->value_mm, whole.set.find(id)->value_mm, 0.5) << name << id;
     }
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    std::map<std::string, int> steady;
+    for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
       const auto with_noise = measured(noisy(points, 0.5, seed));
-      for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
+      for (const char* id : {"ball_girth", "waist_girth", "instep_girth", "long_heel_girth"}) {
         const Measure& before = *whole.set.find(id);
         const Measure& after = *with_noise.set.find(id);
-        EXPECT_NEAR(after.value_mm, before.value_mm, std::hypot(*after.u95_mm, *before.u95_mm))
+        const double move = std::abs(after.value_mm - before.value_mm);
+        EXPECT_LT(move, std::hypot(*after.u95_mm, *before.u95_mm))
             << name << " " << id << " " << seed;
+        if (move < 0.5) ++steady[id];
       }
     }
+    for (const auto& [id, draws] : steady) EXPECT_GE(draws, 6) << name << " " << id;
+    EXPECT_EQ(steady.size(), 4U) << name;
   }
 }
 
