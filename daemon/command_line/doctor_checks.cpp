@@ -15,6 +15,7 @@
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/machine/device_checks.h"
+#include "daemon/report/json_fields.h"
 #include "daemon/station/devices.h"
 
 namespace instep {
@@ -67,20 +68,16 @@ DoctorCheck check_free_space(const std::filesystem::path& root) {
                          : bad("disk", finding, "make room, or set store.keep_days");
 }
 
-std::string text(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
   if (!status) {
     const bool denied = status.error().code == ErrorCode::kPermissionDenied;
     return bad("daemon", status.error().message,
                denied ? "sudo usermod -aG instep $USER" : "sudo systemctl start instepd");
   }
-  const auto trouble = text(*status, "trouble");
+  const auto trouble = string_at(*status, "trouble");
   if (!trouble.empty())
-    return bad("daemon", text(*status, "state") + ": " + trouble, "instep status");
-  return good("daemon", text(*status, "state") + ", answers on " + socket.string());
+    return bad("daemon", string_at(*status, "state") + ": " + trouble, "instep status");
+  return good("daemon", string_at(*status, "state") + ", answers on " + socket.string());
 }
 
 /// Asks the daemon, who has the cameras, or opens them if there is none.
@@ -89,7 +86,8 @@ DoctorCheck check_cameras(const Result<json>& status, const Settings& settings) 
     const auto& cameras = (*status)["cameras"];
     for (const auto& camera : cameras) {
       if (!camera.value("ok", false)) {
-        return bad("cameras", text(camera, "trouble"), "plug it in again, then: instep status");
+        return bad("cameras", string_at(camera, "trouble"),
+                   "plug it in again, then: instep status");
       }
     }
     return good("cameras", fmt::format("all {} answer", cameras.size()));
@@ -133,8 +131,8 @@ void check_outputs(const Result<json>& status, const Settings& settings,
                    std::vector<DoctorCheck>& checks) {
   if (status) {
     for (const auto& output : status->value("outputs", json::array())) {
-      const std::string name = text(output, "name");
-      const std::string trouble = text(output, "trouble");
+      const std::string name = string_at(output, "name");
+      const std::string trouble = string_at(output, "trouble");
       checks.push_back(trouble.empty() ? good("output", name + " is there")
                                        : bad("output", name + ": " + trouble, "instep devices"));
     }

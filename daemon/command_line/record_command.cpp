@@ -73,7 +73,9 @@ Result<void> run(const RecordCommand& command) {
   const StopRequest stop;  // a killed program would leave the light on
   const auto light = light_of(settings->outputs);
   ProgressLine line;
-  const auto recording = capture_recording(devices->cameras, header, length_of(command),
+  const auto turns =
+      settings->capture.one_at_a_time ? CameraTurns::kOneAtATime : CameraTurns::kTogether;
+  const auto recording = capture_recording(devices->cameras, header, length_of(command), turns,
                                            command.folder, [&](double done) {
                                              line.show("recording", done);
                                              return !stop.is_made();

@@ -59,7 +59,7 @@ Result<void> run(const SimulateCommand& command) {
   header.simulated = true;
   ProgressLine line;
   const auto recording = capture_recording(station->cameras, header, {command.frames, {}},
-                                           command.folder, [&](double done) {
+                                           CameraTurns::kTogether, command.folder, [&](double done) {
                                              line.show("simulating", done);
                                              return true;
                                            });
