@@ -18,7 +18,9 @@
 namespace instep {
 namespace {
 
-constexpr const char* kExamples = R"(Stop the daemon first: a camera has one reader. Examples:
+constexpr const char* kExamples = R"(Stop the daemon first: a camera has one reader. Frames that a scan would leave out are left out
+here too. Cameras take turns, each for the whole length, where capture.one_at_a_time is set.
+Examples:
   instep record --out visit --config /etc/instep/instep.toml --frames 15
   instep record --out visit --config /etc/instep/instep.toml --seconds 3)";
 
