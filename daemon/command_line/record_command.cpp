@@ -18,7 +18,8 @@
 namespace instep {
 namespace {
 
-constexpr const char* kExamples = R"(Stop the daemon first: a camera has one reader. Frames that a scan would leave out are left out
+constexpr const char* kExamples =
+    R"(Stop the daemon first: a camera has one reader. Frames that a scan would leave out are left out
 here too. Cameras take turns, each for the whole length, where capture.one_at_a_time is set.
 Examples:
   instep record --out visit --config /etc/instep/instep.toml --frames 15
