@@ -181,7 +181,8 @@ std::vector<GirthRule> girth_rules(const FootScan& foot) {
       ball_rule(foot),
       {"waist_girth",
        waist_tape,
-       {"metatarsale_tibiale", "metatarsale_fibulare", "instep_point", "medial_arch"},
+       {"metatarsale_tibiale", "metatarsale_fibulare", "instep_point", "lateral_midfoot",
+        "medial_arch"},
        "stretched tape in the plane midway between the upright one over metatarsale tibiale and "
        "fibulare and the one over instep point, lateral midfoot and medial arch"},
       instep_rule(foot),

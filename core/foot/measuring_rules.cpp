@@ -42,4 +42,21 @@ std::string in_words(const MeasuringRules& rules) {
   return words;
 }
 
+std::string own_choice(std::string_view measure_id, const MeasuringRules& rules) {
+  const MeasuringRules usual;
+  if (measure_id == "foot_length" && rules.axis != usual.axis) {
+    return "axis " + std::string(name_of(rules.axis, kAxisRules));
+  }
+  if (measure_id == "ball_girth" && rules.ball_girth != usual.ball_girth) {
+    return std::string(name_of(rules.ball_girth, kBallGirthRules));
+  }
+  if (measure_id == "instep_girth" && rules.instep_girth != usual.instep_girth) {
+    return std::string(name_of(rules.instep_girth, kInstepGirthRules));
+  }
+  if (measure_id == "heel_breadth" && rules.heel_breadth != usual.heel_breadth) {
+    return std::string(name_of(rules.heel_breadth, kHeelBreadthRules));
+  }
+  return {};
+}
+
 }  // namespace instep

@@ -54,6 +54,10 @@ struct MeasuringRules {
 /// All four by their names: "axis pt_toe2, ball girth upright, ...".
 std::string in_words(const MeasuringRules& rules);
 
+/// By which choice a measure was taken, where that is not the default: "shortest" of `ball_girth`,
+/// "axis brannock" of `foot_length`, on which the axis tells most. Else empty.
+std::string own_choice(std::string_view measure_id, const MeasuringRules& rules);
+
 /// The names of the choices in files and on the command line.
 template <typename Rule, std::size_t Count>
 using RuleNames = std::array<std::pair<std::string_view, Rule>, Count>;

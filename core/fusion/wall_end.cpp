@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "core/fusion/ground_plan.h"
 #include "core/geometry/point_index.h"
@@ -41,13 +42,18 @@ struct LowestPoints {
   double count = 0.0;
 };
 
+/// Of points of one height the same one counts, in whatever order they come.
+bool is_lower(const Vector3d& a, const Vector3d& b) {
+  return std::tie(a.z(), a.x(), a.y()) < std::tie(b.z(), b.x(), b.y());
+}
+
 /// The lowest point above each cell; at infinite height where there is none.
 std::vector<Vector3d> lowest_places(const GroundPlan& plan, const PointCloud& foot) {
   const double none = std::numeric_limits<double>::infinity();
   std::vector<Vector3d> lowest(plan.cells(), Vector3d(none, none, none));
   for (const auto& point : foot.positions) {
     Vector3d& place = lowest[plan.cell_of(point)];
-    if (point.z() < place.z()) place = point;
+    if (is_lower(point, place)) place = point;
   }
   return lowest;
 }

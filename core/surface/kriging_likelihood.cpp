@@ -84,11 +84,8 @@ double KrigingLikelihood::likeliest(double variance, double roughest, double smo
   return chosen;
 }
 
-KrigingLikelihood::Profile KrigingLikelihood::profile(double ratio) const {
-  const Readings readings = at(Group::Constant(ratio));
-  const auto count = static_cast<double>(free_);
-  const double roughness = readings.excess[0] / count;
-  return {roughness, readings.log_volume[0] + count * std::log(std::max(roughness, 1e-300))};
+double KrigingLikelihood::likeliest_roughness(double ratio) const {
+  return at(Group::Constant(ratio)).excess[0] / static_cast<double>(free_);
 }
 
 double KrigingLikelihood::likeliest_variance(double least, double most, double step) const {

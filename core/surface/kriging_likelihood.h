@@ -28,12 +28,8 @@ class KrigingLikelihood {
   double likeliest(double variance, double roughest, double smoothest, double step,
                    const std::optional<Prior>& prior) const;
 
-  /// The roughness that fits best for a noise of `ratio` times it, and the misfit then.
-  struct Profile {
-    double roughness = 0.0;
-    double misfit = 0.0;
-  };
-  Profile profile(double ratio) const;
+  /// The roughness that fits best for a noise of `ratio` times it.
+  double likeliest_roughness(double ratio) const;
 
   /// The noise that fits best, with the roughness that then does, of ratios of the two from `least`
   /// up to below `most`, each `step` (above 1) times the last; zero if none fits at all.

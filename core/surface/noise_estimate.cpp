@@ -102,9 +102,10 @@ double own_variance(const Neighbourhood& here) {
 /// shape, so it is held near `usual`, if that is known.
 double likely_roughness(const Neighbourhood& here, double variance, std::optional<double> usual) {
   const double noise = variance / (here.radius * here.radius);
-  const double level = std::max(
-      here.likelihood.profile(kMostRatio * here.likelihood.mean_diagonal()).roughness * kMostRatio,
-      1e-300);
+  const double level =
+      std::max(here.likelihood.likeliest_roughness(kMostRatio * here.likelihood.mean_diagonal()) *
+                   kMostRatio,
+               1e-300);
   std::optional<KrigingLikelihood::Prior> prior;
   if (usual) prior = KrigingLikelihood::Prior{*usual * here.radius, kRoughnessSpread};
   return here.likelihood.likeliest(noise, kRoughest * level, kSmoothest * level, kRoughnessStep,

@@ -1,7 +1,9 @@
 #include "daemon/command_line/capture_recording.h"
 
 #include <algorithm>
+#include <list>
 
+#include "daemon/station/frame_tally.h"
 #include "drivers/recording/recording_writer.h"
 
 namespace instep {
@@ -11,70 +13,116 @@ namespace {
 constexpr int kMostBadFrames = 60;
 constexpr std::chrono::seconds kFrameLimit{2};
 
-/// Stops all cameras at the end of the scope.
-class CamerasAtWork {
+/// What one camera brings to a recording. It stops at the end of the scope.
+class CameraAtWork {
  public:
-  explicit CamerasAtWork(const std::vector<std::unique_ptr<DepthCamera>>& cameras)
-      : cameras_(cameras) {}
-  ~CamerasAtWork() {
-    for (const auto& camera : cameras_) camera->stop();
-  }
-  CamerasAtWork(const CamerasAtWork&) = delete;
-  CamerasAtWork& operator=(const CamerasAtWork&) = delete;
+  CameraAtWork(DepthCamera& camera, RecordingWriter& writer, const RecordingLength& length)
+      : camera_(camera), writer_(writer), length_(length) {}
+  ~CameraAtWork() { camera_.stop(); }
+  CameraAtWork(const CameraAtWork&) = delete;
+  CameraAtWork& operator=(const CameraAtWork&) = delete;
 
-  Result<void> start() {
-    for (const auto& camera : cameras_) {
-      if (auto good = camera->start(); !good) return good;
+  Result<void> start() { return camera_.start(); }
+
+  /// Writes its next good frame.
+  Result<void> take_frame() {
+    auto frame = next_good_frame();
+    if (!frame) return tl::make_unexpected(frame.error());
+    if (frames_ == 0) first_time_ = frame->device_time;
+    frame->device_time -= first_time_;
+    ++frames_;
+    time_ = frame->device_time;
+    return writer_.add_frame(*frame);
+  }
+
+  /// Of the length, from 0 to 1.
+  double done() const {
+    double done = 0.0;
+    if (length_.time) done = time_ / std::chrono::duration<double, std::milli>(*length_.time);
+    if (length_.frames_per_camera) {
+      done = std::max(
+          done, static_cast<double>(frames_) / static_cast<double>(*length_.frames_per_camera));
     }
-    return {};
+    return std::min(done, 1.0);
   }
 
  private:
-  const std::vector<std::unique_ptr<DepthCamera>>& cameras_;
+  Result<DepthFrame> next_good_frame() {
+    FrameFault fault = FrameFault::kNone;
+    for (int bad = 0; bad < kMostBadFrames; ++bad) {
+      auto frame = camera_.next_frame(kFrameLimit);
+      if (!frame) return frame;
+      fault = tally_.count(*frame);
+      if (fault == FrameFault::kNone) return frame;
+    }
+    return tl::make_unexpected(
+        named_after_camera(camera_.description().geometry.id, bad_frames_only(fault)));
+  }
+
+  DepthCamera& camera_;
+  RecordingWriter& writer_;
+  const RecordingLength& length_;
+  FrameTally tally_;
+  std::size_t frames_ = 0;
+  std::chrono::microseconds first_time_{0};
+  std::chrono::microseconds time_{0};
 };
 
-Result<DepthFrame> next_good_frame(DepthCamera& camera) {
-  for (int bad = 0; bad < kMostBadFrames; ++bad) {
-    auto frame = camera.next_frame(kFrameLimit);
-    if (!frame || frame->status == FrameStatus::kGood) return frame;
+using Cameras = std::vector<std::unique_ptr<DepthCamera>>;
+
+Result<void> tell(const RecordingProgress& progress, double done) {
+  if (progress(done)) return {};
+  return fail(ErrorCode::kCancelled, "the recording was stopped, nothing of it is kept",
+              "record again when you are ready");
+}
+
+/// All stream at once and give a frame each in turn, until the first has enough.
+Result<void> record_together(const Cameras& cameras, RecordingWriter& writer,
+                             const RecordingLength& length, const RecordingProgress& progress) {
+  std::list<CameraAtWork> at_work;
+  for (const auto& camera : cameras) {
+    if (auto good = at_work.emplace_back(*camera, writer, length).start(); !good) return good;
   }
-  return fail(ErrorCode::kCorruptData,
-              "camera " + camera.description().geometry.id + " gives damaged frames only",
-              "check its cable");
+  for (double done = 0.0; done < 1.0;) {
+    for (auto& camera : at_work) {
+      if (auto good = camera.take_frame(); !good) return good;
+      done = std::max(done, camera.done());
+    }
+    if (auto good = tell(progress, done); !good) return good;
+  }
+  return {};
+}
+
+/// Each streams alone until it has enough, for another's light would disturb it.
+Result<void> record_in_turns(const Cameras& cameras, RecordingWriter& writer,
+                             const RecordingLength& length, const RecordingProgress& progress) {
+  double turns = 0.0;
+  for (const auto& camera : cameras) {
+    CameraAtWork at_work(*camera, writer, length);
+    if (auto good = at_work.start(); !good) return good;
+    while (at_work.done() < 1.0) {
+      if (auto good = at_work.take_frame(); !good) return good;
+      const double done = (turns + at_work.done()) / static_cast<double>(cameras.size());
+      if (auto good = tell(progress, done); !good) return good;
+    }
+    ++turns;
+  }
+  return {};
 }
 
 }  // namespace
 
 Result<Recording> capture_recording(const std::vector<std::unique_ptr<DepthCamera>>& cameras,
                                     Recording header, const RecordingLength& length,
-                                    const std::filesystem::path& folder,
+                                    CameraTurns turns, const std::filesystem::path& folder,
                                     const RecordingProgress& progress) {
   header.cameras.clear();
   for (const auto& camera : cameras) header.cameras.push_back(camera->description());
   auto writer = RecordingWriter::create(folder, std::move(header));
   if (!writer) return tl::make_unexpected(writer.error());
-  CamerasAtWork at_work(cameras);
-  if (auto good = at_work.start(); !good) return tl::make_unexpected(good.error());
-
-  std::vector<std::chrono::microseconds> first(cameras.size());
-  for (double done = 0.0, round = 0.0; done < 1.0; ++round) {
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      auto frame = next_good_frame(*cameras[i]);
-      if (!frame) return tl::make_unexpected(frame.error());
-      if (round == 0.0) first[i] = frame->device_time;
-      frame->device_time -= first[i];
-      if (auto good = writer->add_frame(*frame); !good) return tl::make_unexpected(good.error());
-      if (length.time)
-        done = std::max(
-            done, frame->device_time / std::chrono::duration<double, std::milli>(*length.time));
-    }
-    if (length.frames_per_camera) {
-      done = std::max(done, (round + 1.0) / static_cast<double>(*length.frames_per_camera));
-    }
-    if (!progress(std::min(done, 1.0))) {
-      return fail(ErrorCode::kCancelled, "the recording was stopped, nothing of it is kept",
-                  "record again when you are ready");
-    }
+  const auto record = turns == CameraTurns::kOneAtATime ? record_in_turns : record_together;
+  if (auto good = record(cameras, *writer, length, progress); !good) {
+    return tl::make_unexpected(good.error());
   }
   Recording recording = writer->recording();
   if (auto good = writer->finish(); !good) return tl::make_unexpected(good.error());

@@ -1,6 +1,7 @@
 #include "daemon/command_line/doctor_checks.h"
 
 #include <fmt/format.h>
+#include <pwd.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 #include <Eigen/Core>
@@ -9,12 +10,15 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
+#include <utility>
 
 #include "daemon/build_facts.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/machine/device_checks.h"
+#include "daemon/report/json_fields.h"
 #include "daemon/station/devices.h"
 
 namespace instep {
@@ -43,7 +47,9 @@ DoctorCheck check_store(const std::filesystem::path& root) {
   const auto folder = there ? root : root.parent_path();
   if (!std::filesystem::is_directory(folder, failed)) {
     return bad("store", folder.string() + " is not there",
-               "sudo install -d -o instep -g instep -m 0750 " + folder.string());
+               ::getpwnam("instep") != nullptr
+                   ? "sudo install -d -o instep -g instep -m 0750 " + folder.string()
+                   : "install Instep (README.md), or set store.root to a folder of your own");
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     return bad("store", "you may not write in " + folder.string() + ": " + std::strerror(errno),
@@ -53,12 +59,15 @@ DoctorCheck check_store(const std::filesystem::path& root) {
   return good("store", (there ? "" : "will be made in ") + folder.string() + ", writable");
 }
 
-DoctorCheck check_free_space(const std::filesystem::path& root) {
+/// Nothing where there is no folder yet, of which check_store() tells.
+std::optional<DoctorCheck> check_free_space(const std::filesystem::path& root) {
   constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
   struct statvfs disk {};
   const auto folder = root.parent_path();
   if (::statvfs(root.c_str(), &disk) != 0 && ::statvfs(folder.c_str(), &disk) != 0) {
-    return bad("disk", folder.string() + " cannot be looked at", "check store.root");
+    if (errno == ENOENT) return std::nullopt;
+    return bad("disk", folder.string() + " cannot be looked at: " + std::strerror(errno),
+               "check store.root");
   }
   const double free_gib =
       static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) / kGibibyte;
@@ -67,20 +76,17 @@ DoctorCheck check_free_space(const std::filesystem::path& root) {
                          : bad("disk", finding, "make room, or set store.keep_days");
 }
 
-std::string text(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
-
 DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
   if (!status) {
     const bool denied = status.error().code == ErrorCode::kPermissionDenied;
-    return bad("daemon", status.error().message,
-               denied ? "sudo usermod -aG instep $USER" : "sudo systemctl start instepd");
+    return bad(
+        "daemon", status.error().message,
+        denied ? "sudo usermod -aG instep $USER" : "sudo systemctl start instepd (or run instepd)");
   }
-  const auto trouble = text(*status, "trouble");
+  const auto trouble = string_at(*status, "trouble");
   if (!trouble.empty())
-    return bad("daemon", text(*status, "state") + ": " + trouble, "instep status");
-  return good("daemon", text(*status, "state") + ", answers on " + socket.string());
+    return bad("daemon", string_at(*status, "state") + ": " + trouble, "instep status");
+  return good("daemon", string_at(*status, "state") + ", answers on " + socket.string());
 }
 
 /// Asks the daemon, who has the cameras, or opens them if there is none.
@@ -89,7 +95,8 @@ DoctorCheck check_cameras(const Result<json>& status, const Settings& settings) 
     const auto& cameras = (*status)["cameras"];
     for (const auto& camera : cameras) {
       if (!camera.value("ok", false)) {
-        return bad("cameras", text(camera, "trouble"), "plug it in again, then: instep status");
+        return bad("cameras", string_at(camera, "trouble"),
+                   "plug it in again, then: instep status");
       }
     }
     return good("cameras", fmt::format("all {} answer", cameras.size()));
@@ -133,8 +140,8 @@ void check_outputs(const Result<json>& status, const Settings& settings,
                    std::vector<DoctorCheck>& checks) {
   if (status) {
     for (const auto& output : status->value("outputs", json::array())) {
-      const std::string name = text(output, "name");
-      const std::string trouble = text(output, "trouble");
+      const std::string name = string_at(output, "name");
+      const std::string trouble = string_at(output, "trouble");
       checks.push_back(trouble.empty() ? good("output", name + " is there")
                                        : bad("output", name + ": " + trouble, "instep devices"));
     }
@@ -173,7 +180,7 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(library_versions());
   checks.push_back(check_settings(found));
   checks.push_back(check_store(settings.store.root));
-  checks.push_back(check_free_space(settings.store.root));
+  if (auto space = check_free_space(settings.store.root)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
   if (found) checks.push_back(check_cameras(status, settings));
   check_video_cameras(settings, checks);

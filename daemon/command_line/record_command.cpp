@@ -18,7 +18,10 @@
 namespace instep {
 namespace {
 
-constexpr const char* kExamples = R"(Stop the daemon first: a camera has one reader. Examples:
+constexpr const char* kExamples =
+    R"(Stop the daemon first: a camera has one reader. Frames that a scan would leave out are left out
+here too. Cameras take turns, each for the whole length, where capture.one_at_a_time is set.
+Examples:
   instep record --out visit --config /etc/instep/instep.toml --frames 15
   instep record --out visit --config /etc/instep/instep.toml --seconds 3)";
 
@@ -73,7 +76,9 @@ Result<void> run(const RecordCommand& command) {
   const StopRequest stop;  // a killed program would leave the light on
   const auto light = light_of(settings->outputs);
   ProgressLine line;
-  const auto recording = capture_recording(devices->cameras, header, length_of(command),
+  const auto turns =
+      settings->capture.one_at_a_time ? CameraTurns::kOneAtATime : CameraTurns::kTogether;
+  const auto recording = capture_recording(devices->cameras, header, length_of(command), turns,
                                            command.folder, [&](double done) {
                                              line.show("recording", done);
                                              return !stop.is_made();

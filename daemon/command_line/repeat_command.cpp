@@ -27,7 +27,8 @@ with a result.json, such files, or what 'instep measure' or 'instep replay' prin
   claimed 95 %  the mean of the intervals that the results claim: about twice the SD if they are true
 
 It says how well scans agree, not how true they are: an error that all scans share does not show.
-Left and right feet are taken apart. Examples:
+Left and right feet are taken apart. A measure that the results define differently is left out, and
+results of different axes are refused. Examples:
   instep repeat /var/lib/instep/scans/2026/11/21/*
   instep repeat monday.json tuesday.json --format json
   instep repeat scans/* --plot repeat.svg)";

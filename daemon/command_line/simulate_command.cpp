@@ -58,11 +58,12 @@ Result<void> run(const SimulateCommand& command) {
   header.truth = truth_by_id(*truth);
   header.simulated = true;
   ProgressLine line;
-  const auto recording = capture_recording(station->cameras, header, {command.frames, {}},
-                                           command.folder, [&](double done) {
-                                             line.show("simulating", done);
-                                             return true;
-                                           });
+  const auto recording =
+      capture_recording(station->cameras, header, {command.frames, {}}, CameraTurns::kTogether,
+                        command.folder, [&](double done) {
+                          line.show("simulating", done);
+                          return true;
+                        });
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},
                      {"seed", command.seed},

@@ -10,9 +10,11 @@
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
+#include "daemon/command_line/status_text.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
 #include "daemon/report/csv_report.h"
+#include "daemon/report/json_fields.h"
 #include "daemon/report/pair_report.h"
 #include "drivers/files/file_bytes.h"
 
@@ -27,10 +29,6 @@ using std::chrono::steady_clock;
 /// Far longer than a scan with its deadlines can take.
 constexpr seconds kLongestScan{300};
 constexpr std::size_t kMostExportedBytes = std::size_t{1} << 30;
-
-std::string text(const json& object, const char* key) {
-  return object.contains(key) && object[key].is_string() ? object[key].get<std::string>() : "";
-}
 
 Result<ControlClient> reach_daemon() {
   return ControlClient::connect(station_settings().control.socket);
@@ -55,7 +53,7 @@ Result<json> wait_for_end(ControlClient& client, milliseconds limit) {
   while (true) {
     auto line = client.next(std::chrono::ceil<milliseconds>(deadline - steady_clock::now()));
     if (!line) return line;
-    const auto event = text(*line, "event");
+    const auto event = string_at(*line, "event");
     if (event == "result") return line;
     if (event == "failure") {
       (*line)["ok"] = false;
@@ -64,76 +62,33 @@ Result<json> wait_for_end(ControlClient& client, milliseconds limit) {
   }
 }
 
-std::string status_line(const json& status) {
-  std::string line = text(status, "state");
-  if (const auto stage = text(status, "stage"); !stage.empty()) {
-    line += fmt::format(": {} {:.0f} %", stage, 100 * status.value("done", 0.0));
-  }
-  if (const auto trouble = text(status, "trouble"); !trouble.empty()) line += ": " + trouble;
-  return line;
-}
-
-/// Such as "(frames: 120 good, 3 short, 1 lost)"; empty if all were good.
-std::string damage_text(const json& frames) {
-  std::string damage;
-  for (const auto& [kind, count] : frames.items()) {
-    if (kind == "good" || !count.is_number_unsigned() || count == 0) continue;
-    damage += fmt::format(", {} {}", count.get<std::uint64_t>(),
-                          kind == "error_flagged" ? "error-flagged" : kind);
-  }
-  if (damage.empty()) return {};
-  return fmt::format(" (frames: {} good{})", frames.value("good", std::uint64_t{0}), damage);
-}
-
-std::string camera_text(const json& camera) {
-  const std::string damage = damage_text(camera.value("frames", json::object()));
-  const std::string warning = text(camera, "warning");
-  if (camera.value("ok", false)) return (warning.empty() ? "ok" : "ok, but " + warning) + damage;
-  const std::string recovery = text(camera, "recovery");
-  return text(camera, "trouble") + (recovery.empty() ? "" : " (" + recovery + ")") + damage;
-}
-
-std::string status_text(const json& status) {
-  std::string lines = status_line(status) + "\n";
-  for (const auto& camera : status.value("cameras", json::array())) {
-    lines += fmt::format("  camera {:<12} {}\n", text(camera, "id"), camera_text(camera));
-  }
-  for (const auto& output : status.value("outputs", json::array())) {
-    const std::string trouble = text(output, "trouble");
-    lines += fmt::format("  {:<19} {}\n", text(output, "name"),
-                         !trouble.empty()            ? trouble
-                         : output.value("on", false) ? "on"
-                                                     : "off");
-  }
-  return lines + fmt::format("  scans {}, ignored presses {}\n", status.value("scans", 0),
-                             status.value("ignored_presses", 0));
-}
-
 /// The live line of a terminal: a bar while a scan runs.
 std::string live_line(const json& event) {
   constexpr int kBarWidth = 30;
-  std::string line = text(event, "state");
-  if (const auto stage = text(event, "stage"); !stage.empty()) {
+  std::string line = string_at(event, "state");
+  if (const auto stage = string_at(event, "stage"); !stage.empty()) {
     const double done = event.value("done", 0.0);
     const auto filled = static_cast<std::size_t>(done * kBarWidth);
     line = fmt::format("[{:<{}}] {:>3.0f} % {}", std::string(filled, '#'), kBarWidth, 100 * done,
                        stage);
-  } else if (const auto trouble = text(event, "trouble"); !trouble.empty()) {
+  } else if (const auto trouble = string_at(event, "trouble"); !trouble.empty()) {
     line += ": " + trouble;
   }
   return "\r\033[K" + line;
 }
 
 std::string told_in_terminal(const json& line) {
-  const auto event = text(line, "event");
+  const auto event = string_at(line, "event");
   std::string told;
   if (event == "result") {
     for (const auto& scan : line.value("scans", json::array())) {
-      told += fmt::format("\r\033[Kscan {} ({} foot)\n", text(scan, "id"), text(scan, "side"));
+      told += fmt::format("\r\033[Kscan {} ({} foot)\n", string_at(scan, "id"),
+                          string_at(scan, "side"));
     }
   } else if (event == "failure") {
     const json error = line.value("error", json::object());
-    told = fmt::format("\r\033[Kno scan: {}: {}\n", text(error, "message"), text(error, "advice"));
+    told = fmt::format("\r\033[Kno scan: {}: {}\n", string_at(error, "message"),
+                       string_at(error, "advice"));
   } else if (event == "status" || event.empty()) {
     told = live_line(line);
   }
@@ -181,7 +136,7 @@ Result<void> scan_on_station(bool wait, bool as_json) {
   if (!asking) return tl::make_unexpected(asking.error());
   json last;
   for (const auto& scan : end->value("scans", json::array())) {
-    auto result = stored_result(*asking, text(scan, "id"));
+    auto result = stored_result(*asking, string_at(scan, "id"));
     if (!result) return tl::make_unexpected(result.error());
     last = std::move(*result);
     const auto printed = as_json ? print_json(last) : print_text(result_text(last));
@@ -195,7 +150,7 @@ Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json
   const auto deadline = steady_clock::now() + wait_ready.value_or(seconds(0));
   while (true) {
     const auto status = ask_daemon("status");
-    const bool ready = status && text(*status, "state") == "ready";
+    const bool ready = status && string_at(*status, "state") == "ready";
     if (!wait_ready || ready) {
       if (!status) return tl::make_unexpected(status.error());
       return as_json ? print_json(*status) : print_text(status_text(*status));
@@ -227,7 +182,7 @@ Result<void> watch_station(std::optional<seconds> until_result) {
     }
     if (!line) return tl::make_unexpected(line.error());
     if (const auto told = tell(*line, in_terminal); !told) return told;
-    if (until_result && text(*line, "event") == "result") return {};
+    if (until_result && string_at(*line, "event") == "result") return {};
   }
 }
 
@@ -237,7 +192,7 @@ Result<void> list_scans(bool as_json) {
   const json scans = answer->value("scans", json::array());
   if (as_json) return print_json({{"scans", scans}});
   std::string ids;
-  for (const auto& scan : scans) ids += text(scan, "id") + "\n";
+  for (const auto& scan : scans) ids += string_at(scan, "id") + "\n";
   return print_text(ids);
 }
 
@@ -254,8 +209,8 @@ Result<void> show_scan(const std::string& id, const std::string& format) {
 Result<void> export_scan(const std::string& id, const std::filesystem::path& out) {
   const auto answer = ask_daemon("export", id);
   if (!answer) return tl::make_unexpected(answer.error());
-  const std::filesystem::path from = text(*answer, "folder");
-  const auto to = out / text(*answer, "id");
+  const std::filesystem::path from = string_at(*answer, "folder");
+  const auto to = out / string_at(*answer, "id");
   std::error_code failed;
   std::filesystem::create_directories(out, failed);
   const bool made = !failed && std::filesystem::create_directory(to, failed);
@@ -275,7 +230,7 @@ Result<void> export_scan(const std::string& id, const std::filesystem::path& out
 Result<void> delete_scan(const std::string& id) {
   const auto answer = ask_daemon("delete", id);
   if (!answer) return tl::make_unexpected(answer.error());
-  const auto pair = text(*answer, "pair");
+  const auto pair = string_at(*answer, "pair");
   if (pair.empty()) return {};
   return print_text("the scan of the other foot still holds the numbers of both: instep delete " +
                     pair + "\n");

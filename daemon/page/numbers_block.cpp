@@ -85,17 +85,23 @@ std::string difference_text(const ScanRecord& record, const std::string& id) {
   return std::abs(more) < 0.05 ? "0.0" : fmt::format("{:+.1f}", more);
 }
 
+/// With the choice of definitions behind it, if it is not the usual one.
+std::string name_of(const ScanRecord& record, const std::string& id) {
+  const std::string choice = own_choice(id, record.foot.rules);
+  return as_words(choice.empty() ? id : id + " (" + choice + ")");
+}
+
 void add_measures(const ScanRecord& record, Table& table) {
   const bool has_other = record.pair.has_value();
   const char* other = record.foot.side == Side::kLeft ? "right" : "left";
   table.caption("Measures in mm, ± 95 %", has_other ? other : "");
   for (const auto& measure : record.measures.measures) {
-    table.measure(as_words(measure.id),
+    table.measure(name_of(record, measure.id),
                   interval_text(measure.value(), measure.u95()) + (measure.value_deg ? "°" : ""),
                   difference_text(record, measure.id), has_other);
   }
   for (const auto& withheld : record.measures.withheld) {
-    table.measure(as_words(withheld.id), "", "", has_other);
+    table.measure(name_of(record, withheld.id), "", "", has_other);
   }
 }
 

@@ -75,6 +75,7 @@ class Study {
                     "give folders of results, their result.json, or what instep measure printed");
       }
     }
+    if (const auto one = check_axis(); !one) return tl::make_unexpected(one.error());
     const auto scans = once_each();
     for (const char* side : {"left", "right", "unknown"}) add_foot(side, scans);
     if (study_.feet.empty()) {
@@ -93,6 +94,18 @@ class Study {
   static std::string side_of(const StudiedResult& scan) {
     const auto side = string_at(scan.result, "side");
     return side == "left" || side == "right" ? side : "unknown";
+  }
+
+  /// All measures hang on it, though only that of the length names it.
+  Result<void> check_axis() const {
+    std::set<std::string> axes;
+    for (const auto& result : results_) axes.insert(string_at(result.result, "axis"));
+    axes.erase("");
+    if (axes.size() < 2) return {};
+    return fail(
+        ErrorCode::kInvalidInput,
+        fmt::format("the feet were measured along different axes: {}", fmt::join(axes, ", ")),
+        "give results of one axis, or measure their clouds again with one --axis");
   }
 
   /// A copy would make the scans look better than they are.
@@ -158,7 +171,10 @@ class Study {
     const bool one_rule = std::all_of(values.begin(), values.end(), [&](const Value& value) {
       return value.definition == first.definition;
     });
-    if (!one_rule) study_.warnings.push_back(id + " follows different definitions");
+    if (!one_rule) {
+      study_.warnings.push_back(id + " follows different definitions: it is left out");
+      return;
+    }
     foot.measures.push_back(
         {id, first.is_angle, repeatability(std::move(numbers)), mean_interval(values)});
   }

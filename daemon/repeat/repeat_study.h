@@ -45,9 +45,10 @@ inline constexpr double kIsoFootLimitMm = 2.0;
 
 /// Puts the results side by side. Warns of what makes the figures doubtful: feet of both sides
 /// (each is then taken by itself), measures that are missing in some scans, few scans, a result
-/// given twice (which counts once), results of different stations, of different versions of the
-/// software or of different definitions. Fails with kInvalidInput if there are no two results of
-/// one side, or if one of them has no measures.
+/// given twice (which counts once), results of different stations or of different versions of the
+/// software. Leaves out, with a warning, a measure that the results define differently. Fails with
+/// kInvalidInput if there are no two results of one side, if one of them has no measures, or if
+/// they name different axes.
 Result<RepeatStudy> study_repeats(const std::vector<StudiedResult>& results);
 
 }  // namespace instep

@@ -38,18 +38,20 @@ std::string warnings_of(const json& measure) {
 
 std::string result_csv(const json& result) {
   const std::string side = string_at(result, "side");
-  std::string text = "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg\n";
+  const std::string axis = string_at(result, "axis");
+  std::string text =
+      "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg,definition,axis\n";
   for (const auto& measure : list_at(result, "measures")) {
     const std::string id = string_at(measure, "id");
     if (id.empty()) continue;
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", side, id, cell(measure, "value_mm"),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", side, id, cell(measure, "value_mm"),
                         cell(measure, "u95_mm"), cell(measure, "contact_mm"),
                         quoted(warnings_of(measure)), cell(measure, "value_deg"),
-                        cell(measure, "u95_deg"));
+                        cell(measure, "u95_deg"), quoted(string_at(measure, "definition")), axis);
   }
   for (const auto& withheld : list_at(result, "withheld")) {
-    text += fmt::format("{},{},,,,{},,\n", side, string_at(withheld, "id"),
-                        quoted(string_at(withheld, "reason")));
+    text += fmt::format("{},{},,,,{},,,,{}\n", side, string_at(withheld, "id"),
+                        quoted(string_at(withheld, "reason")), axis);
   }
   return text;
 }

@@ -21,24 +21,9 @@ constexpr milliseconds kStopGrace{300};
 /// A camera that sends this many bad frames for each one asked is broken.
 constexpr int kMostBadFramesForEach = 3;
 
-Error named(const std::string& camera, const Error& error) {
-  Error with_name = error;
-  with_name.message = "camera " + camera + ": " + error.message;
-  return with_name;
-}
-
 Error silent(const std::string& camera) {
   return {ErrorCode::kTimeout, Remedy::kReopen, "camera " + camera + " does not answer",
           "unplug it and plug it in again; if that does not help, restart instepd"};
-}
-
-Error bad_frames_only(FrameFault last) {
-  if (last == FrameFault::kEmpty) {
-    return {ErrorCode::kCorruptData, Remedy::kReset, "it sees nothing: its frames are empty",
-            "see whether something covers it or glares at it"};
-  }
-  return {ErrorCode::kCorruptData, Remedy::kReset, "it sends damaged frames only",
-          "check its cable, and that it has a USB controller of its own"};
 }
 
 /// Takes as many good frames as are asked for from a started camera.
@@ -221,7 +206,7 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
     } else if (brought->has_value()) {
       std::move((*brought)->begin(), (*brought)->end(), std::back_inserter(all));
     } else if (brought->error().code != ErrorCode::kCancelled) {
-      blame(id, named(id, brought->error()));
+      blame(id, named_after_camera(id, brought->error()));
     } else if (!faults) {
       blame(id, {ErrorCode::kTimeout, Remedy::kRetry,
                  "camera " + id + " did not bring its frames in time",
@@ -251,7 +236,7 @@ void CameraSet::check(milliseconds frame_limit, const Report& report) {
         tally->count(*frame);
         report(i, {});
       } else {
-        report(i, tl::make_unexpected(named(id, frame.error())));
+        report(i, tl::make_unexpected(named_after_camera(id, frame.error())));
       }
     });
   }

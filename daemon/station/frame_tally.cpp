@@ -31,6 +31,20 @@ FrameFault fault_of(const DepthFrame& frame) {
 
 }  // namespace
 
+Error bad_frames_only(FrameFault last) {
+  if (last == FrameFault::kEmpty) {
+    return {ErrorCode::kCorruptData, Remedy::kReset, "it sees nothing: its frames are empty",
+            "see whether something covers it or glares at it"};
+  }
+  return {ErrorCode::kCorruptData, Remedy::kReset, "it sends damaged frames only",
+          "check its cable, and that it has a USB controller of its own"};
+}
+
+Error named_after_camera(const std::string& camera, Error error) {
+  error.message = "camera " + camera + ": " + error.message;
+  return error;
+}
+
 void FrameTally::begin_stream() {
   const std::lock_guard lock(mutex_);
   last_sequence_.reset();

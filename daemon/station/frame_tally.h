@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "core/fusion/depth_frame.h"
+#include "core/result.h"
 
 namespace instep {
 
@@ -16,6 +18,12 @@ enum class FrameFault {
   kStale,         ///< of before the stream began, or seen already
   kEmpty,         ///< hardly a pixel has depth
 };
+
+/// Why a camera is given up that has sent faulty frames only; `last`: what was wrong with the last.
+Error bad_frames_only(FrameFault last);
+
+/// The error of a camera, with its name.
+Error named_after_camera(const std::string& camera, Error error);
 
 /// The frames of a camera since the daemon began.
 struct FrameCounts {

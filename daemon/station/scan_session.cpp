@@ -63,11 +63,18 @@ class ScanSession {
   }
 
   Result<std::vector<ScanRecord>> measure(const Capture& capture) {
-    return tools_.measure(capture, tools_.pipeline, [this](std::string_view stage, double done) {
-      progress_.step();
-      tell(stage, kCaptureShare + kMeasureShare * done);
-      return !cancelled_;
-    });
+    const auto remarks = tools_.remarks->all();
+    auto records =
+        tools_.measure(capture, tools_.pipeline, [this](std::string_view stage, double done) {
+          progress_.step();
+          tell(stage, kCaptureShare + kMeasureShare * done);
+          return !cancelled_;
+        });
+    if (!records) return records;
+    for (auto& record : *records) {
+      record.warnings.insert(record.warnings.begin(), remarks.begin(), remarks.end());
+    }
+    return records;
   }
 
   /// Each stage once, however many pieces it has.

@@ -16,6 +16,7 @@
 #include "daemon/loop/task_thread.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/station/camera_set.h"
+#include "daemon/station/capture_remarks.h"
 #include "daemon/station/devices.h"
 #include "daemon/store/result_store.h"
 
@@ -43,6 +44,7 @@ struct ScanTools {
   /// As Capture::truth, once it is known; invalid if it never is. A scan that comes earlier waits.
   std::shared_future<std::map<std::string, double>> truth;
   MeasureCapture measure;
+  std::shared_ptr<CaptureRemarks> remarks = std::make_shared<CaptureRemarks>();
   std::shared_ptr<ResultStore> store;
 };
 

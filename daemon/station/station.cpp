@@ -37,7 +37,10 @@ Station::~Station() {
 }
 
 void Station::begin() {
-  signals_.emplace(loop_, settings_.outputs, open_output, listener_.on_change);
+  signals_.emplace(loop_, settings_.outputs, open_output, [this] {
+    remark_missing_light();
+    listener_.on_change();
+  });
   signals_->show(machine_.state());
   open_devices_again();
   pedal_.emplace(
@@ -284,11 +287,21 @@ ScanTools Station::tools() const {
   tools.simulated = devices_.simulated;
   tools.truth = truth_;
   tools.measure = measure_;
+  tools.remarks = remarks_;
   tools.store = store_;
   return tools;
 }
 
+void Station::remark_missing_light() {
+  if (machine_.state() != StationState::kCapturing || !signals_ || !remarks_) return;
+  if (const auto trouble = signals_->light_trouble()) {
+    remarks_->note("the projector was not lit for the whole capture: " + trouble->line());
+  }
+}
+
 void Station::start_scan() {
+  remarks_ = std::make_shared<CaptureRemarks>();
+  remark_missing_light();
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
   check_timer_.clear();
   stage_ = "capture";

@@ -99,6 +99,8 @@ class Station {
   void pedal_lost(const Error& error);
   void pedal_returned();
   void start_scan();
+  /// A projector that is away fails no scan, but its frames are the poorer for it.
+  void remark_missing_light();
   void scan_ended(const ScanOutcome& outcome);
   ScanTools tools() const;
   std::optional<Error> first_trouble() const;
@@ -132,6 +134,7 @@ class Station {
   TaskThread truth_thread_{"truth"};
   TaskThread scan_thread_{"scan"};
   std::shared_ptr<std::atomic<bool>> cancelled_;
+  std::shared_ptr<CaptureRemarks> remarks_;  ///< of the last scan that began
   ScanOutcome outcome_;
   std::string stage_;
   double done_ = 0.0;

@@ -54,4 +54,11 @@ std::vector<OutputStatus> StationSignals::status() const {
   return all;
 }
 
+std::optional<Error> StationSignals::light_trouble() const {
+  for (const auto& signal : signals_) {
+    if (signal.is_on == is_capturing) return signal.keeper->trouble();
+  }
+  return std::nullopt;
+}
+
 }  // namespace instep

@@ -36,6 +36,8 @@ class StationSignals {
 
   void show(StationState state);
   std::vector<OutputStatus> status() const;
+  /// Why the projector cannot be lit; nothing if it can, or if there is none.
+  std::optional<Error> light_trouble() const;
 
  private:
   struct Signal {

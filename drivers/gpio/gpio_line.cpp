@@ -14,9 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 
 tl::unexpected<Error> not_found(const std::string& line, const std::vector<fs::path>& chips) {
+  // The same of every line: one cause, which a board with several of them has to say but once.
   if (chips.empty()) {
-    return fail(ErrorCode::kNotFound, "there is no GPIO chip, so no " + line,
-                "plug in the board that has it, and see whether gpiodetect lists it");
+    return fail(ErrorCode::kNotFound, "there is no GPIO chip, and so none of its lines",
+                "plug in the board that has them, and see whether gpiodetect lists it");
   }
   return fail(ErrorCode::kNotFound, fmt::format("none of {} GPIO chips has {}", chips.size(), line),
               "gpioinfo lists the names and labels there are");

@@ -205,6 +205,19 @@ TEST(Station, RestsIn40MbAfterScansOfWholeFrames) {
   }
 }
 
+// A scan without the projector is a scan, but its result tells of it.
+TEST(Station, ScansWithoutItsProjectorAndSaysSo) {
+  StationProcess station;
+  station.write_settings(StationProcess::small_settings() +
+                         "[projector]\nchip = \"no-such-board\"\noffset = 3\n");
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  const auto scan = station.run_instep("scan --format json");
+  ASSERT_EQ(scan.exit_code, 0) << scan.text;
+  EXPECT_THAT(json::parse(scan.text).at("warnings").dump(),
+              HasSubstr("the projector was not lit for the whole capture: "));
+}
+
 TEST(Station, KeepsItsSettingsWhenTheNewOnesAreFaulty) {
   StationProcess station;
   station.start();

@@ -19,6 +19,7 @@ class ScriptedCamera : public DepthCamera {
 
   ScriptedCamera(const std::string& id, std::deque<Step> script) : script_(std::move(script)) {
     description_.geometry.id = id;
+    description_.geometry.intrinsics = {kSide_px, kSide_px, 20.0, 20.0, 9.5, 9.5};
   }
   const CameraDescription& description() const override { return description_; }
   Result<void> start() override {
@@ -55,7 +56,6 @@ class ScriptedCamera : public DepthCamera {
 
  protected:
   virtual DepthFrame frame_of(Step step) {
-    constexpr int kSide_px = 20;
     DepthFrame frame;
     frame.camera = description_.geometry.id;
     frame.width = frame.height = kSide_px;
@@ -71,6 +71,8 @@ class ScriptedCamera : public DepthCamera {
   }
 
  private:
+  static constexpr int kSide_px = 20;
+
   CameraDescription description_;
   std::uint64_t sequence_ = 0;
   std::mutex mutex_;

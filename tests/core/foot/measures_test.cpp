@@ -116,6 +116,44 @@ TEST(Measures, AgreeWithTheBody) {
   }
 }
 
+Result<Girth> some_girth(const PointCloud&, const TapePlane&, const GirthOptions&) {
+  Girth girth;
+  girth.stretched_mm = girth.contact_mm = 200.0;
+  return girth;
+}
+
+bool is_same_plane(const TapePlane& a, const TapePlane& b) {
+  const auto points = a.control_points();
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Vector3d& point) { return std::abs(b.distance(point)) < 1e-9; });
+}
+
+/// A tape hangs on just those landmarks whose move moves it, and warns of just those.
+TEST(Measures, WarnOfEachDoubtfulLandmarkThatTheirTapeHangsOn) {
+  const auto foot = prepared(FootBody{}.points());
+  const auto frame = align_foot(FootBody{}.points()).value().landmarks;
+  MeasureOptions options;
+  options.girth = some_girth;
+  const auto set = measure_foot(foot, options).value();
+  int warned = 0;
+  for (const auto& [name, landmark] : foot.landmarks) {
+    if (frame.count(name) > 0) continue;
+    auto moved = foot;
+    moved.landmarks[name].position_mm += Vector3d(3.0, 2.0, 4.0);
+    moved.landmarks[name].confidence = 0.3;
+    const auto other = measure_foot(moved, options).value();
+    for (const auto& measure : set.measures) {
+      const auto* now = other.find(measure.id);
+      if (!measure.plane || now == nullptr) continue;
+      const bool warns = std::find(now->warnings.begin(), now->warnings.end(),
+                                   name + " is placed by proportion") != now->warnings.end();
+      EXPECT_EQ(warns, !is_same_plane(*measure.plane, *now->plane)) << measure.id << ", " << name;
+      warned += warns;
+    }
+  }
+  EXPECT_GT(warned, 8);
+}
+
 TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {
   const auto right = measure_foot(prepared(FootBody{}.points()));
   const auto left = measure_foot(prepared(test::mirrored(FootBody{}.points())));

@@ -337,6 +337,16 @@ TEST(HeightPatch, ExactDuplicatesDoNotMatter) {
               1e-6);
 }
 
+/// Their squares are beyond the range of numbers: no likelihood is left to compare.
+TEST(HeightPatch, RefusesHeightsThatTellNothingOfTheirLikelihood) {
+  for (const double noise : {0.0, 0.01}) {
+    auto points = test::cap_points(kSphere, 1.0, 25, noise, 18);
+    ASSERT_TRUE(HeightPatch::fit(points, kTop, Vector3d::UnitZ(), 1.0, 0.01));
+    points[7].position.z() = 1e200;
+    EXPECT_FALSE(HeightPatch::fit(points, kTop, Vector3d::UnitZ(), 1.0, 0.01)) << noise;
+  }
+}
+
 TEST(HeightPatch, RefusesPointsThatDetermineNoSurface) {
   const auto fits = [](const OrientedPoints& points) {
     return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.01).has_value();

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
+#include <vector>
 
 #include "tests/support/random_numbers.h"
 
@@ -46,25 +50,35 @@ MatrixXd null_space(const MatrixXd& polynomials) {
   return orthogonal.rightCols(polynomials.rows() - polynomials.cols());
 }
 
-/// Twice the negative log of the restricted likelihood, but for a constant, where the least certain
-/// sample has that variance.
-double misfit_by_eigenvalues(const HeightSamples& samples, Index terms, double variance,
-                             double roughness) {
+/// What the likelihood is made of, by Cholesky's method on the whole matrix.
+struct DenseReading {
+  double log_volume = 0.0;
+  double excess = 0.0;
+};
+
+/// Where the least certain sample has that variance.
+DenseReading dense_reading(const HeightSamples& samples, Index terms, double variance,
+                           double roughness) {
   MatrixXd covariance = roughness * cubed_distances(samples);
   covariance.diagonal() += variance / samples.variances.maxCoeff() * samples.variances;
   const MatrixXd rest = null_space(monomials(samples.places, terms));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(rest.transpose() * covariance * rest);
-  const VectorXd along = solver.eigenvectors().transpose() * rest.transpose() * samples.heights;
-  return (along.array().square() / solver.eigenvalues().array() +
-          solver.eigenvalues().array().log())
-      .sum();
+  const Eigen::LLT<MatrixXd> cholesky(rest.transpose() * covariance * rest);
+  if (cholesky.info() != Eigen::Success) ADD_FAILURE() << "not positive definite";
+  return {2.0 * cholesky.matrixLLT().diagonal().array().log().sum(),
+          cholesky.matrixL().solve(rest.transpose() * samples.heights).squaredNorm()};
+}
+
+/// Twice the negative log of the restricted likelihood, but for a constant.
+double dense_misfit(const HeightSamples& samples, Index terms, double variance, double roughness) {
+  const DenseReading reading = dense_reading(samples, terms, variance, roughness);
+  return reading.log_volume + reading.excess;
 }
 
 KrigingLikelihood likelihood_of(const HeightSamples& samples, Index terms) {
   return KrigingLikelihood(HeightKriging::of(samples, terms).value());
 }
 
-TEST(KrigingLikelihood, DiffersBetweenPairsAsByEigenvalues) {
+TEST(KrigingLikelihood, DiffersBetweenPairsAsTheWholeMatrixTells) {
   for (const bool even : {true, false}) {
     for (const Index terms : {3, 6}) {
       for (const Index count : {9, 24, 61}) {
@@ -72,11 +86,11 @@ TEST(KrigingLikelihood, DiffersBetweenPairsAsByEigenvalues) {
         const auto likelihood = likelihood_of(samples, terms);
         EXPECT_EQ(likelihood.free(), count - terms);
         const double first = likelihood.misfit(4e-4, 0.1);
-        const double expected_first = misfit_by_eigenvalues(samples, terms, 4e-4, 0.1);
+        const double expected_first = dense_misfit(samples, terms, 4e-4, 0.1);
         for (const double variance : {1e-5, 4e-4, 1e-2}) {
           for (const double roughness : {1e-3, 0.1, 5.0}) {
             const double expected =
-                misfit_by_eigenvalues(samples, terms, variance, roughness) - expected_first;
+                dense_misfit(samples, terms, variance, roughness) - expected_first;
             EXPECT_NEAR(likelihood.misfit(variance, roughness) - first, expected,
                         1e-7 * (1.0 + std::abs(expected)))
                 << count << " samples, variance " << variance << ", roughness " << roughness;
@@ -87,29 +101,98 @@ TEST(KrigingLikelihood, DiffersBetweenPairsAsByEigenvalues) {
   }
 }
 
-TEST(KrigingLikelihood, ProfileFindsTheRoughnessThatFitsBest) {
+TEST(KrigingLikelihood, TellsTheRoughnessThatFitsBestAtARatio) {
   for (const bool even : {true, false}) {
     const auto samples = noisy_samples(30, even, 2);
     const auto likelihood = likelihood_of(samples, 6);
     constexpr double kStep = 1.02;
-    double offset = std::numeric_limits<double>::quiet_NaN();
     for (const double ratio : {1e-3, 1e-2, 0.3}) {
       double least = std::numeric_limits<double>::infinity();
       double best = 0.0;
       for (double roughness = 1e-5; roughness < 10.0; roughness *= kStep) {
-        const double misfit = misfit_by_eigenvalues(samples, 6, ratio * roughness, roughness);
+        const double misfit = dense_misfit(samples, 6, ratio * roughness, roughness);
         if (misfit < least) {
           least = misfit;
           best = roughness;
         }
       }
-      const auto profile = likelihood.profile(ratio);
-      EXPECT_NEAR(std::log(profile.roughness / best), 0.0, std::log(kStep)) << ratio;
-      // The scan misses the least misfit by no more than half a step squared for each free sample.
-      if (std::isnan(offset)) offset = profile.misfit - least;
-      EXPECT_NEAR(profile.misfit - least, offset, 24.0 * 0.5 * std::pow(std::log(kStep), 2));
+      EXPECT_NEAR(std::log(likelihood.likeliest_roughness(ratio) / best), 0.0, std::log(kStep))
+          << ratio;
     }
   }
+}
+
+/// The rungs from the first on, each so many times the last.
+std::vector<double> rungs(double first, double step, int count) {
+  std::vector<double> rungs;
+  for (int i = 0; i < count; ++i) rungs.push_back(first * std::pow(step, i));
+  return rungs;
+}
+
+/// Ladders of every length up to three groups of lanes, whose likeliest rung lies in every lane, or
+/// off either end.
+TEST(KrigingLikelihood, FindsTheLikeliestRoughnessOfALadder) {
+  constexpr double kVariance = 4e-4;
+  constexpr double kStep = 1.0 / 1.5;
+  for (const bool even : {true, false}) {
+    const auto samples = noisy_samples(30, even, 6);
+    const auto likelihood = likelihood_of(samples, 6);
+    for (const bool has_prior : {false, true}) {
+      std::optional<KrigingLikelihood::Prior> prior;
+      if (has_prior) prior = KrigingLikelihood::Prior{0.01, 0.5};
+      std::set<std::size_t> places;
+      for (int count = 1; count <= 24; ++count) {
+        const auto ladder = rungs(1e-3 * std::pow(1.5, count), kStep, count);
+        std::vector<double> misfits;
+        for (const double roughness : ladder) {
+          misfits.push_back(dense_misfit(samples, 6, kVariance, roughness));
+          if (prior) misfits.back() += std::pow(std::log(roughness / 0.01) / 0.5, 2);
+        }
+        const auto place = static_cast<std::size_t>(
+            std::min_element(misfits.begin(), misfits.end()) - misfits.begin());
+        places.insert(place);
+        const double found =
+            likelihood.likeliest(kVariance, ladder.front(), 0.999 * ladder.back(), kStep, prior);
+        EXPECT_NEAR(found / ladder[place], 1.0, 1e-9) << count << " rungs, prior " << has_prior;
+      }
+      EXPECT_GT(places.size(), 8U) << "each lane was the likeliest once";
+    }
+  }
+}
+
+TEST(KrigingLikelihood, FindsTheLikeliestNoiseOfALadder) {
+  constexpr double kStep = 1.5;
+  for (const bool even : {true, false}) {
+    const auto samples = noisy_samples(60, even, 7);
+    const auto likelihood = likelihood_of(samples, 3);
+    const auto free = static_cast<double>(likelihood.free());
+    std::set<std::size_t> places;
+    for (int count = 1; count <= 24; ++count) {
+      const auto ladder = rungs(0.1 * std::pow(kStep, -count), kStep, count);
+      std::vector<double> misfits;
+      std::vector<double> variances;
+      for (const double ratio : ladder) {
+        const DenseReading reading = dense_reading(samples, 3, ratio, 1.0);
+        misfits.push_back(reading.log_volume + free * std::log(reading.excess / free));
+        variances.push_back(ratio * reading.excess / free);
+      }
+      const auto place = static_cast<std::size_t>(std::min_element(misfits.begin(), misfits.end()) -
+                                                  misfits.begin());
+      places.insert(place);
+      const double found =
+          likelihood.likeliest_variance(ladder.front(), 1.001 * ladder.back(), kStep);
+      EXPECT_NEAR(found / variances[place], 1.0, 1e-7) << count << " rungs";
+    }
+    EXPECT_GT(places.size(), 8U) << "each lane was the likeliest once";
+  }
+}
+
+TEST(KrigingLikelihood, TellsWhenNothingIsLikelyAtAll) {
+  auto samples = noisy_samples(20, true, 8);
+  samples.heights[3] = 1e200;
+  const auto likelihood = likelihood_of(samples, 6);
+  EXPECT_EQ(likelihood.likeliest(4e-4, 5.0, 1e-3, 0.5, std::nullopt), 5.0);
+  EXPECT_EQ(likelihood.likeliest_variance(1e-3, 1.0, 1.5), 0.0);
 }
 
 TEST(KrigingLikelihood, MeanDiagonalIsThatOfTheKernelWithoutPolynomials) {

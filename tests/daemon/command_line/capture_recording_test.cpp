@@ -1,13 +1,20 @@
 #include "daemon/command_line/capture_recording.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
+#include <deque>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "daemon/command_line/stop_request.h"
+#include "drivers/recording/recording_reader.h"
 #include "sim/simulated_station.h"
 #include "tests/support/model_board.h"
+#include "tests/support/scripted_camera.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -34,17 +41,138 @@ TEST(CaptureRecording, EndsAtASignalWithTheLightOffAndNothingKept) {
       const auto light = board.open("projector").value();
       ASSERT_TRUE(light->set(true));
       const auto recording =
-          capture_recording(station.cameras, {}, {10000, {}}, folder.path() / "visit", [&](double) {
-            EXPECT_TRUE(board.is_on("projector"));
-            if (++rounds == 3) raise(number);
-            return !stop.is_made();
-          });
+          capture_recording(station.cameras, {}, {10000, {}}, CameraTurns::kTogether,
+                            folder.path() / "visit", [&](double) {
+                              EXPECT_TRUE(board.is_on("projector"));
+                              if (++rounds == 3) raise(number);
+                              return !stop.is_made();
+                            });
       ASSERT_FALSE(recording);
       EXPECT_EQ(recording.error().code, ErrorCode::kCancelled);
     }
     EXPECT_EQ(rounds, 3);
     EXPECT_FALSE(board.is_on("projector"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "visit"));
+  }
+}
+
+using Cameras = std::vector<std::unique_ptr<DepthCamera>>;
+using Step = test::ScriptedCamera::Step;
+
+bool go_on(double) {
+  return true;
+}
+
+/// The frames of each camera, by its name.
+std::map<std::string, std::vector<RecordedFrame>> frames_of(const Recording& recording) {
+  std::map<std::string, std::vector<RecordedFrame>> frames;
+  for (const auto& frame : recording.frames) frames[frame.camera].push_back(frame);
+  return frames;
+}
+
+Cameras two_cameras(const std::deque<Step>& script_of_second) {
+  Cameras cameras;
+  cameras.push_back(std::make_unique<test::ScriptedCamera>("a", std::deque<Step>()));
+  cameras.push_back(std::make_unique<test::ScriptedCamera>("b", script_of_second));
+  return cameras;
+}
+
+TEST(CaptureRecording, LeavesOutTheFramesThatAScanLeavesOut) {
+  const test::TemporaryFolder folder;
+  const auto cameras = two_cameras(
+      {Step::kShort, Step::kGood, Step::kEmpty, Step::kStale, Step::kCorrupt, Step::kGood});
+  ASSERT_TRUE(capture_recording(cameras, {}, {3, {}}, CameraTurns::kTogether,
+                                folder.path() / "visit", go_on));
+  const auto recording = read_recording(folder.path() / "visit").value();
+  const auto frames = read_recorded_frames(recording);
+  ASSERT_TRUE(frames) << frames.error().line();
+  EXPECT_EQ(frames->size(), 6U);
+  for (const auto& frame : *frames) {
+    EXPECT_EQ(std::count(frame.raw.begin(), frame.raw.end(), 500), 400) << frame.camera;
+  }
+}
+
+TEST(CaptureRecording, TellsWhatIsWrongWithACameraOfFaultyFrames) {
+  for (const auto& [step, said] : {std::pair{Step::kEmpty, "camera b: it sees nothing"},
+                                   std::pair{Step::kShort, "camera b: it sends damaged frames"}}) {
+    for (const auto turns : {CameraTurns::kTogether, CameraTurns::kOneAtATime}) {
+      const test::TemporaryFolder folder;
+      const auto recording = capture_recording(two_cameras(std::deque<Step>(100, step)), {},
+                                               {3, {}}, turns, folder.path() / "visit", go_on);
+      ASSERT_FALSE(recording);
+      EXPECT_EQ(recording.error().code, ErrorCode::kCorruptData);
+      EXPECT_THAT(recording.error().message, testing::HasSubstr(said));
+      EXPECT_FALSE(std::filesystem::exists(folder.path() / "visit"));
+    }
+  }
+}
+
+/// Counts how many of its kind stream at a time.
+class CountedCamera final : public DepthCamera {
+ public:
+  struct Count {
+    int streaming = 0;
+    int most = 0;
+  };
+
+  CountedCamera(std::unique_ptr<DepthCamera> camera, Count& count)
+      : camera_(std::move(camera)), count_(count) {}
+  const CameraDescription& description() const override { return camera_->description(); }
+  Result<void> start() override {
+    if (!std::exchange(streams_, true)) ++count_.streaming;
+    count_.most = std::max(count_.most, count_.streaming);
+    return camera_->start();
+  }
+  Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
+    return camera_->next_frame(limit);
+  }
+  void stop() override {
+    camera_->stop();
+    if (std::exchange(streams_, false)) --count_.streaming;
+  }
+  void interrupt() override { camera_->interrupt(); }
+
+ private:
+  std::unique_ptr<DepthCamera> camera_;
+  Count& count_;
+  bool streams_ = false;
+};
+
+TEST(CaptureRecording, LightsOneCameraAtATimeWhereTheyDisturbEachOther) {
+  using namespace std::chrono_literals;
+  for (const auto& length : {RecordingLength{4, {}}, RecordingLength{{}, 200ms}}) {
+    std::map<CameraTurns, std::size_t> frames;
+    for (const auto turns : {CameraTurns::kTogether, CameraTurns::kOneAtATime}) {
+      const test::TemporaryFolder folder;
+      auto station = small_station();
+      CountedCamera::Count count;
+      Cameras cameras;
+      for (auto& camera : station.cameras) {
+        cameras.push_back(std::make_unique<CountedCamera>(std::move(camera), count));
+      }
+      std::vector<double> told;
+      const auto recording =
+          capture_recording(cameras, {}, length, turns, folder.path() / "visit", [&](double done) {
+            told.push_back(done);
+            return true;
+          });
+      ASSERT_TRUE(recording) << recording.error().line();
+      EXPECT_EQ(count.most, turns == CameraTurns::kTogether ? 2 : 1);
+      EXPECT_EQ(count.streaming, 0);
+      EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+      EXPECT_EQ(told.back(), 1.0);
+      EXPECT_EQ(frames_of(*recording).size(), 2U);
+      for (const auto& [camera, own] : frames_of(*recording)) {
+        if (length.time) {
+          EXPECT_GE(own.back().time, *length.time) << camera;
+        } else {
+          EXPECT_EQ(own.size(), 4U) << camera;
+        }
+        EXPECT_EQ(own.front().time, 0ms);
+      }
+      frames[turns] = recording->frames.size();
+    }
+    EXPECT_EQ(frames[CameraTurns::kOneAtATime], frames[CameraTurns::kTogether]);
   }
 }
 

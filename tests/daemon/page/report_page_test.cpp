@@ -176,6 +176,19 @@ TEST(ReportPage, SaysADoubtOfSeveralMeasuresOnce) {
               HasSubstr("ball girth, waist girth, instep girth: it is a guess<"));
 }
 
+TEST(ReportPage, SaysByWhichChoiceOfDefinitionsAMeasureWasTaken) {
+  auto scan = made_up_scan();
+  EXPECT_THAT(report_page(scan), HasSubstr(">ball girth</text>"));
+  scan.foot.rules.axis = AxisRule::kHeelCentre;
+  scan.foot.rules.ball_girth = BallGirthRule::kShortest;
+  scan.foot.rules.instep_girth = InstepGirthRule::kUpright;
+  const auto page = report_page(scan);
+  for (const char* name : {"foot length (axis heel centre)", "ball girth (shortest)", "waist girth",
+                           "instep girth (upright)"}) {
+    EXPECT_THAT(page, HasSubstr(std::string(">") + name + "</text>"));
+  }
+}
+
 TEST(ReportPage, SaysWhatTheOtherFootHasMore) {
   auto record = made_up_scan();
   auto right = record.measures;

@@ -112,15 +112,37 @@ TEST(RepeatStudy, WarnsOfFewScansAndOfMixedOnes) {
   scans.resize(3);
   scans[0].result["station"] = "another shop";
   scans[1].result["software"]["version"] = "2";
-  scans[2].result["measures"][0]["definition"] = "by another rule";
   scans[2].result["measures"][1].erase("u95_mm");
   const auto study = study_repeats(scans);
   ASSERT_TRUE(study);
   EXPECT_THAT(study->warnings, Contains(HasSubstr("3 scans of the right side are few")));
   EXPECT_THAT(study->warnings, Contains(HasSubstr("different stations")));
   EXPECT_THAT(study->warnings, Contains(HasSubstr("different versions")));
-  EXPECT_THAT(study->warnings, Contains(HasSubstr("foot_length follows different definitions")));
   EXPECT_FALSE(study->feet[0].measures[1].claimed_u95);
+}
+
+TEST(RepeatStudy, PoolsNoMeasureThatFollowsDifferentDefinitions) {
+  auto scans = seven_scans();
+  scans[2].result["measures"][0]["definition"] = "by another rule";
+  const auto study = study_repeats(scans);
+  ASSERT_TRUE(study);
+  EXPECT_THAT(study->warnings,
+              ElementsAre("foot_length follows different definitions: it is left out"));
+  ASSERT_EQ(study->feet[0].measures.size(), 1U);
+  EXPECT_EQ(study->feet[0].measures[0].id, "ball_girth");
+}
+
+/// A ball's length says "parallel to the axis", whichever that is.
+TEST(RepeatStudy, PoolsNoScansOfDifferentAxes) {
+  auto scans = seven_scans();
+  for (auto& scan : scans) scan.result["axis"] = "pt_toe2";
+  scans[1].result.erase("axis");
+  EXPECT_TRUE(study_repeats(scans));
+  scans[4].result["axis"] = "brannock";
+  const auto study = study_repeats(scans);
+  ASSERT_FALSE(study);
+  EXPECT_EQ(study.error().code, ErrorCode::kInvalidInput);
+  EXPECT_THAT(study.error().message, HasSubstr("brannock, pt_toe2"));
 }
 
 TEST(RepeatStudy, KeepsAnglesApart) {

@@ -243,19 +243,20 @@ TEST(TextReport, TellsAGirth) {
 
 TEST(CsvReport, HasALineForEachMeasure) {
   EXPECT_EQ(result_csv(foot_json(small_foot(), small_set(), small_sizes())),
-            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg\n"
-            "left,foot_length,251.250,,,\"\",,\n"
-            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",,\n"
-            "left,waist_girth,,,,\"the section is open\",,\n");
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg,definition,axis\n"
+            "left,foot_length,251.250,,,\"\",,,\"from heel to toe\",pt_toe2\n"
+            "left,ball_girth,240.000,0.235,241.000,\"a <gap> & \"\"more\"\"\",,,\"\",pt_toe2\n"
+            "left,waist_girth,,,,\"the section is open\",,,,pt_toe2\n");
 }
 
 TEST(CsvReport, HasTheAnglesInAColumnOfTheirOwn) {
   const auto result = nlohmann::json::parse(
-      R"({"side": "right", "measures": [{"id": "toe1_angle", "value_deg": 9.5, "u95_deg": 0.6}, 3, {"id": 4}],
+      R"({"side": "right", "axis": "brannock", "measures": [{"id": "toe1_angle", "value_deg": 9.5,
+          "u95_deg": 0.6, "definition": "by \"rule\""}, 3, {"id": 4}],
           "withheld": "none"})");
   EXPECT_EQ(result_csv(result),
-            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg\n"
-            "right,toe1_angle,,,,\"\",9.500,0.600\n");
+            "side,id,value_mm,u95_mm,contact_mm,warnings,value_deg,u95_deg,definition,axis\n"
+            "right,toe1_angle,,,,\"\",9.500,0.600,\"by \"\"rule\"\"\",brannock\n");
 }
 
 TEST(SectionsSvg, IsSoundAndShowsTheNumbers) {

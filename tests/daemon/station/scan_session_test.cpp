@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include "daemon/store/posix_storage.h"
 #include "sim/simulated_station.h"
 #include "tests/support/temporary_folder.h"
@@ -90,6 +94,30 @@ TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
   EXPECT_GE(whole.steps_of_stage.at("fuse views"), 1U + 2 * 3 + 40 + 3 + 1);
   EXPECT_EQ(whole.steps_of_stage.at("girths"), 1U + 18);     // one for each measure
   EXPECT_EQ(whole.told_stages, 1 + std::size(kStages) + 2);  // capture, ..., store, done
+}
+
+/// A remark is made once, and stands in the result.
+TEST(ScanSession, TellsInTheResultHowTheFramesWereTaken) {
+  const test::TemporaryFolder folder;
+  TaskProgress progress;
+  const std::atomic<bool> cancelled = false;
+  ScanTools tools;
+  tools.cameras = small_cameras();
+  tools.capture.frames_per_camera = 2;
+  tools.platform_height_mm = 0.0;
+  tools.store =
+      std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path() / "scans");
+  ASSERT_TRUE(tools.store->prepare());
+  tools.measure = measure_capture;
+  tools.remarks->note("the projector was off");
+  tools.remarks->note("the projector was off");
+  const ScanListener listener{[](ScanStep) {}, [](std::string_view, double) {}};
+  const auto outcome = run_scan(tools, cancelled, progress, listener);
+  ASSERT_FALSE(outcome.error) << outcome.error->line();
+  std::ifstream file(outcome.stored.at(0).folder / "result.json");
+  const auto result = nlohmann::json::parse(file);
+  const auto warnings = result.at("warnings").get<std::vector<std::string>>();
+  EXPECT_EQ(std::count(warnings.begin(), warnings.end(), "the projector was off"), 1);
 }
 
 TEST_F(CancelledScan, EndsAtOnceAndLeavesNothingAtEveryStep) {

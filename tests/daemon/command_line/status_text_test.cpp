@@ -1,0 +1,61 @@
+#include "daemon/command_line/status_text.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+
+json output(const char* name, bool on, const char* trouble = "") {
+  return {{"name", name}, {"on", on}, {"ok", *trouble == 0}, {"trouble", trouble}};
+}
+
+TEST(StatusText, SaysWhatRunsAndHowEachDeviceIs) {
+  const json status = {
+      {"state", "capturing"},
+      {"stage", "capture"},
+      {"done", 0.25},
+      {"scans", 3},
+      {"ignored_presses", 1},
+      {"cameras",
+       {{{"id", "front"}, {"ok", true}, {"frames", {{"good", 12U}, {"lost", 2U}, {"stale", 0U}}}},
+        {{"id", "back"}, {"ok", false}, {"trouble", "it left"}, {"recovery", "resetting"}}}},
+      {"outputs", {output("lamp.ready", false), output("lamp.busy", true)}}};
+  EXPECT_EQ(status_text(status),
+            "capturing: capture 25 %\n"
+            "  camera front        ok (frames: 12 good, 2 lost)\n"
+            "  camera back         it left (resetting)\n"
+            "  lamp.ready          off\n"
+            "  lamp.busy           on\n"
+            "  scans 3, ignored presses 1\n");
+}
+
+TEST(StatusText, SaysOnceWhySeveralLampsAreAway) {
+  const json status = {{"state", "ready"},
+                       {"outputs",
+                        {output("lamp.ready", true, "there is no GPIO chip: plug it in"),
+                         output("lamp.busy", false, "it does not answer: unplug it"),
+                         output("lamp.fault", false, "there is no GPIO chip: plug it in"),
+                         output("projector", false)}}};
+  EXPECT_EQ(status_text(status),
+            "ready\n"
+            "  lamp.ready, lamp.fault there is no GPIO chip: plug it in\n"
+            "  lamp.busy           it does not answer: unplug it\n"
+            "  projector           off\n"
+            "  scans 0, ignored presses 0\n");
+}
+
+TEST(StatusText, LeavesOutWhatIsOfTheWrongShape) {
+  for (const char* odd :
+       {"3", "[]", "{}",
+        R"({"cameras": [3, {"frames": 3, "ok": "x"}], "outputs": [[], {"on": 1}]})",
+        R"({"done": "x", "stage": "capture", "scans": -1, "outputs": 7})"}) {
+    EXPECT_NO_THROW(static_cast<void>(status_text(json::parse(odd)))) << odd;
+  }
+}
+
+}  // namespace
+}  // namespace instep
