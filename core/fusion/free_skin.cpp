@@ -9,7 +9,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kPieces = 48;
-constexpr double kLeastFalloff = 1.0;
 constexpr double kMostFalloff = 8.0;
 constexpr int kHalvings = 8;
 
@@ -42,7 +41,7 @@ std::vector<Vector2d> free_skin(double turn, double falloff, double height) {
 }
 
 double falloff_of_bend(double turn, double bend_of_height) {
-  double least = kLeastFalloff;
+  double least = 0.0;
   double most = kMostFalloff;
   if (bend_of_height <= first_bend(turn, least)) return least;
   for (int i = 0; i < kHalvings; ++i) {

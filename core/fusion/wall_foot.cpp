@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMostSine = 0.95;
-constexpr double kLeaningSine = 0.42;  // of a wall that leans in as much as a sole's edge does
+constexpr double kLeaningSine = 0.45;   // of a wall that leans in as much as a sole's edge does
+constexpr double kArchBorderMm = 12.0;  // what ends so high and leans in stands beside an arch
 
 /// Of the dip of a wall that bends evenly, at a height.
 double sine_at(double end_height, double sine_of_end, double bend, double height) {
@@ -34,6 +35,12 @@ std::vector<Vector2d> wall_to_edge(double height, double sine, double bend, doub
     corners.emplace_back((height - at) * std::tan(chord), at);
   }
   return corners;
+}
+
+/// Skin pressed on the platform hangs in an arc above its edge; that beside an arch, which ends
+/// higher, comes down in a slope.
+double falloff_beside_arch(double height, double edge_height) {
+  return std::clamp((height - edge_height) / (kArchBorderMm - edge_height), 0.0, 1.0);
 }
 
 /// A taut tape from the wall's end, along the arc on which it bends, and on to the contact.
@@ -74,20 +81,29 @@ double reach_across(const std::vector<Vector2d>& outline, const Vector2d& place,
   return reach;
 }
 
-/// How the wall bends at its end and beside it: one end alone tells it badly.
-double usual_bend(const std::vector<WallEnd>& ends, const WallEnd& here) {
-  constexpr double kAlongMm = 8.0;
+/// How the skin leaves a wall's end.
+struct Ending {
+  double sine_of_dip = 0.0;
+  double bend = 0.0;
+};
+
+/// Of an end and those beside it: one alone tells it badly. The dip of another is carried to this
+/// one's height in its own bend.
+Ending usual_ending(const std::vector<WallEnd>& ends, const WallEnd& here) {
+  constexpr double kAlongMm = 10.0;
   constexpr double kSameFacing = 0.8;
   double weights = 0.0;
-  double bends = 0.0;
+  Ending usual;
   for (const auto& end : ends) {
-    if (end.normal.dot(here.normal) < kSameFacing || end.bend <= 0.0) continue;
+    if (end.normal.dot(here.normal) < kSameFacing) continue;
     const double apart = (end.position - here.position).squaredNorm() / (kAlongMm * kAlongMm);
     const double weight = std::exp(-0.5 * apart);
+    const double drop = end.position.z() - here.position.z();
     weights += weight;
-    bends += weight * end.bend;
+    usual.sine_of_dip += weight * (end.bend * drop - end.normal.z());
+    usual.bend += weight * end.bend;
   }
-  return weights > 0.0 ? bends / weights : 0.0;
+  return {usual.sine_of_dip / weights, std::max(0.0, usual.bend / weights)};
 }
 
 std::vector<Vector2d> shadow_of(const PointCloud& foot, double most_z) {
@@ -109,9 +125,10 @@ WallFoot::WallFoot(const Vector2d& place, const Vector2d& out, const WallShape& 
   const Vector2d begin = profile_.back();
   const double sine =
       sine_at(height, std::clamp(shape.sine_of_dip, 0.0, kMostSine), shape.bend, begin.y());
-  const double turn = std::acos(sine);
-  const double bend = shape.bend * begin.y();
-  for (const auto& corner : free_skin(turn, falloff_of_bend(turn, bend), begin.y())) {
+  const double turn = std::acos(std::max(kLeaningSine, sine));
+  const double falloff = std::max(falloff_of_bend(turn, shape.bend * begin.y()),
+                                  falloff_beside_arch(begin.y(), settings.usual_edge_mm));
+  for (const auto& corner : free_skin(turn, falloff, begin.y())) {
     profile_.emplace_back(begin.x() + corner.x(), corner.y());
   }
   if (contact() > shape.most_inset_mm) {
@@ -145,9 +162,10 @@ std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_hei
     if (!(level > std::sqrt(1.0 - kMostSine * kMostSine))) continue;
     const Vector2d out = end.normal.head<2>() / level;
     const Vector2d place = end.position.head<2>();
+    const Ending usual = usual_ending(ends, end);
     feet.emplace_back(
         place, out,
-        WallShape{end.position.z() - standing_height_mm, -end.normal.z(), usual_bend(ends, end),
+        WallShape{end.position.z() - standing_height_mm, usual.sine_of_dip, usual.bend,
                   settings.most_inset_share * reach_across(shadow, place, -out)},
         settings);
   }

@@ -30,8 +30,12 @@ struct WallShape {
 ///
 /// In the upright plane square to the wall the skin begins with the height, the dip and the bend of
 /// the seen end. Two cases follow:
-///   rounded edge  It goes on in its own bend down to where soles usually begin to be round, and
-///                 hangs free from there until it rests on the platform: free_skin().
+///   rounded edge  It goes on in its own bend down to where soles usually begin to be round, or to
+///                 where it leans in as a sole's edge does, and hangs free from there until it
+///                 rests on the platform: free_skin(). An end below the usual edge that leans in
+///                 less is taken to lean in at once: the edge has begun there. The free skin is an
+///                 arc, as the edges of scanned feet are; where the wall ends well above the usual
+///                 edge, as beside an arch, or bends more than such an arc, a slope.
 ///   arch          That contact would lie beyond `most_inset_mm`: the wall bends so much that it
 ///                 turns level above the platform, a roof with a hollow that no tape enters. The
 ///                 skin bends on in an arc until it points at that place, and from there the tape

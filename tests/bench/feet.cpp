@@ -19,6 +19,7 @@ int main(int count, char** words) {
   app.add_option("--feet", drawn.feet, "How many feet to draw")->capture_default_str();
   app.add_option("--first", drawn.first_seed, "The first one's seed")->capture_default_str();
   app.add_option("--threads", drawn.threads, "Feet measured at once")->capture_default_str();
+  app.add_flag("--open", drawn.all_open, "Draw no foot with a sole that is seen");
   app.add_flag("-v,--verbose", drawn.verbose, "Print each foot");
   CLI11_PARSE(app, count, words);
   const auto wants = [&](const char* part) {

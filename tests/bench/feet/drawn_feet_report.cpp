@@ -30,8 +30,8 @@ struct FootOutcome {
   double milliseconds = 0.0;
 };
 
-FootOutcome measured(std::uint64_t seed) {
-  FootOutcome outcome{test::draw_scanned_foot(seed), {}, {}, {}, {}, 0.0};
+FootOutcome measured(std::uint64_t seed, test::SolesSeen soles) {
+  FootOutcome outcome{test::draw_scanned_foot(seed, soles), {}, {}, {}, {}, 0.0};
   const double start = thread_milliseconds();
   AlignmentOptions options;
   // An open sole is what a station gives, and a station knows its platform.
@@ -54,12 +54,13 @@ FootOutcome measured(std::uint64_t seed) {
 
 std::vector<FootOutcome> measured_feet(const DrawnFeetWishes& wishes) {
   std::vector<FootOutcome> outcomes(wishes.feet);
+  const auto soles = wishes.all_open ? test::SolesSeen::kNever : test::SolesSeen::kMostly;
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < std::max<std::size_t>(1, wishes.threads); ++i) {
     threads.emplace_back([&] {
       for (std::size_t at = next++; at < outcomes.size(); at = next++) {
-        outcomes[at] = measured(wishes.first_seed + at);
+        outcomes[at] = measured(wishes.first_seed + at, soles);
       }
     });
   }

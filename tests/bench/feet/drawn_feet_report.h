@@ -9,6 +9,7 @@ struct DrawnFeetWishes {
   std::size_t feet = 200;
   std::uint64_t first_seed = 1;
   std::size_t threads = 2;
+  bool all_open = false;  ///< no sole is seen
   bool verbose = false;
 };
 

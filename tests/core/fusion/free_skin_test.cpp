@@ -33,7 +33,7 @@ TEST(FreeSkin, ComesDownFromItsHeightAndEndsLevel) {
 }
 
 TEST(FreeSkin, HasTheFalloffThatGivesTheBendItBeginsWith) {
-  for (const double falloff : {1.0, 2.0, 4.0}) {
+  for (const double falloff : {0.5, 1.0, 2.0, 4.0}) {
     const double height = 7.0;
     const auto skin = free_skin(kTurn, falloff, height);
     const auto angle = [&](std::size_t piece) {
@@ -49,8 +49,8 @@ TEST(FreeSkin, HasTheFalloffThatGivesTheBendItBeginsWith) {
 }
 
 TEST(FreeSkin, BendsMoreBelowWhereLittleBendWasSeen) {
-  EXPECT_EQ(falloff_of_bend(kTurn, 0.0), 1.0);
-  EXPECT_EQ(falloff_of_bend(kTurn, 0.3), 1.0);
+  EXPECT_EQ(falloff_of_bend(kTurn, 0.0), 0.0);
+  EXPECT_EQ(falloff_of_bend(kTurn, 0.3), 0.0);
 }
 
 }  // namespace

@@ -56,7 +56,9 @@ TEST(WallFoot, LeavesTheWallInItsOwnDirectionAndSettlesLevel) {
         const WallFoot foot = wall(height, dip_deg, bend);
         EXPECT_NEAR(foot.skin_height(0.0), height, 1e-9);
         EXPECT_NEAR(std::atan(1.0 / slope_at(foot, 0.0)), radians(dip_deg), radians(5));
-        EXPECT_LT(slope_at(foot, foot.contact() - 0.5), 0.02) << height << " " << dip_deg;
+        // Of the arc from here that touches the platform, half a millimetre before it does.
+        const double slope = 0.5 * (1.0 - std::sin(radians(dip_deg))) / height;
+        EXPECT_LT(slope_at(foot, foot.contact() - 0.5), slope) << height << " " << dip_deg;
       }
     }
   }
@@ -74,6 +76,34 @@ TEST(WallFoot, GoesOnInTheBendOfTheWall) {
     const double truth = centre.y() - std::sqrt(bent * bent - std::pow(centre.x() - 2.0, 2));
     EXPECT_NEAR(foot.skin_height(2.0), truth, 0.08) << radius;
   }
+}
+
+TEST(WallFoot, GoesOnInAnArcToThePlatformWhereItEndsLowAndStraight) {
+  for (const double height : {4.0, 7.0}) {
+    for (const double dip_deg : {27.0, 40.0, 55.0}) {
+      const double dip = radians(dip_deg);
+      const double radius = height / (1 - std::sin(dip));
+      const WallFoot foot = wall(height, dip_deg, kStraight);
+      for (double x = 0; x < radius * std::cos(dip); x += 0.5) {
+        const double beyond = radius * std::cos(dip) - x;
+        const double truth = radius - std::sqrt(radius * radius - beyond * beyond);
+        EXPECT_NEAR(foot.skin_height(x), truth, 0.03) << height << " " << dip_deg << " " << x;
+      }
+    }
+  }
+}
+
+TEST(WallFoot, LeansInAtOnceWhereItEndsBelowTheUsualEdge) {
+  const WallFoot upright = wall(5.0, 5.0, kStraight);
+  const WallFoot leaning = wall(5.0, 26.0, kStraight);
+  for (double x = 0.5; x < leaning.contact(); x += 0.5) {
+    EXPECT_NEAR(upright.skin_height(x), leaning.skin_height(x), 0.1) << x;
+  }
+}
+
+TEST(WallFoot, ComesDownInASlopeFromHighBesideAnArch) {
+  const double contact_of_arc = 20.0 / (1 - std::sin(radians(35))) * std::cos(radians(35));
+  EXPECT_GT(wall(20.0, 35.0, 0.01).contact(), 1.3 * contact_of_arc);
 }
 
 TEST(WallFoot, LaysATautTapeOverAnArch) {
@@ -148,11 +178,14 @@ TEST(FindWallFeet, FollowsARoundingAllRound) {
     EXPECT_GT(feet.size(), 30U);
     for (const auto& foot : feet) {
       EXPECT_GT(foot.out().dot(foot.place().normalized()), 0.99);
+      // What leans in less than a sole's edge does, so near to the platform, is taken to lean more.
+      const double dip = std::asin(1.0 - std::min(1.0, foot.skin_height(0.0) / rounding));
+      const double more = std::max(0.0, std::asin(0.45) - dip);
       for (double x = 0; x < rounding; x += 0.5) {
         const double beyond = foot.place().norm() - x - (50 - rounding);
         const double height = foot.skin_height(x);
         const double off = beyond > 0 ? std::hypot(beyond, rounding - height) - rounding : height;
-        EXPECT_NEAR(off, 0.0, 0.06 * rounding) << rounding << " " << x;
+        EXPECT_NEAR(off, 0.0, 0.07 * rounding + more * x) << rounding << " " << x;
       }
     }
   }

@@ -79,12 +79,12 @@ void add_strays(PointCloud& cloud, std::size_t count, RandomNumbers& random) {
 
 }  // namespace
 
-DrawnFoot draw_scanned_foot_without_truth(std::uint64_t seed) {
+DrawnFoot draw_scanned_foot_without_truth(std::uint64_t seed, SolesSeen soles) {
   RandomNumbers random(seed + 1000);
   const FootSolid solid(draw_foot(seed, random.uniform() < 0.5 ? Side::kLeft : Side::kRight));
   DrawnFoot foot;
   foot.truth.side = solid.parameters().side;
-  foot.sole_is_seen = random.uniform() < 0.7;
+  foot.sole_is_seen = random.uniform() < 0.7 && soles == SolesSeen::kMostly;
   foot.top_mm = random.uniform(80.0, 200.0);
   const double sigma = random.uniform(0.05, 0.5);
   const auto points =
@@ -105,8 +105,8 @@ DrawnFoot draw_scanned_foot_without_truth(std::uint64_t seed) {
   return foot;
 }
 
-DrawnFoot draw_scanned_foot(std::uint64_t seed) {
-  DrawnFoot foot = draw_scanned_foot_without_truth(seed);
+DrawnFoot draw_scanned_foot(std::uint64_t seed, SolesSeen soles) {
+  DrawnFoot foot = draw_scanned_foot_without_truth(seed, soles);
   foot.truth = foot_truth(FootSolid(draw_foot(seed, foot.truth.side))).value();
   return foot;
 }
