@@ -82,17 +82,23 @@ std::optional<double> lowest_place(const std::vector<Vector2d>& lengths) {
   return middle + t * half;
 }
 
-/// The same, refined by a second parabola through the places near the first one's lowest: the tape
-/// grows faster towards the heel than towards the ball.
+/// By a parabola through the places near the shortest length: the tape grows faster towards the
+/// heel than towards the ball, and where the plane comes to the leg it jumps.
 std::optional<double> lowest_near(const std::vector<Vector2d>& lengths, double window) {
-  const auto rough = lowest_place(lengths);
-  if (!rough) return std::nullopt;
-  std::vector<Vector2d> close;
-  for (const auto& length : lengths) {
-    if (std::abs(length.x() - *rough) <= window) close.push_back(length);
-  }
-  const auto fine = lowest_place(close);
-  return fine ? fine : rough;
+  if (lengths.empty()) return std::nullopt;
+  const auto through_those_near = [&](double place) {
+    std::vector<Vector2d> close;
+    for (const auto& length : lengths) {
+      if (std::abs(length.x() - place) <= window) close.push_back(length);
+    }
+    return lowest_place(close);
+  };
+  const auto shortest =
+      std::min_element(lengths.begin(), lengths.end(),
+                       [](const Vector2d& a, const Vector2d& b) { return a.y() < b.y(); });
+  const auto rough = through_those_near(shortest->x());
+  // Once more, with as many places to either side.
+  return rough ? through_those_near(*rough) : rough;
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -19,6 +21,9 @@ constexpr std::size_t kSectors = 72;
 constexpr std::size_t kFewestSectors = 24;
 /// Points in a sector that lie deeper than this under its outermost are of another face.
 constexpr double kDeepestMm = 8.0;
+/// Points that stand out further than this over those round their sector are strays.
+constexpr double kStandsOutMm = 4.0;
+constexpr std::size_t kSectorsAround = 2;  ///< to each side
 
 struct SectionPoint {
   Vector2d place;
@@ -32,6 +37,27 @@ struct Sector {
   double weight = 0.0;
   Vector2d sum = Vector2d::Zero();
 };
+
+/// Leaves out single points that stand off the skin: none may reach much further than the second
+/// furthest of the outermost points of its sector and those round it.
+void drop_strays(std::vector<SectionPoint>& section) {
+  std::array<double, kSectors> outermost{};
+  for (const auto& point : section) {
+    outermost[point.sector] = std::max(outermost[point.sector], point.distance);
+  }
+  std::array<double, kSectors> usual{};
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    std::array<double, 2 * kSectorsAround + 1> around{};
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      around[i] = outermost[(sector + kSectors - kSectorsAround + i) % kSectors];
+    }
+    std::nth_element(around.begin(), std::next(around.begin()), around.end(), std::greater<>());
+    usual[sector] = around[1];
+  }
+  std::erase_if(section, [&](const SectionPoint& point) {
+    return point.distance > usual[point.sector] + kStandsOutMm;
+  });
+}
 
 }  // namespace
 
@@ -56,6 +82,9 @@ std::optional<double> rough_tape(const std::vector<Eigen::Vector3d>& points,
   for (auto& point : section) {
     point.sector = sector_of(point.place);
     point.distance = (point.place - middle).norm();
+  }
+  drop_strays(section);
+  for (const auto& point : section) {
     auto& furthest = sectors[point.sector].furthest;
     furthest = std::max(furthest, point.distance);
   }

@@ -39,7 +39,8 @@ TEST_P(DrawnFeet, HaveAllTheirMeasuresWithinTheBars) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, DrawnFeet, testing::Values(12, 13, 15));
+// Strays stand under the arches of the last two.
+INSTANTIATE_TEST_SUITE_P(Seeds, DrawnFeet, testing::Values(12, 13, 15, 529, 532));
 
 }  // namespace
 }  // namespace instep
