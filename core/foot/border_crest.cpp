@@ -89,7 +89,21 @@ struct Crest {
   }
 };
 
-/// Those that lie close to a place, as seen from it.
+/// The points that any patch near `origin` can hold, as seen from there.
+std::vector<Local> seen_near(const Local& origin, const std::vector<Vector3d>& points,
+                             const BorderView& view, const CrestPatch& patch) {
+  std::vector<Local> near;
+  for (const auto& point : points) {
+    const Local seen =
+        Local(view.along.dot(point), view.across.dot(point), view.outwards.dot(point)) - origin;
+    const bool is_near = std::abs(seen.x()) < 2.0 * patch.along_mm &&
+                         std::abs(seen.y()) < 3.0 * patch.across_mm && seen.z() > -kDeepestMm;
+    if (is_near) near.push_back(seen);
+  }
+  return near;
+}
+
+/// Those of them that lie close to a place, as seen from it.
 std::vector<Local> patch_at(const SkinBorder::Place& place, const std::vector<Local>& points,
                             const CrestPatch& patch) {
   std::vector<Local> close;
@@ -111,15 +125,9 @@ std::optional<SkinBorder::Place> crest_near(const std::vector<Vector3d>& points,
   const auto in_view = [&](double across) {
     return std::clamp(across, view.across_from_mm, view.across_to_mm);
   };
-  const Local origin(start.along, in_view(start.across), start.reach);
-  std::vector<Local> near;
-  for (const auto& point : points) {
-    const Local seen =
-        Local(view.along.dot(point), view.across.dot(point), view.outwards.dot(point)) - origin;
-    const bool is_near = std::abs(seen.x()) < 2.0 * patch.along_mm &&
-                         std::abs(seen.y()) < 3.0 * patch.across_mm && seen.z() > -kDeepestMm;
-    if (is_near) near.push_back(seen);
-  }
+  const Local origin(start.along, start.across, start.reach);
+  if (std::abs(origin.y() - in_view(origin.y())) > patch.across_mm) return std::nullopt;
+  const std::vector<Local> near = seen_near(origin, points, view, patch);
   SkinBorder::Place place;  // counted from the origin
   for (int round = 0; round < kMostRounds; ++round) {
     const auto skin = skin_of(patch_at(place, near, patch), patch.along_mm);

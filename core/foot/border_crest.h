@@ -31,7 +31,7 @@ struct UsualPlace {
 /// bends pull it aside. Strays do not count.
 ///
 /// Nothing where the patch holds too few points, or none on one side of the place, or has no crest
-/// within it. O(n).
+/// within it, or where `start` lies beside the view by more than half of the patch. O(n).
 std::optional<SkinBorder::Place> crest_near(const std::vector<Eigen::Vector3d>& points,
                                             const BorderView& view, const SkinBorder::Place& start,
                                             const CrestPatch& patch,

@@ -77,7 +77,7 @@ TEST(BorderCrest, WandersLessThanTheFurthestOfASmoothedBorder) {
 TEST(BorderCrest, LiesWithinTheViewWhereTheSkinReachesFurtherBeyond) {
   auto lower = wall(4000, 0.0, 7);
   for (auto& point : lower) point.z() -= 14.0;  // reaches furthest at z -2
-  for (const double across : {3.0, -2.0, -12.0}) {
+  for (const double across : {3.0, -1.0, -3.5}) {
     const auto crest =
         crest_near(lower, from_above(), {97.0, 38.0, across, 0.0}, CrestPatch{12.0, 4.0});
     ASSERT_TRUE(crest) << across;
@@ -85,6 +85,8 @@ TEST(BorderCrest, LiesWithinTheViewWhereTheSkinReachesFurtherBeyond) {
     EXPECT_NEAR(crest->along, 100.0, 0.02);
     EXPECT_NEAR(crest->reach, 40.0 - 0.5 * kBendAcross * 4.0, 1e-3);
   }
+  const SkinBorder::Place beside{97.0, 38.0, -4.5, 0.0};
+  EXPECT_FALSE(crest_near(lower, from_above(), beside, CrestPatch{12.0, 4.0}));
 }
 
 /// Along a crest that slants, y(z) = 40 - a (x - 115)^2 / 2 - b (z - 24.5 - 1.5 (x - 96))^2 / 2,
