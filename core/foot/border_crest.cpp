@@ -89,32 +89,50 @@ struct Crest {
   }
 };
 
+/// The points that any patch near `origin` can hold, as seen from there.
+std::vector<Local> seen_near(const Local& origin, const std::vector<Vector3d>& points,
+                             const BorderView& view, const CrestPatch& patch) {
+  std::vector<Local> near;
+  for (const auto& point : points) {
+    const Local seen =
+        Local(view.along.dot(point), view.across.dot(point), view.outwards.dot(point)) - origin;
+    const bool is_near = std::abs(seen.x()) < 2.0 * patch.along_mm &&
+                         std::abs(seen.y()) < 3.0 * patch.across_mm && seen.z() > -kDeepestMm;
+    if (is_near) near.push_back(seen);
+  }
+  return near;
+}
+
+/// Those of them that lie close to a place, as seen from it.
+std::vector<Local> patch_at(const SkinBorder::Place& place, const std::vector<Local>& points,
+                            const CrestPatch& patch) {
+  std::vector<Local> close;
+  for (const auto& point : points) {
+    const Local seen = point - Local(place.along, place.across, 0.0);
+    const bool is_close =
+        std::abs(seen.x()) < patch.along_mm && std::abs(seen.y()) < patch.across_mm;
+    if (is_close) close.push_back(seen);
+  }
+  return close;
+}
+
 }  // namespace
 
 std::optional<SkinBorder::Place> crest_near(const std::vector<Vector3d>& points,
                                             const BorderView& view, const SkinBorder::Place& start,
                                             const CrestPatch& patch,
                                             const std::optional<UsualPlace>& usual) {
-  std::vector<Local> near;
-  for (const auto& point : points) {
-    const Local seen(view.along.dot(point) - start.along, view.across.dot(point) - start.across,
-                     view.outwards.dot(point) - start.reach);
-    const bool is_near = std::abs(seen.x()) < 2.0 * patch.along_mm &&
-                         std::abs(seen.y()) < 3.0 * patch.across_mm && seen.z() > -kDeepestMm;
-    if (is_near) near.push_back(seen);
-  }
-  SkinBorder::Place place;  // counted from the start
+  const auto in_view = [&](double across) {
+    return std::clamp(across, view.across_from_mm, view.across_to_mm);
+  };
+  const Local origin(start.along, start.across, start.reach);
+  if (std::abs(origin.y() - in_view(origin.y())) > patch.across_mm) return std::nullopt;
+  const std::vector<Local> near = seen_near(origin, points, view, patch);
+  SkinBorder::Place place;  // counted from the origin
   for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<Local> close;
-    for (const auto& point : near) {
-      const Local seen = point - Local(place.along, place.across, 0.0);
-      const bool is_close =
-          std::abs(seen.x()) < patch.along_mm && std::abs(seen.y()) < patch.across_mm;
-      if (is_close) close.push_back(seen);
-    }
-    const auto skin = skin_of(std::move(close), patch.along_mm);
+    const auto skin = skin_of(patch_at(place, near, patch), patch.along_mm);
     if (!skin) return std::nullopt;
-    const double middle = start.across + place.across;
+    const double middle = origin.y() + place.across;
     const Crest crest(*skin, std::max(view.across_from_mm - middle, -patch.across_mm),
                       std::min(view.across_to_mm - middle, patch.across_mm));
     double slope = crest.reach(1);
@@ -122,22 +140,23 @@ std::optional<SkinBorder::Place> crest_near(const std::vector<Vector3d>& points,
     place.bend = bend;
     if (usual) {
       const double pull = 2.0 / (usual->spread_mm * usual->spread_mm);
-      slope -= pull * (start.along + place.along - usual->along);
+      slope -= pull * (origin.x() + place.along - usual->along);
       bend -= pull;
     }
     if (!(bend < 0.0)) return std::nullopt;
     const double step = std::clamp(-slope / bend, -0.5 * patch.along_mm, 0.5 * patch.along_mm);
     place.along += step;
-    place.across += crest.across + step * crest.across_slope;
+    // A slanting crest may lead out of the view.
+    place.across = in_view(middle + crest.across + step * crest.across_slope) - origin.y();
     place.reach = crest.reach.dot(Vector3d(1.0, step, step * step));
     const bool is_near =
         std::abs(place.along) < patch.along_mm && std::abs(place.across) < 2.0 * patch.across_mm;
     if (!is_near) return std::nullopt;
     if (std::abs(step) < kStandsStillMm) break;
   }
-  place.along += start.along;
-  place.across = std::clamp(start.across + place.across, view.across_from_mm, view.across_to_mm);
-  place.reach += start.reach;
+  place.along += origin.x();
+  place.across = in_view(place.across + origin.y());
+  place.reach += origin.z();
   return place;
 }
 

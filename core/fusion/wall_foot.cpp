@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMostSine = 0.95;
-constexpr double kLeaningSine = 0.45;   // of a wall that leans in as much as a sole's edge does
-constexpr double kArchBorderMm = 12.0;  // what ends so high and leans in stands beside an arch
+constexpr double kLeaningSine = 0.45;    // of a wall that leans in as much as a sole's edge does
+constexpr double kArchOverEdgeMm = 4.0;  // what leans in so far over the edge stands beside an arch
 
 /// Of the dip of a wall that bends evenly, at a height.
 double sine_at(double end_height, double sine_of_end, double bend, double height) {
@@ -40,7 +40,7 @@ std::vector<Vector2d> wall_to_edge(double height, double sine, double bend, doub
 /// Skin pressed on the platform hangs in an arc above its edge; that beside an arch, which ends
 /// higher, comes down in a slope.
 double falloff_beside_arch(double height, double edge_height) {
-  return std::clamp((height - edge_height) / (kArchBorderMm - edge_height), 0.0, 1.0);
+  return std::clamp((height - edge_height) / kArchOverEdgeMm, 0.0, 1.0);
 }
 
 /// A taut tape from the wall's end, along the arc on which it bends, and on to the contact.

@@ -131,7 +131,8 @@ double Contour::tape_length() const {
         std::min(turn_between(side(i + count - 1), side(i)), turn_between(side(i), side(i + 1)));
     sum += side(i).norm() * (touches ? 1.0 + turn * turn / 24.0 : 1.0);
   }
-  return sum;
+  // The cubics of a curve without hollows may bend a little more than its arcs.
+  return std::min(sum, length());
 }
 
 std::vector<Eigen::Vector2d> Contour::refined(int parts) const {

@@ -19,7 +19,7 @@ struct Contour {
   double length() const;
 
   /// Length of a tape stretched round the curve: straight where it bridges hollows, and along the
-  /// curve, by arcs like those of length(), where it touches.
+  /// curve, by arcs like those of length(), where it touches; never longer than the curve.
   double tape_length() const;
 
   /// The curve with `parts` pieces for each chord, by cubics that meet its ends in place and

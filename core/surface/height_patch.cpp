@@ -199,7 +199,7 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const double y = local.y();
   const Quadratic& c = polynomial_;
   const bool quintic = kriging_->kernel() == HeightKernel::kQuintic;
-  Group cubes = Group::Zero();
+  Group kernels = Group::Zero();
   Group slopes_x = Group::Zero();
   Group slopes_y = Group::Zero();
   for (Eigen::Index i = 0; i < x_.size(); i += kGroup) {
@@ -208,12 +208,12 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
     const Group squared = along.square() + across.square();
     Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
     if (quintic) weighted *= -squared;
-    cubes += weighted * squared;
+    kernels += weighted * squared;
     slopes_x += weighted * along;
     slopes_y += weighted * across;
   }
   const double height =
-      c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + cubes.sum();
+      c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + kernels.sum();
   const double power = quintic ? 5.0 : 3.0;
   const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + power * slopes_x.sum();
   const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + power * slopes_y.sum();

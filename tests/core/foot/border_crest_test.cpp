@@ -73,6 +73,44 @@ TEST(BorderCrest, WandersLessThanTheFurthestOfASmoothedBorder) {
   EXPECT_LT(std::sqrt(of_crest), 0.6 * std::sqrt(of_border));
 }
 
+/// What lies outside of the view may not have a say, even where it reaches further.
+TEST(BorderCrest, LiesWithinTheViewWhereTheSkinReachesFurtherBeyond) {
+  auto lower = wall(4000, 0.0, 7);
+  for (auto& point : lower) point.z() -= 14.0;  // reaches furthest at z -2
+  for (const double across : {3.0, -1.0, -3.5}) {
+    const auto crest =
+        crest_near(lower, from_above(), {97.0, 38.0, across, 0.0}, CrestPatch{12.0, 4.0});
+    ASSERT_TRUE(crest) << across;
+    EXPECT_NEAR(crest->across, 0.0, 1e-6);
+    EXPECT_NEAR(crest->along, 100.0, 0.02);
+    EXPECT_NEAR(crest->reach, 40.0 - 0.5 * kBendAcross * 4.0, 1e-3);
+  }
+  const SkinBorder::Place beside{97.0, 38.0, -4.5, 0.0};
+  EXPECT_FALSE(crest_near(lower, from_above(), beside, CrestPatch{12.0, 4.0}));
+}
+
+/// Along a crest that slants, y(z) = 40 - a (x - 115)^2 / 2 - b (z - 24.5 - 1.5 (x - 96))^2 / 2,
+/// the way leads out of the view; at its limit z = 25 the wall reaches furthest where both pull
+/// alike.
+TEST(BorderCrest, ComesToRestAtTheLimitThatASlantingCrestCrosses) {
+  constexpr double kAlong = 0.005;
+  constexpr double kSlant = 1.5;
+  test::RandomNumbers random(8);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 8000; ++i) {
+    const double x = random.uniform(60.0, 140.0);
+    const double z = random.uniform(0.0, 60.0);
+    const double off = z - 24.5 - kSlant * (x - 96.0);
+    const double fall = kAlong * std::pow(x - 115.0, 2) + kBendAcross * off * off;
+    points.emplace_back(x, 40.0 - 0.5 * fall, z);
+  }
+  const auto crest = crest_near(points, from_above(), {96.0, 39.0, 24.9, 0.0}, kPatch);
+  ASSERT_TRUE(crest);
+  const double pull = kBendAcross * kSlant;
+  EXPECT_NEAR(crest->along, 96.0 + (kAlong * 19.0 + pull * 0.5) / (kAlong + pull * kSlant), 0.02);
+  EXPECT_NEAR(crest->across, 25.0, 1e-6);
+}
+
 TEST(BorderCrest, IsNotMovedByStrays) {
   auto points = wall(2000, 0.1, 3);
   const auto without = crest_near(points, from_above(), start(), kPatch);

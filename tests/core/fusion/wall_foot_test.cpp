@@ -93,6 +93,19 @@ TEST(WallFoot, GoesOnInAnArcToThePlatformWhereItEndsLowAndStraight) {
   }
 }
 
+TEST(WallFoot, HangsInAnArcBelowTheUsualEdgeHoweverHighThatIs) {
+  const double dip = radians(40.0);
+  for (const double edge : {8.0, 12.0, 20.0}) {
+    WallSettings settings;
+    settings.usual_edge_mm = edge;
+    for (const double height : {4.0, 7.0}) {
+      const WallFoot foot({0, 0}, {1, 0}, {height, std::sin(dip), kStraight, 500.0}, settings);
+      const double contact = height / (1 - std::sin(dip)) * std::cos(dip);
+      EXPECT_NEAR(foot.contact(), contact, 0.01 * contact) << edge << " " << height;
+    }
+  }
+}
+
 TEST(WallFoot, LeansInAtOnceWhereItEndsBelowTheUsualEdge) {
   const WallFoot upright = wall(5.0, 5.0, kStraight);
   const WallFoot leaning = wall(5.0, 26.0, kStraight);

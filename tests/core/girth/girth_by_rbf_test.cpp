@@ -76,6 +76,18 @@ TEST(GirthByRbf, StretchesOverHollowsAndTouchesThem) {
   EXPECT_LT(girth->stretched_mm, girth->contact_mm - 0.5);
 }
 
+TEST(GirthByRbf, ATapeIsNoLongerThanTheSkinItGoesRound) {
+  const auto shape = test::elliptic_cylinder(45, 30);
+  for (const double sigma : {0.0, 0.2}) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      const auto cloud = test::random_points(shape, 600, -30, 30, sigma, seed);
+      const auto girth = girth_by_rbf(cloud, oblique_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      EXPECT_LE(girth->stretched_mm, girth->contact_mm) << sigma << " " << seed;
+    }
+  }
+}
+
 TEST(GirthByRbf, BridgesAHoleAndTellsItsWidth) {
   PointCloud cloud = cylinder(6000);
   const Vector3d centre(40, 0, 1);
@@ -192,6 +204,7 @@ TEST(GirthByRbf, ScalesWithTheUnit) {
     const auto other = girth_by_rbf(scaled, plane_at(scale * c[0], scale * c[1], scale * c[2]));
     ASSERT_TRUE(other) << other.error().line();
     EXPECT_NEAR(other->contact_mm / scale, girth->contact_mm, 1e-6);
+    EXPECT_NEAR(other->stretched_mm / scale, girth->stretched_mm, 1e-6);
     EXPECT_NEAR(other->sigma_mm / scale, girth->sigma_mm, 1e-6);
   }
 }
