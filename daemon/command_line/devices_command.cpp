@@ -18,10 +18,9 @@ namespace instep {
 void add_devices_command(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "devices", "List the cameras, GPIO lines and foot switches that are plugged in");
-  const auto format = std::make_shared<std::string>(stdout_is_terminal() ? "text" : "json");
-  command->add_option("--format", *format, "text for people, json for programs")
-      ->check(CLI::IsMember({"text", "json"}))
-      ->capture_default_str();
+  const auto format = std::make_shared<std::string>();
+  command->add_option("--format", *format, "json (if stdout is no terminal) or text")
+      ->check(CLI::IsMember({"json", "text"}));
   command->footer(std::string("Says what the settings need to name a device: serial number, place "
                               "on the bus, line,\nids. Takes no device from who uses it; OpenNI2 "
                               "sensors that nobody uses are opened\n"
@@ -36,8 +35,9 @@ void add_devices_command(CLI::App& app, int& exit_code) {
     const auto openni =
         look_through_openni(settings, running_program_folder() / "instep-openni", kOpenniLimit);
     const auto inventory = take_inventory(settings, {}, linux_video_system(), openni);
-    exit_code = finish_command(*format == "json" ? print_json(to_json(inventory, settings))
-                                                 : print_text(to_text(inventory, settings)));
+    const bool as_text = format->empty() ? stdout_is_terminal() : *format == "text";
+    exit_code = finish_command(as_text ? print_text(to_text(inventory, settings))
+                                       : print_json(to_json(inventory, settings)));
   });
 }
 

@@ -43,8 +43,11 @@ DoctorCheck check_settings(const Result<FoundSettings>& found) {
 
 DoctorCheck check_store(const std::filesystem::path& root) {
   std::error_code failed;
-  const bool there = std::filesystem::is_directory(root, failed);
+  const bool there = std::filesystem::exists(root, failed);
   const auto folder = there ? root : root.parent_path();
+  if (there && !std::filesystem::is_directory(root, failed)) {
+    return bad("store", root.string() + " is no folder", "set store.root to a folder");
+  }
   if (!std::filesystem::is_directory(folder, failed)) {
     return bad("store", folder.string() + " is not there",
                ::getpwnam("instep") != nullptr
@@ -65,7 +68,7 @@ std::optional<DoctorCheck> check_free_space(const std::filesystem::path& root) {
   struct statvfs disk {};
   const auto folder = root.parent_path();
   if (::statvfs(root.c_str(), &disk) != 0 && ::statvfs(folder.c_str(), &disk) != 0) {
-    if (errno == ENOENT) return std::nullopt;
+    if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
     return bad("disk", folder.string() + " cannot be looked at: " + std::strerror(errno),
                "check store.root");
   }
@@ -179,8 +182,9 @@ std::vector<DoctorCheck> examine_machine() {
   std::vector<DoctorCheck> checks;
   checks.push_back(library_versions());
   checks.push_back(check_settings(found));
-  checks.push_back(check_store(settings.store.root));
-  if (auto space = check_free_space(settings.store.root)) checks.push_back(std::move(*space));
+  const auto store = std::filesystem::absolute(settings.store.root);
+  checks.push_back(check_store(store));
+  if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
   if (found) checks.push_back(check_cameras(status, settings));
   check_video_cameras(settings, checks);

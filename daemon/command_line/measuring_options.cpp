@@ -24,9 +24,11 @@ void take_choice(const std::string& word, const RuleNames<Rule, Count>& rules, R
 }  // namespace
 
 void MeasuringOptions::add_to(CLI::App& command) {
-  add_choice(command, "--axis", axis_, kAxisRules,
-             "what lengths are measured along (config/instep.toml explains them); like the next "
-             "three as [measures] of the settings says, if not given");
+  add_choice(
+      command, "--axis", axis_, kAxisRules,
+      "what lengths are measured along (/etc/instep/instep.toml explains them, or "
+      "config/instep.toml of the sources); like the next three as [measures] of the settings "
+      "says, if not given");
   add_choice(command, "--ball-girth", ball_girth_, kBallGirthRules, "plane of the ball girth");
   add_choice(command, "--instep-girth", instep_girth_, kInstepGirthRules,
              "plane of the instep girth");

@@ -20,7 +20,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr const char* kExamples =
-    R"(Prints {"results": [...]}, one object for each foot; if there are two, each has both side by side
+    R"(JSON is {"results": [...]}, one object for each foot; if there are two, each has both side by side
 under "pair". Examples:
   instep replay visit --format text
   instep replay visit --out results --side left
@@ -31,7 +31,7 @@ struct ReplayCommand {
   std::string out;
   std::string side = "auto";
   std::string poses = "auto";
-  std::string format = "json";
+  std::string format;
 };
 
 Result<Capture> read_capture(const std::string& folder) {
@@ -102,8 +102,8 @@ Result<void> run(const ReplayCommand& command) {
     if (!result) return tl::make_unexpected(result.error());
     results.push_back(std::move(*result));
   }
-  return command.format == "text" ? print_text(text_of(results))
-                                  : print_json({{"results", results}});
+  const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
+  return as_text ? print_text(text_of(results)) : print_json({{"results", results}});
 }
 
 }  // namespace
@@ -124,9 +124,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
                    "auto: refine what was not simulated")
       ->check(CLI::IsMember({"auto", "trust", "refine"}))
       ->capture_default_str();
-  replay->add_option("--format", command->format, "json for programs, text for people")
-      ->check(CLI::IsMember({"json", "text"}))
-      ->capture_default_str();
+  replay->add_option("--format", command->format, "json (if stdout is no terminal) or text")
+      ->check(CLI::IsMember({"json", "text"}));
   replay->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

@@ -18,7 +18,7 @@ constexpr double kCaption = 30.0;
 constexpr double kRow = 50.0;
 constexpr double kOtherFootWidth = 84.0;
 constexpr double kSizeRow = 40.0;
-constexpr double kLetters = 27.0;
+constexpr double kLetters = 28.0;
 constexpr double kNoteLetters = 24.0;
 constexpr double kNoteLine = 32.0;
 constexpr double kNoteSpace = 4.0;
@@ -37,16 +37,25 @@ class Table {
     y_ += 12.0;
   }
 
-  /// `other` is what the other foot has more, if `has_other`; without a `value`, none was measured.
-  void measure(const std::string& name, const std::string& value, const std::string& other,
-               bool has_other) {
+  /// The choice of definitions is not empty if it is not the usual one: it stands behind the name,
+  /// or below it where the value leaves no room. `other` is what the other foot has more, if
+  /// `has_other`; without a `value`, none was measured.
+  void measure(const std::string& name, const std::string& choice, const std::string& value,
+               const std::string& other, bool has_other) {
     y_ += kRow;
     const double value_end = right_ - (has_other ? kOtherFootWidth : 0.0);
-    svg_ += svg::label({left_, y_ - 14.0}, "row", name) +
-            (value.empty() ? svg::label({value_end, y_ - 14.0}, "other", "not measured")
-                           : svg::label({value_end, y_ - 14.0}, "value", value)) +
-            svg::label({right_, y_ - 14.0}, "other", other) +
-            svg::line({left_, y_}, {right_, y_}, "table-line");
+    const std::string said = value.empty() ? "not measured" : value;
+    const std::string in_full = choice.empty() ? name : name + " (" + choice + ")";
+    const bool has_room =
+        choice.empty() || paper::text_width(in_full + " " + said, kLetters) <= value_end - left_;
+    svg_ += svg::label({left_, y_ - 14.0}, "row", has_room ? in_full : name) +
+            svg::label({value_end, y_ - 14.0}, value.empty() ? "other" : "value", said) +
+            svg::label({right_, y_ - 14.0}, "other", other);
+    if (!has_room) {
+      y_ += kNoteLine;
+      svg_ += svg::label({left_, y_ - 14.0}, "note", "(" + choice + ")");
+    }
+    svg_ += svg::line({left_, y_}, {right_, y_}, "table-line");
   }
 
   void size(const std::string& system, const std::string& value) {
@@ -85,23 +94,20 @@ std::string difference_text(const ScanRecord& record, const std::string& id) {
   return std::abs(more) < 0.05 ? "0.0" : fmt::format("{:+.1f}", more);
 }
 
-/// With the choice of definitions behind it, if it is not the usual one.
-std::string name_of(const ScanRecord& record, const std::string& id) {
-  const std::string choice = own_choice(id, record.foot.rules);
-  return as_words(choice.empty() ? id : id + " (" + choice + ")");
-}
-
 void add_measures(const ScanRecord& record, Table& table) {
   const bool has_other = record.pair.has_value();
   const char* other = record.foot.side == Side::kLeft ? "right" : "left";
+  const auto choice_of = [&](const std::string& id) {
+    return as_words(own_choice(id, record.foot.rules));
+  };
   table.caption("Measures in mm, ± 95 %", has_other ? other : "");
   for (const auto& measure : record.measures.measures) {
-    table.measure(name_of(record, measure.id),
+    table.measure(as_words(measure.id), choice_of(measure.id),
                   interval_text(measure.value(), measure.u95()) + (measure.value_deg ? "°" : ""),
                   difference_text(record, measure.id), has_other);
   }
   for (const auto& withheld : record.measures.withheld) {
-    table.measure(name_of(record, withheld.id), "", "", has_other);
+    table.measure(as_words(withheld.id), choice_of(withheld.id), "", "", has_other);
   }
 }
 

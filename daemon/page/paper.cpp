@@ -33,6 +33,10 @@ double scale_that_fits(double extent_mm, double room) {
   return kScales.back();
 }
 
+double text_width(const std::string& text, double letter_size) {
+  return kLetterWidth * letter_size * static_cast<double>(letters(text));
+}
+
 std::vector<std::string> wrapped(const std::string& text, double width, double letter_size) {
   const auto longest =
       static_cast<std::size_t>(std::max(1.0, std::floor(width / (kLetterWidth * letter_size))));

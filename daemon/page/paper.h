@@ -32,8 +32,11 @@ inline double per_foot_mm(double scale) {
   return kPerMm / scale;
 }
 
-/// Cuts text into lines of at most `width` at a size of letters, at spaces where it can. The width
-/// of a letter is that of a wide type, since nobody knows which one the reader has.
+/// How wide a line of text is at a size of letters. The width of a letter is that of a wide type,
+/// since nobody knows which one the reader has.
+double text_width(const std::string& text, double letter_size);
+
+/// Cuts text into lines of at most `width` at a size of letters, at spaces where it can.
 std::vector<std::string> wrapped(const std::string& text, double width, double letter_size);
 
 }  // namespace instep::paper

@@ -5,7 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -22,14 +25,44 @@ std::string text_of(const std::string& file) {
   return text.str();
 }
 
+/// A terminal of which a program is to have the other end.
+class PseudoTerminal {
+ public:
+  PseudoTerminal() : end_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+    if (end_ < 0 || ::grantpt(end_) != 0 || ::unlockpt(end_) != 0) {
+      throw std::runtime_error("there is no terminal to be had");
+    }
+  }
+  ~PseudoTerminal() { ::close(end_); }
+  PseudoTerminal(const PseudoTerminal&) = delete;
+  PseudoTerminal& operator=(const PseudoTerminal&) = delete;
+
+  std::string other_end() const { return ::ptsname(end_); }
+  /// All that is written until the last who has the other end closes it.
+  std::string read_all() const {
+    std::string text;
+    std::array<char, 4096> piece{};
+    for (ssize_t got = 0; (got = ::read(end_, piece.data(), piece.size())) > 0;) {
+      text.append(piece.data(), static_cast<std::size_t>(got));
+    }
+    return text;
+  }
+
+ private:
+  int end_;
+};
+
 }  // namespace
 
 ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments,
                        Stdout to) {
   const TemporaryFolder folder;
   const std::string program = built_programs() / name;
-  const std::string output =
-      to == Stdout::kFullDisk ? "/dev/full" : (folder.path() / "output").string();
+  std::optional<PseudoTerminal> terminal;
+  if (to == Stdout::kTerminal) terminal.emplace();
+  const std::string output = terminal                  ? terminal->other_end()
+                             : to == Stdout::kFullDisk ? "/dev/full"
+                                                       : (folder.path() / "output").string();
   const std::string errors = folder.path() / "errors";
   std::vector<std::string> words = arguments;
   words.insert(words.begin(), name);
@@ -40,8 +73,8 @@ ProgramRun run_program(const std::string& name, const std::vector<std::string>& 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT,
-                                   0600);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(),
+                                   O_WRONLY | O_CREAT | O_NOCTTY, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT,
                                    0600);
   if (to == Stdout::kClosed) posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);
@@ -50,10 +83,11 @@ ProgramRun run_program(const std::string& name, const std::vector<std::string>& 
       posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::runtime_error("cannot start " + program);
+  const std::string shown = terminal ? terminal->read_all() : "";
   int status = 0;
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          to == Stdout::kCaptured ? text_of(output) : "", text_of(errors)};
+          to == Stdout::kCaptured ? text_of(output) : shown, text_of(errors)};
 }
 
 }  // namespace instep::test

@@ -12,10 +12,11 @@ struct ProgramRun {
   std::string errors;
 };
 
-/// Where the program's stdout goes.
-enum class Stdout { kCaptured, kClosed, kFullDisk };
+/// Where the program's stdout goes. What a terminal got is in ProgramRun::output as well.
+enum class Stdout { kCaptured, kTerminal, kClosed, kFullDisk };
 
-/// Runs one of this project's programs with arguments and no terminal; throws if it cannot start.
+/// Runs one of this project's programs with arguments, with no terminal but for kTerminal; throws
+/// if it cannot start.
 ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments,
                        Stdout to = Stdout::kCaptured);
 

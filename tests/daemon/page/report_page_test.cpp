@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <regex>
 
 #include "daemon/page/paper.h"
 #include "tests/support/foot_body.h"
@@ -183,10 +184,35 @@ TEST(ReportPage, SaysByWhichChoiceOfDefinitionsAMeasureWasTaken) {
   scan.foot.rules.ball_girth = BallGirthRule::kShortest;
   scan.foot.rules.instep_girth = InstepGirthRule::kUpright;
   const auto page = report_page(scan);
-  for (const char* name : {"foot length (axis heel centre)", "ball girth (shortest)", "waist girth",
-                           "instep girth (upright)"}) {
+  for (const char* name : {"foot length", "(axis heel centre)", "ball girth (shortest)",
+                           "waist girth", "instep girth (upright)"}) {
     EXPECT_THAT(page, HasSubstr(std::string(">") + name + "</text>"));
   }
+}
+
+TEST(ReportPage, KeepsTheNamesOfMeasuresOffTheirValues) {
+  // Of DejaVu Serif, a wide type, at the sizes of the page.
+  constexpr double kNameLetter = 14.5;
+  constexpr double kValueLetter = 17.0;
+  auto record = made_up_scan();
+  record.foot.rules = {AxisRule::kHeelCentre, BallGirthRule::kShortest, InstepGirthRule::kUpright,
+                       HeelBreadthRule::kFortyMm};
+  record.pair = ScannedPair{"left", "right", pair_feet(record.measures, record.measures), {}};
+  const std::string page = report_page(record);
+  ASSERT_THAT(page, HasSubstr("(axis heel centre)"));
+  const std::regex row(
+      "class=\"row\" x=\"([0-9.]+)\" y=\"([0-9.]+)\">([^<]*)<[^<]*"
+      "<text class=\"value\" x=\"([0-9.]+)\" y=\"([0-9.]+)\">([^<]*)<");
+  int rows = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), row), end; at != end; ++at, ++rows) {
+    EXPECT_EQ((*at)[2], (*at)[5]);
+    const double name_ends =
+        std::stod((*at)[1]) + kNameLetter * static_cast<double>((*at)[3].length());
+    const double value_begins =
+        std::stod((*at)[4]) - kValueLetter * static_cast<double>((*at)[6].length());
+    EXPECT_LT(name_ends, value_begins) << (*at)[3] << " " << (*at)[6];
+  }
+  EXPECT_GE(rows, 4);
 }
 
 TEST(ReportPage, SaysWhatTheOtherFootHasMore) {

@@ -28,8 +28,8 @@ says() {
     *) echo "it does not say: $wanted" && echo "$said" && exit 1 ;;
   esac
 }
-says "there is no GPIO chip, so no line \"foot\"" instep doctor
-says "lamp.ready: there is no GPIO chip, so no line \"lamp\"" instep doctor
+says "pedal     there is no GPIO chip" instep doctor
+says "output    lamp.ready: there is no GPIO chip" instep doctor
 
 chip=/sys/kernel/config/gpio-sim/doctor
 mkdir -p $chip/bank0/line3 $chip/bank0/line4

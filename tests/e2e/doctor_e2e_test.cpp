@@ -1,0 +1,76 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// The doctor of a sound station with no daemon, whose results go where `store` says.
+class Doctor : public testing::Test {
+ protected:
+  Doctor() {
+    const auto file = folder_.path() / "instep.toml";
+    std::ofstream(file) << "[[camera]]\nkind = \"simulated\"\n"
+                           "[simulation]\ncameras = 1\nwidth_px = 64\nheight_px = 48\n";
+    ::setenv("INSTEP_CONFIG", file.c_str(), 1);
+    ::setenv("INSTEP_SOCKET", (folder_.path() / "control.sock").c_str(), 1);
+    ::setenv("INSTEP_PEDAL", (folder_.path() / "pedal").c_str(), 1);
+  }
+  ~Doctor() override {
+    for (const char* name : {"INSTEP_CONFIG", "INSTEP_SOCKET", "INSTEP_PEDAL", "INSTEP_STORE"}) {
+      ::unsetenv(name);
+    }
+  }
+
+  /// The check of that name; null if it was not made.
+  static json check(const std::string& name, const fs::path& store) {
+    ::setenv("INSTEP_STORE", store.c_str(), 1);
+    const auto run = test::run_program("instep", {"doctor", "--format", "json"});
+    EXPECT_EQ(run.exit_code, 1) << "no daemon runs: " << run.errors;
+    const json checks = json::parse(run.output)["checks"];
+    for (const auto& one : checks) {
+      if (one["name"] == name) return one;
+    }
+    return nullptr;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(Doctor, FindsAStoreSoundThatIsThereOrCanBeMade) {
+  for (const fs::path& store : {folder_.path(), folder_.path() / "scans", fs::path("scans")}) {
+    EXPECT_EQ(check("store", store)["good"], true) << store;
+    EXPECT_EQ(check("disk", store)["good"], true) << store;
+  }
+  EXPECT_FALSE(fs::exists(folder_.path() / "scans")) << "it changes nothing";
+}
+
+TEST_F(Doctor, NamesTheFolderThatIsMissingForTheStoreAndSaysItOnce) {
+  const auto missing = folder_.path() / "none";
+  const json store = check("store", missing / "scans");
+  EXPECT_EQ(store["good"], false);
+  EXPECT_EQ(store["finding"], missing.string() + " is not there");
+  EXPECT_NE(store["remedy"], "");
+  EXPECT_EQ(check("disk", missing / "scans"), nullptr);
+}
+
+TEST_F(Doctor, NamesAFileThatIsInTheStoresPlace) {
+  const auto file = folder_.path() / "instep.toml";
+  const json store = check("store", file);
+  EXPECT_EQ(store["good"], false);
+  EXPECT_EQ(store["finding"], file.string() + " is no folder");
+  EXPECT_EQ(check("store", file / "scans")["good"], false);
+}
+
+}  // namespace
+}  // namespace instep
