@@ -132,8 +132,12 @@ ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules) {
 }
 
 ShoeSizes shoe_sizes(const FootScan& foot, const MeasureSet& measures, const SizeRules& rules) {
+  return shoe_sizes(foot, sized_foot(measures), rules);
+}
+
+ShoeSizes shoe_sizes(const FootScan& foot, const SizedFoot& sized, const SizeRules& rules) {
   if (!is_shoe_last(foot)) {
-    ShoeSizes sizes = shoe_sizes(sized_foot(measures), rules);
+    ShoeSizes sizes = shoe_sizes(sized, rules);
     if (foot.rules != MeasuringRules{}) {
       sizes.notes.emplace_back("the scales are made for the usual definitions of measures");
     }

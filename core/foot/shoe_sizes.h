@@ -90,8 +90,9 @@ struct ShoeSizes {
 /// limit for it. If the girth was not measured, the length alone decides, and the note says so.
 ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules = {});
 
-/// Of what was measured. A shoe last has none, since it is longer than the foot it is for, and the
-/// notes say so.
+/// Of a scanned foot, or of the larger of a pair of which it is one. A shoe last has none, since it
+/// is longer than the foot it is for, and the notes say so.
+ShoeSizes shoe_sizes(const FootScan& foot, const SizedFoot& sized, const SizeRules& rules = {});
 ShoeSizes shoe_sizes(const FootScan& foot, const MeasureSet& measures, const SizeRules& rules = {});
 
 }  // namespace instep

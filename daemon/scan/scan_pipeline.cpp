@@ -125,8 +125,9 @@ void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
   if (!are_pair) return;
   const auto& left = records[0].measures;
   const auto& right = records[1].measures;
+  const SizedFoot larger = larger_of(sized_foot(left), sized_foot(right));
   const ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
-                         shoe_sizes(larger_of(sized_foot(left), sized_foot(right)), rules)};
+                         shoe_sizes(records[0].foot, larger, rules)};
   for (auto& record : records) record.pair = pair;
 }
 

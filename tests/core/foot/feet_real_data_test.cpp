@@ -111,9 +111,9 @@ TEST_F(RealFeet, MeasureTheSameHoweverTheyStand) {
   }
 }
 
-/// Thinned they move by less than half a millimetre; so they do with noise, but for a draw in six
-/// at the ball, where the tape itself is out by a quarter of a millimetre; and always within what
-/// they claim.
+/// Thinned they move by less than half a millimetre; so they do in three of four draws of noise, of
+/// which the tape itself makes a quarter of a millimetre (one standard deviation); and always
+/// within what they claim.
 TEST_F(RealFeet, KeepTheirGirthsWhenThinnedAndWithNoise) {
   constexpr std::uint64_t kDraws = 8;
   for (const char* name : {"retail_left.stl", "retail_right.stl"}) {

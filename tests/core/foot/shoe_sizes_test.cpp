@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "core/foot/shoe_last.h"
+
 namespace instep {
 namespace {
 
@@ -162,6 +164,17 @@ TEST(ShopTable, GivesTheFirstRowThatTakesTheFoot) {
   EXPECT_EQ(size(262.1, 266.0), "43");
   EXPECT_EQ(size(262.1, 271.0), "none");
   EXPECT_EQ(size(275.1, 250.0), "none");
+}
+
+/// Of one foot and of the larger of two alike.
+TEST(ShoeSizes, SayWhenTheMeasuresWereDefinedOtherwise) {
+  FootScan scan;
+  ASSERT_FALSE(is_shoe_last(scan));
+  EXPECT_TRUE(shoe_sizes(scan, foot(265.0, 250.0)).notes.empty());
+  scan.rules.ball_girth = BallGirthRule::kShortest;
+  EXPECT_THAT(shoe_sizes(scan, foot(265.0, 250.0)).notes,
+              testing::ElementsAre(HasSubstr("usual definitions")));
+  EXPECT_EQ(shoe_sizes(scan, foot(265.0, 250.0)).eu->marked, 42.0);
 }
 
 TEST(ShopTable, SaysWhatItWentBy) {
