@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -109,11 +110,12 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
   const Vector3d along(-down.z(), 0.0, down.x());
   const double middle = along.dot(instep.position_mm);
   const double range = kHeelRangeShare * length;
+  const auto is_under_floor = [](const Vector3d& place) { return place.z() < -kMostUnderFloorMm; };
   const auto point = best_place(heel, middle - range, middle + range, [&](const Vector3d& place) {
-    const bool is_under_floor = place.z() < -kMostUnderFloorMm;
-    return is_under_floor ? -1e6 : seen_from_side(place, instep.position_mm);
+    return is_under_floor(place) ? -std::numeric_limits<double>::infinity()
+                                 : seen_from_side(place, instep.position_mm);
   });
-  if (!point || point->z() < -kMostUnderFloorMm) return std::nullopt;
+  if (!point || is_under_floor(*point)) return std::nullopt;
   // The round edge of the sole begins about there. Where it was not seen, the place where the
   // points put for it begin is none to look for.
   constexpr ReachPatch kOnSeenSkin{10.0, 16.0};
@@ -123,7 +125,8 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
       outline.was_seen_below()
           ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
           : level_reach(outline.points(), origin, *point, kBesideGuess, ReachSort::kFurthest);
-  const bool is_in_range = refined && std::abs(along.dot(*refined) - middle) <= range;
+  const bool is_in_range =
+      refined && std::abs(along.dot(*refined) - middle) <= range && !is_under_floor(*refined);
   return Landmark{is_in_range ? *refined : *point, 0.8,
                   "point of the heel's side view furthest from the instep point"};
 }

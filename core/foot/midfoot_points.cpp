@@ -97,8 +97,10 @@ std::optional<double> lowest_near(const std::vector<Vector2d>& lengths, double w
       std::min_element(lengths.begin(), lengths.end(),
                        [](const Vector2d& a, const Vector2d& b) { return a.y() < b.y(); });
   const auto rough = through_those_near(shortest->x());
+  if (!rough) return std::nullopt;
   // Once more, with as many places to either side.
-  return rough ? through_those_near(*rough) : rough;
+  const auto fine = through_those_near(*rough);
+  return fine ? fine : rough;
 }
 
 }  // namespace

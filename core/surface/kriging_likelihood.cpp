@@ -23,7 +23,7 @@ Group ladder(double first, double step) {
 
 }  // namespace
 
-KrigingLikelihood::KrigingLikelihood(const HeightKriging& kriging) : free_(kriging.free()) {
+KrigingLikelihood::KrigingLikelihood(const HeightKriging& kriging) {
   const Eigen::Tridiagonalization<Eigen::MatrixXd> form(kriging.reduced());
   diagonal_ = form.diagonal();
   beside_ = form.subDiagonal();
@@ -60,8 +60,7 @@ KrigingLikelihood::Readings KrigingLikelihood::at(const Group& ratios) const {
 
 double KrigingLikelihood::misfit(double variance, double roughness) const {
   const Readings readings = at(Group::Constant(variance / roughness));
-  return readings.log_volume[0] + static_cast<double>(free_) * std::log(roughness) +
-         readings.excess[0] / roughness;
+  return readings.log_volume[0] + free() * std::log(roughness) + readings.excess[0] / roughness;
 }
 
 double KrigingLikelihood::likeliest(double variance, double roughest, double smoothest, double step,
@@ -72,8 +71,7 @@ double KrigingLikelihood::likeliest(double variance, double roughest, double smo
   const double stride = std::pow(step, kGroup);
   for (; trials[0] >= smoothest; trials *= stride) {
     const Readings readings = at(variance / trials);
-    Group misfits =
-        readings.log_volume + static_cast<double>(free_) * trials.log() + readings.excess / trials;
+    Group misfits = readings.log_volume + free() * trials.log() + readings.excess / trials;
     if (prior) misfits += ((trials / prior->usual).log() / prior->spread).square();
     for (int i = 0; i < kGroup && trials[i] >= smoothest; ++i) {
       if (!(misfits[i] < least)) continue;
@@ -85,11 +83,11 @@ double KrigingLikelihood::likeliest(double variance, double roughest, double smo
 }
 
 double KrigingLikelihood::likeliest_roughness(double ratio) const {
-  return at(Group::Constant(ratio)).excess[0] / static_cast<double>(free_);
+  return at(Group::Constant(ratio)).excess[0] / free();
 }
 
 double KrigingLikelihood::likeliest_variance(double least, double most, double step) const {
-  const auto count = static_cast<double>(free_);
+  const double count = free();
   double best = std::numeric_limits<double>::infinity();
   double variance = 0.0;
   Group ratios = ladder<Group>(least, step);

@@ -38,8 +38,6 @@ class KrigingLikelihood {
   /// Of the kernel: it bends the heights of neighbours apart by its roughness times this.
   double mean_diagonal() const;
 
-  Eigen::Index free() const { return free_; }
-
  private:
   /// So many ratios are read at once, for each has to wait for its own divisions.
   static constexpr int kGroup = 8;
@@ -50,7 +48,8 @@ class KrigingLikelihood {
   };
   Readings at(const Group& ratios) const;
 
-  Eigen::Index free_;
+  double free() const { return static_cast<double>(heights_.size()); }
+
   Eigen::VectorXd diagonal_;
   Eigen::VectorXd beside_;
   Eigen::VectorXd heights_;

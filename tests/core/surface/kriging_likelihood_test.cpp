@@ -84,7 +84,6 @@ TEST(KrigingLikelihood, DiffersBetweenPairsAsTheWholeMatrixTells) {
       for (const Index count : {9, 24, 61}) {
         const auto samples = noisy_samples(count, even, 1);
         const auto likelihood = likelihood_of(samples, terms);
-        EXPECT_EQ(likelihood.free(), count - terms);
         const double first = likelihood.misfit(4e-4, 0.1);
         const double expected_first = dense_misfit(samples, terms, 4e-4, 0.1);
         for (const double variance : {1e-5, 4e-4, 1e-2}) {
@@ -165,7 +164,7 @@ TEST(KrigingLikelihood, FindsTheLikeliestNoiseOfALadder) {
   for (const bool even : {true, false}) {
     const auto samples = noisy_samples(60, even, 7);
     const auto likelihood = likelihood_of(samples, 3);
-    const auto free = static_cast<double>(likelihood.free());
+    const auto free = static_cast<double>(samples.size() - 3);
     std::set<std::size_t> places;
     for (int count = 1; count <= 24; ++count) {
       const auto ladder = rungs(0.1 * std::pow(kStep, -count), kStep, count);
