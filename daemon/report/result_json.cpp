@@ -14,6 +14,9 @@
 namespace instep {
 namespace {
 
+/// One girth of one cloud is asked for to compare methods, on exact shapes to less than 0.001 mm.
+constexpr double kComparedMm = 1e-6;
+
 Json coordinates(const Eigen::Vector3d& point) {
   return Json::array({json_number(point.x()), json_number(point.y()), json_number(point.z())});
 }
@@ -86,13 +89,13 @@ Json device_json(const CameraDescription& device) {
 
 Json girth_json(const std::string& method, const Girth& girth, const GirthTimes& times) {
   return {{"method", method},
-          {"stretched_mm", json_number(girth.stretched_mm)},
-          {"contact_mm", json_number(girth.contact_mm)},
-          {"stretched_u95_mm", json_number(girth.stretched_u95_mm)},
-          {"contact_u95_mm", json_number(girth.contact_u95_mm)},
+          {"stretched_mm", json_number(girth.stretched_mm, kComparedMm)},
+          {"contact_mm", json_number(girth.contact_mm, kComparedMm)},
+          {"stretched_u95_mm", json_number(girth.stretched_u95_mm, kComparedMm)},
+          {"contact_u95_mm", json_number(girth.contact_u95_mm, kComparedMm)},
           {"points", girth.points},
           {"band_points", girth.band_points},
-          {"sigma_mm", json_number(girth.sigma_mm, 1e-6)},
+          {"sigma_mm", json_number(girth.sigma_mm, kComparedMm)},
           {"largest_gap_mm", json_number(girth.largest_gap_mm)},
           {"warnings", girth.warnings},
           {"elapsed_ms",
