@@ -16,10 +16,16 @@ constexpr double kLargestScale = 1e3;
 template <class Squares, class Factor, class Values>
 void set_kernel(HeightKernel kernel, const Squares& squared, const Factor& factor,
                 Values&& values) {
-  if (kernel == HeightKernel::kCubic) {
-    values = factor * squared * squared.sqrt();
-  } else {
-    values = -factor * squared * squared * squared.sqrt();
+  switch (kernel) {
+    case HeightKernel::kCubic:
+      values = factor * squared * squared.sqrt();
+      break;
+    case HeightKernel::kQuintic:
+      values = -factor * squared.square() * squared.sqrt();
+      break;
+    case HeightKernel::kSeptic:
+      values = factor * squared.cube() * squared.sqrt();
+      break;
   }
 }
 
@@ -96,6 +102,18 @@ bool span_a_plane(const Eigen::Matrix2Xd& places) {
 
 }  // namespace
 
+Eigen::Index fewest_terms(HeightKernel kernel) {
+  switch (kernel) {
+    case HeightKernel::kCubic:
+      break;
+    case HeightKernel::kQuintic:
+      return Quadratic::RowsAtCompileTime;
+    case HeightKernel::kSeptic:
+      return Polynomial::RowsAtCompileTime;
+  }
+  return 3;
+}
+
 std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eigen::Index terms,
                                                HeightKernel kernel) {
   if (samples.size() < 4 || !span_a_plane(samples.places)) return std::nullopt;
@@ -112,8 +130,7 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
   kriging.qr_.compute(scales.asDiagonal() * monomials(samples.places, terms));
   kriging.qr_.setThreshold(kLeastDetermined);
   const Eigen::Index rank = kriging.qr_.rank();
-  const Eigen::Index least = kernel == HeightKernel::kCubic ? 3 : Quadratic::RowsAtCompileTime;
-  if (rank < least || rank >= samples.size()) return std::nullopt;
+  if (rank < fewest_terms(kernel) || rank >= samples.size()) return std::nullopt;
   kriging.set_reflectors(rank);
   kriging.set_kernel(kernel_between(kernel, samples.places, kriging.scales_));
   kriging.heights_ = scales.asDiagonal() * samples.heights;
@@ -190,7 +207,7 @@ Eigen::VectorXd HeightKriging::weights(const Solution& solution) const {
   return scales_ * solution.on_null_space.array();
 }
 
-Quadratic HeightKriging::polynomial(const Solution& solution) const {
+Polynomial HeightKriging::polynomial(const Solution& solution) const {
   const Eigen::Index rank = basis_.cols();
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(qr_.cols());
   coefficients.head(rank) =
@@ -198,7 +215,7 @@ Quadratic HeightKriging::polynomial(const Solution& solution) const {
           .topLeftCorner(rank, rank)
           .triangularView<Eigen::Upper>()
           .solve(basis_.transpose() * heights_ - on_basis_.transpose() * solution.on_null_space);
-  Quadratic polynomial = Quadratic::Zero();
+  Polynomial polynomial = Polynomial::Zero();
   polynomial.head(qr_.cols()) = qr_.colsPermutation() * coefficients;
   return polynomial;
 }

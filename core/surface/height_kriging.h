@@ -10,12 +10,16 @@
 namespace instep {
 
 /// The basis function of each sample. The paper's r^3 bends as creased, uneven surfaces do; r^5
-/// (with its sign turned, for it is conditionally positive definite of order 3) as smooth ones do.
-enum class HeightKernel { kCubic, kQuintic };
+/// (with its sign turned) and r^7 as smooth and smoother ones do. They are conditionally positive
+/// definite of order 2, 3 and 4: a plane, a quadratic or a cubic polynomial has to go with them.
+enum class HeightKernel { kCubic, kQuintic, kSeptic };
 
-/// The paper's system (eqs. 6 and 7, phi = r^3 or r^5, a smoothing for each point) for heights over
-/// a plane, with a quadratic polynomial or a plane; read as kriging: once the polynomial is taken
-/// out, heights wander with covariance roughness * phi and carry noise on top.
+/// Terms of the polynomial without which the kernel's system is not positive definite: 3, 6 or 10.
+Eigen::Index fewest_terms(HeightKernel kernel);
+
+/// The paper's system (eqs. 6 and 7, phi = r^3, r^5 or r^7, a smoothing for each point) for heights
+/// over a plane, with a polynomial; read as kriging: once the polynomial is taken out, heights
+/// wander with covariance roughness * phi and carry noise on top.
 ///
 /// It is solved on the null space of the polynomial block, where it is positive definite and by as
 /// many rows smaller as there are terms: reflections turn the kernel there, and Cholesky's method
@@ -24,8 +28,8 @@ enum class HeightKernel { kCubic, kQuintic };
 class HeightKriging {
  public:
   /// Nothing if the samples do not determine the polynomial (fewer than four, all on one line; for
-  /// r^5 all six terms of it). `terms`: 3 or 6. The variances count only against each other.
-  /// O(n^2).
+  /// r^5 and r^7 all of fewest_terms()). `terms`: 3, 6 or 10, fewest_terms() at least. The
+  /// variances count only against each other. O(n^2).
   static std::optional<HeightKriging> of(const HeightSamples& samples, Eigen::Index terms,
                                          HeightKernel kernel = HeightKernel::kCubic);
 
@@ -34,7 +38,9 @@ class HeightKriging {
   /// Variance of a sample of weight one: the least certain one's.
   double level() const { return level_; }
   /// Samples that the polynomial leaves over.
-  Eigen::Index free() const { return places_.cols() - basis_.cols(); }
+  Eigen::Index free() const { return places_.cols() - terms(); }
+  /// Of the polynomial, as many as the samples determine.
+  Eigen::Index terms() const { return basis_.cols(); }
   /// The kernel on the null space of the polynomials, free() rows in an orthonormal basis of it:
   /// the lower triangle of a symmetric matrix.
   const Eigen::MatrixXd& reduced() const { return reduced_; }
@@ -60,7 +66,7 @@ class HeightKriging {
 
   /// Weights of the kernels round the samples.
   Eigen::VectorXd weights(const Solution& solution) const;
-  Quadratic polynomial(const Solution& solution) const;
+  Polynomial polynomial(const Solution& solution) const;
 
   /// How far each sample is off what the others predict, against what is expected of that for a
   /// roughness of one: mean square (leave-one-out). Like the roughness itself where that is the

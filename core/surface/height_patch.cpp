@@ -27,9 +27,15 @@ constexpr double kRoughnessStep = 1.0 / 1.5;
 constexpr double kAllowance = 4.0;
 /// Variance that the polynomial's coefficients have beforehand, for comparing models.
 constexpr double kCoefficientVariance = 0.1;
-/// The smoother kernel has to be likelier by so much (of twice the log likelihood): beside a crease
-/// it overshoots, where r^3 does not.
-constexpr double kLeastGain = 6.0;
+/// A smoother kernel than the last, and by how much it has to be likelier than that one (of twice
+/// the log likelihood): beside a crease it overshoots, where r^3 does not, and r^7 further than
+/// r^5.
+struct SmootherKernel {
+  HeightKernel kernel;
+  double least_gain;
+};
+constexpr SmootherKernel kSmootherKernels[] = {{HeightKernel::kQuintic, 6.0},
+                                               {HeightKernel::kSeptic, 30.0}};
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
@@ -49,12 +55,12 @@ Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
 
 /// What the polynomial adds to twice the negative log likelihood, with its coefficients integrated
 /// over.
-double misfit_of_polynomial(const HeightKriging& kriging, Eigen::Index samples) {
-  const auto terms = static_cast<double>(samples - kriging.free());
-  return kriging.log_determined() + terms * std::log(kCoefficientVariance);
+double misfit_of_polynomial(const HeightKriging& kriging) {
+  return kriging.log_determined() +
+         static_cast<double>(kriging.terms()) * std::log(kCoefficientVariance);
 }
 
-/// Twice the negative log likelihood of exact heights over theirs.
+/// Twice the negative log likelihood of exact heights, but for the polynomial.
 double misfit_of_exact(const HeightKriging& kriging, const HeightKriging::Solution& solution) {
   const auto free = static_cast<double>(kriging.free());
   const double even = std::max(solution.excess / free, kEven);
@@ -80,43 +86,69 @@ std::optional<Fit> exact_fit(std::optional<HeightKriging> kriging, double usual)
   if (!kriging) return std::nullopt;
   auto solution = kriging->solve(kLeastSmoothing);
   if (!solution) return std::nullopt;
-  const double misfit = misfit_of_exact(*kriging, *solution);
+  const double misfit = misfit_of_exact(*kriging, *solution) + misfit_of_polynomial(*kriging);
   const double wander = solution->excess / static_cast<double>(kriging->free());
   return Fit{std::move(*kriging), std::move(*solution), misfit, usual, wander};
 }
 
-/// By r^3 unless r^5 is plainly likelier.
-std::optional<Fit> likelier_exact_fit(const HeightSamples& samples, HeightKriging cubic,
-                                      double usual) {
+/// By r^3 unless smoother kernels are plainly likelier, one after the other.
+std::optional<Fit> likeliest_exact_fit(const HeightSamples& samples, HeightKriging cubic,
+                                       double usual) {
   auto fit = exact_fit(std::move(cubic), usual);
-  auto smoother = exact_fit(
-      HeightKriging::of(samples, Quadratic::RowsAtCompileTime, HeightKernel::kQuintic), usual);
-  if (smoother && (!fit || smoother->misfit + kLeastGain < fit->misfit)) return smoother;
+  for (const auto& [kernel, least_gain] : kSmootherKernels) {
+    auto smoother = exact_fit(HeightKriging::of(samples, fewest_terms(kernel), kernel), usual);
+    if (!smoother || (fit && smoother->misfit + least_gain >= fit->misfit)) break;
+    fit = std::move(smoother);
+  }
   return fit;
 }
 
 std::optional<Fit> noisy_fit(HeightKriging kriging, double usual) {
   const KrigingLikelihood likelihood(kriging);
   const double likeliest = likeliest_roughness(likelihood, kriging.level(), usual);
-  const double misfit = likelihood.misfit(kriging.level(), likeliest);
+  const double misfit =
+      likelihood.misfit(kriging.level(), likeliest) + misfit_of_polynomial(kriging);
   auto solution = kriging.solve(kriging.level() / (kAllowance * likeliest) + kLeastSmoothing);
   if (!solution) return std::nullopt;
   return Fit{std::move(kriging), std::move(*solution), misfit, likeliest, likeliest};
 }
 
-/// Points so many that they were averaged lie so close that both kernels say the same.
+/// Points so many that they were averaged lie so close that all kernels say the same.
 std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, double usual) {
   const bool few = points < kFewestForQuadratic;
   auto kriging = HeightKriging::of(samples, few ? 3 : Quadratic::RowsAtCompileTime);
   if (!kriging) return std::nullopt;
-  const double of_polynomial = misfit_of_polynomial(*kriging, samples.size());
   auto fit = !are_exact(*kriging) ? noisy_fit(std::move(*kriging), usual)
              : few || points > kMostHeightSamples
                  ? exact_fit(std::move(kriging), usual)
-                 : likelier_exact_fit(samples, std::move(*kriging), usual);
-  if (!fit) return std::nullopt;
-  fit->misfit += of_polynomial;
-  return std::isfinite(fit->misfit) ? std::move(fit) : std::nullopt;
+                 : likeliest_exact_fit(samples, std::move(*kriging), usual);
+  return fit && std::isfinite(fit->misfit) ? std::move(fit) : std::nullopt;
+}
+
+/// A height over the plane and its slopes.
+struct Rise {
+  double height;
+  double along;
+  double across;
+};
+
+Rise rise_of(const Polynomial& c, double x, double y) {
+  return {c[0] + x * (c[1] + x * (c[3] + x * c[6]) + y * (c[4] + x * c[7])) +
+              y * (c[2] + y * (c[5] + x * c[8] + y * c[9])),
+          c[1] + x * (2.0 * c[3] + 3.0 * x * c[6]) + y * (c[4] + 2.0 * x * c[7] + y * c[8]),
+          c[2] + y * (2.0 * c[5] + 3.0 * y * c[9]) + x * (c[4] + 2.0 * y * c[8] + x * c[7])};
+}
+
+double power_of(HeightKernel kernel) {
+  switch (kernel) {
+    case HeightKernel::kCubic:
+      break;
+    case HeightKernel::kQuintic:
+      return 5.0;
+    case HeightKernel::kSeptic:
+      return 7.0;
+  }
+  return 3.0;
 }
 
 }  // namespace
@@ -144,7 +176,8 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   patch.misfit_ = fit->misfit;
   patch.wander_ = fit->wander;
   patch.roughness_ = fit->roughness / radius;
-  patch.polynomial_ = fit->kriging.polynomial(fit->solution) + trend;
+  patch.polynomial_ = fit->kriging.polynomial(fit->solution);
+  patch.polynomial_.head<Quadratic::RowsAtCompileTime>() += trend;
   patch.set_columns(samples.places, fit->kriging.weights(fit->solution));
   patch.kriging_ = std::move(fit->kriging);
   patch.kriging_->forget_kernel();
@@ -197,8 +230,7 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   const Eigen::Vector3d local = axes_ * (position - centre_) / radius_;
   const double x = local.x();
   const double y = local.y();
-  const Quadratic& c = polynomial_;
-  const bool quintic = kriging_->kernel() == HeightKernel::kQuintic;
+  const HeightKernel kernel = kriging_->kernel();
   Group kernels = Group::Zero();
   Group slopes_x = Group::Zero();
   Group slopes_y = Group::Zero();
@@ -207,18 +239,17 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
     const Group across = y - y_.segment<kGroup>(i);
     const Group squared = along.square() + across.square();
     Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
-    if (quintic) weighted *= -squared;
+    if (kernel == HeightKernel::kQuintic) weighted *= -squared;
+    if (kernel == HeightKernel::kSeptic) weighted *= squared.square();
     kernels += weighted * squared;
     slopes_x += weighted * along;
     slopes_y += weighted * across;
   }
-  const double height =
-      c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y + kernels.sum();
-  const double power = quintic ? 5.0 : 3.0;
-  const double slope_x = c[1] + 2.0 * c[3] * x + c[4] * y + power * slopes_x.sum();
-  const double slope_y = c[2] + c[4] * x + 2.0 * c[5] * y + power * slopes_y.sum();
-  const Eigen::Vector3d gradient(-slope_x, -slope_y, 1.0);
-  return {radius_ * (local.z() - height), axes_.transpose() * gradient};
+  const Rise smooth = rise_of(polynomial_, x, y);
+  const double power = power_of(kernel);
+  const Eigen::Vector3d gradient(-smooth.along - power * slopes_x.sum(),
+                                 -smooth.across - power * slopes_y.sum(), 1.0);
+  return {radius_ * (local.z() - smooth.height - kernels.sum()), axes_.transpose() * gradient};
 }
 
 }  // namespace instep

@@ -14,12 +14,13 @@ namespace instep {
 /// Zero on the surface, positive outside, of slope near one across it.
 ///
 /// The surface is the paper's radial basis functions (eqs. 6 and 7, phi = r^3, a smoothing for each
-/// point; r^5 where exact points are likelier by it) with a quadratic polynomial (a plane for fewer
-/// than nine points), over the tangent plane: as heights, points need no others put off the surface
-/// (eq. 5) and no normals but for the side, and the system (HeightKriging), centred and in unit
-/// scale, is half as large. The roughness is the likeliest one (restricted maximum likelihood)
-/// given the points and a prior; a point's smoothing is its variance against four times that, since
-/// a length is asked for in the end, over which noise averages out but flattened bends add up.
+/// point; r^5, and after it r^7 with a cubic polynomial, where exact points are likelier by it)
+/// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane: as
+/// heights, points need no others put off the surface (eq. 5) and no normals but for the side, and
+/// the system (HeightKriging), centred and in unit scale, is half as large. The roughness is the
+/// likeliest one (restricted maximum likelihood) given the points and a prior; a point's smoothing
+/// is its variance against four times that, since a length is asked for in the end, over which
+/// noise averages out but flattened bends add up.
 class HeightPatch {
  public:
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:
@@ -83,7 +84,7 @@ class HeightPatch {
   std::vector<Eigen::Index> cells_;  ///< the sample that each point went into; empty for itself
   Eigen::VectorXd shares_;
   double wander_ = 0.0;  ///< roughness in unit scale
-  Quadratic polynomial_;
+  Polynomial polynomial_;
   double roughness_ = 0.0;
   double misfit_ = 0.0;
 };

@@ -48,10 +48,16 @@ Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms) {
   values.col(0).setOnes();
   values.col(1) = x;
   values.col(2) = y;
-  if (terms == Quadratic::RowsAtCompileTime) {
+  if (terms >= Quadratic::RowsAtCompileTime) {
     values.col(3) = x * x;
     values.col(4) = x * y;
     values.col(5) = y * y;
+  }
+  if (terms == Polynomial::RowsAtCompileTime) {
+    values.col(6) = x * x * x;
+    values.col(7) = x * x * y;
+    values.col(8) = x * y * y;
+    values.col(9) = y * y * y;
   }
   return values;
 }

@@ -27,7 +27,10 @@ HeightSamples samples_over(const std::vector<OrientedPoint>& points, const Eigen
 /// Coefficients of 1, x, y, xx, xy, yy.
 using Quadratic = Eigen::Matrix<double, 6, 1>;
 
-/// The first `terms` (3 or 6) of those monomials, one place a row.
+/// Of those, and of xxx, xxy, xyy, yyy.
+using Polynomial = Eigen::Matrix<double, 10, 1>;
+
+/// The first `terms` (3, 6 or 10) of those monomials, one place a row.
 Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms);
 
 /// The quadratic that fits best. At least six samples.

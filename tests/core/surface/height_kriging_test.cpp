@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -36,18 +37,22 @@ struct Model {
 
   double at(const Vector2d& a, const Vector2d& b) const {
     const double distance = (a - b).norm();
-    return kernel == HeightKernel::kCubic ? std::pow(distance, 3) : -std::pow(distance, 5);
+    if (kernel == HeightKernel::kCubic) return std::pow(distance, 3);
+    return kernel == HeightKernel::kQuintic ? -std::pow(distance, 5) : std::pow(distance, 7);
   }
   std::optional<HeightKriging> of(const HeightSamples& samples) const {
     return HeightKriging::of(samples, terms, kernel);
   }
 };
 
-constexpr Model kModels[] = {{3}, {6}, {6, HeightKernel::kQuintic}};
+constexpr Model kModels[] = {
+    {3}, {6}, {10}, {6, HeightKernel::kQuintic}, {10, HeightKernel::kSeptic}};
 
 Eigen::RowVectorXd terms_at(const Vector2d& p, Index terms) {
-  Eigen::RowVectorXd all(6);
-  all << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+  const double x = p.x();
+  const double y = p.y();
+  Eigen::RowVectorXd all(10);
+  all << 1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
   return all.head(terms);
 }
 
@@ -96,11 +101,11 @@ double sum_of_heights(const HeightSamples& samples, double ratio, const Model& m
   const auto kriging = model.of(samples).value();
   const auto solution = kriging.solve(ratio).value();
   const VectorXd weights = kriging.weights(solution);
-  const Quadratic polynomial = kriging.polynomial(solution);
+  const Polynomial polynomial = kriging.polynomial(solution);
   double sum = 0.0;
   for (Index i = 0; i < sought.shares.size(); ++i) {
     const Vector2d place = sought.places.col(i);
-    double height = terms_at(place, 6).dot(polynomial);
+    double height = terms_at(place, 10).dot(polynomial);
     for (Index j = 0; j < samples.size(); ++j) {
       height += weights[j] * model.at(place, samples.places.col(j));
     }
@@ -112,7 +117,7 @@ double sum_of_heights(const HeightSamples& samples, double ratio, const Model& m
 TEST(HeightKriging, IsTheSolutionOfTheFullSystemByLu) {
   for (const Model& model : kModels) {
     const Index terms = model.terms;
-    for (const Index count : {8, 20, 60}) {
+    for (const Index count : {12, 20, 60}) {
       for (const double ratio : {1e-6, 1e-3, 0.1, 10.0}) {
         const auto samples = wavy_samples(count, 1);
         const auto kriging = model.of(samples);
@@ -127,10 +132,10 @@ TEST(HeightKriging, IsTheSolutionOfTheFullSystemByLu) {
         const VectorXd weights = expected.head(count);
         EXPECT_LT((kriging->weights(*solution) - weights).norm(), 1e-8 * weights.norm())
             << terms << " terms, " << count << " samples, ratio " << ratio;
-        const Quadratic polynomial = kriging->polynomial(*solution);
-        for (Index term = 0; term < 6; ++term) {
-          EXPECT_NEAR(polynomial[term], term < terms ? expected[count + term] : 0.0, 1e-8);
-        }
+        const Polynomial polynomial = kriging->polynomial(*solution);
+        const double size = std::max(1.0, expected.tail(terms).norm());
+        EXPECT_LT((polynomial.head(terms) - expected.tail(terms)).norm(), 1e-8 * size);
+        EXPECT_EQ(polynomial.tail(10 - terms).norm(), 0.0);
       }
     }
   }
@@ -180,6 +185,19 @@ TEST(HeightKriging, TheQuinticKernelNeedsTheWholeQuadratic) {
   on_a_circle.places.colwise().normalize();
   EXPECT_TRUE(HeightKriging::of(on_a_circle, 6));
   EXPECT_FALSE(HeightKriging::of(on_a_circle, 6, HeightKernel::kQuintic));
+}
+
+TEST(HeightKriging, TheSepticKernelNeedsTheWholeCubic) {
+  const auto samples = wavy_samples(20, 3);
+  EXPECT_TRUE(HeightKriging::of(samples, 10, HeightKernel::kSeptic));
+  EXPECT_FALSE(HeightKriging::of(samples, 6, HeightKernel::kSeptic));
+  EXPECT_FALSE(HeightKriging::of(wavy_samples(10, 3), 10, HeightKernel::kSeptic));
+  auto on_three_lines = samples;  // over which y (y - 0.3) (y + 0.3) is nothing
+  for (Index i = 0; i < samples.size(); ++i) {
+    on_three_lines.places(1, i) = 0.3 * static_cast<double>(i % 3 - 1);
+  }
+  EXPECT_TRUE(HeightKriging::of(on_three_lines, 6, HeightKernel::kQuintic));
+  EXPECT_FALSE(HeightKriging::of(on_three_lines, 10, HeightKernel::kSeptic));
 }
 
 /// On a circle xx + yy is a constant: one of six terms too many.

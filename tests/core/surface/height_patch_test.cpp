@@ -77,10 +77,13 @@ TEST(HeightPatch, FollowsASphereBetweenItsPoints) {
   }
 }
 
-Eigen::Matrix<double, 1, 6> terms_at(const Vector3d& p) {
-  Eigen::Matrix<double, 1, 6> row;
-  row << 1.0, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
-  return row;
+/// The first monomials of a cubic polynomial.
+Eigen::RowVectorXd terms_at(const Vector3d& p, Eigen::Index terms = 6) {
+  const double x = p.x();
+  const double y = p.y();
+  Eigen::RowVectorXd row(10);
+  row << 1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
+  return row.head(terms);
 }
 
 double kernel(const Vector3d& a, const Vector3d& b, int power) {
@@ -91,20 +94,22 @@ double cubed_distance(const Vector3d& a, const Vector3d& b) {
   return kernel(a, b, 3);
 }
 
-/// Eq. 7 in the plane, without smoothing and with six monomials, solved by LU decomposition.
+/// Eq. 7 in the plane, without smoothing and with six monomials, or ten for r^7, solved by LU
+/// decomposition.
 double height_by_lu(const OrientedPoints& points, const Vector3d& place, int power) {
   const auto count = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index terms = power == 7 ? 10 : 6;
   const auto at = [&](Eigen::Index i) { return points[static_cast<std::size_t>(i)].position; };
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count + 6, count + 6);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(count + 6);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count + terms, count + terms);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(count + terms);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < count; ++j) matrix(i, j) = kernel(at(i), at(j), power);
-    matrix.row(i).tail(6) = terms_at(at(i));
-    matrix.col(i).tail(6) = terms_at(at(i)).transpose();
+    matrix.row(i).tail(terms) = terms_at(at(i), terms);
+    matrix.col(i).tail(terms) = terms_at(at(i), terms).transpose();
     right[i] = at(i).z();
   }
   const Eigen::VectorXd solution = matrix.fullPivLu().solve(right);
-  double height = terms_at(place).dot(solution.tail(6));
+  double height = terms_at(place, terms).dot(solution.tail(terms));
   for (Eigen::Index i = 0; i < count; ++i) height += solution[i] * kernel(place, at(i), power);
   return height;
 }
@@ -136,17 +141,26 @@ double misfit_by_hand(const OrientedPoints& points, double roughness) {
       .sum();
 }
 
-OrientedPoints wavy_points(std::size_t count, double amplitude, double sigma, std::uint64_t seed) {
+/// `waves`: six and five radians of them for each unit, at one.
+OrientedPoints wavy_points(std::size_t count, double amplitude, double sigma, std::uint64_t seed,
+                           double waves = 1.0) {
   auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, count, sigma, seed);
   for (auto& point : points) {
-    point.position.z() +=
-        amplitude * std::sin(6 * point.position.x()) * std::cos(5 * point.position.y());
+    point.position.z() += amplitude * std::sin(6 * waves * point.position.x()) *
+                          std::cos(5 * waves * point.position.y());
   }
   return points;
 }
 
+OrientedPoints uneven_points(std::size_t count) {
+  auto points = wavy_points(count, 0.0, 0.0, 5);
+  test::RandomNumbers random(4);
+  for (auto& point : points) point.position.z() += random.uniform(-0.1, 0.1);
+  return points;
+}
+
 /// Whether a patch is the surface of that kernel through the points, up to the least smoothing; the
-/// other kernel's is some 1e-3 off.
+/// other kernels' are some 1e-3 off.
 void expect_solves(const OrientedPoints& points, int power) {
   const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.05);
   ASSERT_TRUE(patch);
@@ -159,19 +173,18 @@ void expect_solves(const OrientedPoints& points, int power) {
 }
 
 TEST(HeightPatch, OfUnevenPointsIsTheCubicSurfaceThatLuDecompositionFinds) {
-  for (const std::size_t count : {12U, 20U, 60U}) {
-    auto points = wavy_points(count, 0.0, 0.0, 5);
-    test::RandomNumbers random(4);
-    for (auto& point : points) point.position.z() += random.uniform(-0.1, 0.1);
-    expect_solves(points, 3);
-  }
+  for (const std::size_t count : {12U, 20U, 60U}) expect_solves(uneven_points(count), 3);
 }
 
 TEST(HeightPatch, OfASmoothWaveIsTheQuinticSurfaceThatLuDecompositionFinds) {
   for (const std::size_t count : {50U, 60U}) expect_solves(wavy_points(count, 0.1, 0.0, 5), 5);
 }
 
-/// A ridge: the kernel that fits smooth surfaces would overshoot beside it.
+TEST(HeightPatch, OfASmootherWaveIsTheSepticSurfaceThatLuDecompositionFinds) {
+  for (const std::size_t count : {50U, 60U}) expect_solves(wavy_points(count, 0.1, 0.0, 5, 0.4), 7);
+}
+
+/// A ridge: the kernels that fit smooth surfaces would overshoot beside it.
 TEST(HeightPatch, OfARidgeIsTheCubicSurface) {
   auto points = wavy_points(60, 0.0, 0.0, 5);
   for (auto& point : points) point.position.z() -= 0.5 * std::abs(point.position.x() - 0.1);
@@ -202,8 +215,7 @@ TEST(HeightPatch, FindsWavesRougherThanAnEvenSurface) {
   EXPECT_GT(roughness(0.1), 5.0 * roughness(0.0));
 }
 
-TEST(HeightPatch, GradientIsThatOfItsValue) {
-  const auto patch = cap_patch(test::cap_points(kSphere, 1.0, 60, 0.01, 8));
+void expect_gradient_of_value(const HeightPatch& patch) {
   const auto value = [&](const Vector3d& place) { return patch.at(place).value; };
   test::RandomNumbers random(9);
   for (int i = 0; i < 20; ++i) {
@@ -211,6 +223,16 @@ TEST(HeightPatch, GradientIsThatOfItsValue) {
         near_cap(random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), random.uniform(-0.2, 0.2));
     EXPECT_NEAR((patch.at(place).gradient - test::slope_by_differences(value, place, 1e-5)).norm(),
                 0.0, 1e-7);
+  }
+}
+
+TEST(HeightPatch, GradientIsThatOfItsValue) {
+  expect_gradient_of_value(cap_patch(test::cap_points(kSphere, 1.0, 60, 0.01, 8)));
+  expect_gradient_of_value(cap_patch(test::cap_points(kSphere, 1.0, 60, 0.0, 8)));
+  for (const double waves : {1.0, 0.4}) {
+    expect_gradient_of_value(HeightPatch::fit(wavy_points(60, 0.1, 0.0, 5, waves), Vector3d::Zero(),
+                                              Vector3d::UnitZ(), 1.0, 0.05)
+                                 .value());
   }
 }
 
@@ -326,15 +348,18 @@ TEST(HeightPatch, APointTwiceIsAPointOfHalfTheVariance) {
   }
 }
 
+/// Of an uneven surface: of an even one, points told twice make smoother kernels likelier.
 TEST(HeightPatch, ExactDuplicatesDoNotMatter) {
-  const auto points = test::cap_points(kSphere, 1.0, 25, 0.0, 16);
+  const auto points = uneven_points(25);
   auto twice = points;
   twice.insert(twice.end(), points.begin(), points.end());
-  const auto patch = HeightPatch::fit(twice, kTop, Vector3d::UnitZ(), 1.0, 0.01);
-  ASSERT_TRUE(patch);
-  for (const auto& point : points) EXPECT_NEAR(patch->at(point.position).value, 0.0, 1e-6);
-  EXPECT_NEAR(patch->at(near_cap(0.1, 0.1)).value, cap_patch(points).at(near_cap(0.1, 0.1)).value,
-              1e-6);
+  const auto patch_of = [](const OrientedPoints& some) {
+    return HeightPatch::fit(some, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 0.05).value();
+  };
+  const auto patch = patch_of(twice);
+  for (const auto& point : points) EXPECT_NEAR(patch.at(point.position).value, 0.0, 1e-6);
+  const Vector3d between(0.1, 0.1, 0.0);
+  EXPECT_NEAR(patch.at(between).value, patch_of(points).at(between).value, 1e-6);
 }
 
 /// Their squares are beyond the range of numbers: no likelihood is left to compare.

@@ -56,10 +56,11 @@ TEST(HeightSamples, AreThePointsInThePatchsOwnCoordinates) {
   }
 }
 
-TEST(HeightSamples, MonomialsAreThoseOfTheQuadraticOrThePlane) {
+TEST(HeightSamples, MonomialsAreThoseOfTheCubicTheQuadraticOrThePlane) {
   const auto samples = random_samples(20, 2);
   const auto six = monomials(samples.places, 6);
   const auto three = monomials(samples.places, 3);
+  const auto ten = monomials(samples.places, 10);
   ASSERT_EQ(six.rows(), 20);
   ASSERT_EQ(six.cols(), 6);
   ASSERT_EQ(three.cols(), 3);
@@ -67,6 +68,13 @@ TEST(HeightSamples, MonomialsAreThoseOfTheQuadraticOrThePlane) {
     EXPECT_NEAR(six.row(i).dot(some_quadratic()),
                 quadratic_at(some_quadratic(), samples.places.col(i)), 1e-15);
     EXPECT_EQ(three.row(i), six.row(i).head(3));
+    EXPECT_EQ(six.row(i), ten.row(i).head(6));
+    const double x = samples.places(0, i);
+    const double y = samples.places(1, i);
+    EXPECT_NEAR(ten.row(i).tail(4).dot(Eigen::Vector4d(1.0, 3.0, 3.0, 1.0)), std::pow(x + y, 3),
+                1e-15);
+    EXPECT_NEAR(ten.row(i).tail(4).dot(Eigen::Vector4d(1.0, -6.0, 12.0, -8.0)),
+                std::pow(x - 2.0 * y, 3), 1e-14);
   }
 }
 
