@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 #include "daemon/cloud_files/text_tokens.h"
 
@@ -10,6 +12,7 @@ namespace instep {
 namespace {
 
 constexpr std::string_view kSeparators = " \t,;\v\f";
+constexpr std::string_view kSeparatorsButCommas = " \t;\v\f";
 constexpr std::size_t kMostColumns = 6;
 
 /// The numbers of one line.
@@ -24,10 +27,34 @@ bool is_empty_or_comment(std::string_view line) {
   return start == line.npos || line[start] == '#' || line.substr(start, 2) == "//";
 }
 
+bool is_digit(char letter) {
+  return letter >= '0' && letter <= '9';
+}
+
+/// Whether the commas are those of decimals: one in a word at most, between digits, and something
+/// else parts the words.
+bool has_decimal_commas(std::string_view line) {
+  if (line.find(',') == line.npos) return false;
+  int words = 0;
+  for (auto word = take_word(line, kSeparatorsButCommas); !word.empty();
+       word = take_word(line, kSeparatorsButCommas)) {
+    ++words;
+    const auto comma = word.find(',');
+    if (comma == word.npos) continue;
+    const bool between_digits = comma > 0 && is_digit(word[comma - 1]) && comma + 1 < word.size() &&
+                                is_digit(word[comma + 1]);
+    if (!between_digits || word.find(',', comma + 1) != word.npos) return false;
+  }
+  return words > 1;
+}
+
 Row parse_row(std::string_view line) {
+  const bool decimal_commas = has_decimal_commas(line);
+  const auto separators = decimal_commas ? kSeparatorsButCommas : kSeparators;
   Row row;
-  for (auto word = take_word(line, kSeparators); !word.empty();
-       word = take_word(line, kSeparators)) {
+  for (std::string word(take_word(line, separators)); !word.empty();
+       word = take_word(line, separators)) {
+    if (decimal_commas) std::replace(word.begin(), word.end(), ',', '.');
     const auto value = number_in(word);
     row.all_numbers = row.all_numbers && value.has_value();
     if (value && row.words < kMostColumns) row.values[row.words] = *value;
@@ -43,7 +70,7 @@ bool is_point(const Row& row) {
 tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
                                const std::string& what) {
   return fail(ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
-              "give 3 or 6 numbers with decimal points in each line");
+              "give 3 or 6 numbers in each line, parted by blanks, commas or semicolons");
 }
 
 }  // namespace
@@ -55,6 +82,7 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
   std::size_t number = 0;
   std::size_t columns = 0;
   bool heading_seen = false;
+  std::optional<bool> decimal_commas;
   while (const auto line = lines.next()) {
     ++number;
     if (is_empty_or_comment(*line)) continue;
@@ -65,8 +93,15 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
       continue;
     }
     if (!is_point(row)) return bad_line(file, number, "is no point");
-    if (line->find(';') != line->npos && line->find(',') != line->npos) {
-      return bad_line(file, number, "has commas and semicolons, so the numbers cannot be told");
+    if (line->find(',') != line->npos) {
+      const bool decimal = has_decimal_commas(*line);
+      if (decimal_commas.value_or(decimal) != decimal) {
+        return bad_line(file, number, "has commas within numbers or between them, unlike others");
+      }
+      decimal_commas = decimal;
+      if (!decimal && line->find(';') != line->npos) {
+        return bad_line(file, number, "has commas and semicolons, so the numbers cannot be told");
+      }
     }
     if (columns == 0) columns = row.words;
     if (row.words != columns) {

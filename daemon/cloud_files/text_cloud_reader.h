@@ -9,11 +9,12 @@
 namespace instep {
 
 /// Reads points from lines of text: x y z, or x y z nx ny nz, parted by spaces, tabs, commas or
-/// semicolons, with decimal points. Empty lines, comments (# or //) and one heading line before the
-/// first point are passed over; so is a lone count of points there.
+/// semicolons, with decimal points or, where no commas part them, decimal commas. Empty lines,
+/// comments (# or //) and one heading line before the first point are passed over; so is a lone
+/// count of points there.
 ///
 /// Fails with kCorruptData and the number of the line where another line is no point or has another
-/// number of columns than the first, and where commas may be decimal commas.
+/// number of columns than the first, and where it cannot be told what commas mean.
 Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file);
 
 /// True if the first line that is not a comment or a heading begins with numbers: to tell a cloud

@@ -232,6 +232,23 @@ TEST_F(CloudFiles, NamesTheUnitOfAFootThatIsTooSmallOrTooLarge) {
   EXPECT_TRUE(sound->notes.empty());
 }
 
+/// As tables are written where a comma marks the decimals; six numbers would be points of no body.
+TEST_F(CloudFiles, ReadsDecimalCommas) {
+  for (const std::string text : {"x;y;z\n1,5;-2,25;3\n4;5;6,125\n", "1,5 -2,25 3\n4 5 6,125\n",
+                                 "1,5\t-2,25\t3,0\r\n4,0\t5,0\t6,125\r\n",
+                                 "1.5,-2.25,3\n4,5,6.125 \n", "1.5, -2.25, 3\n4 , 5 , 6.125\n"}) {
+    const auto file = read("table.csv", text);
+    ASSERT_TRUE(file) << text << file.error().line();
+    ASSERT_EQ(file->cloud.size(), 2U) << text;
+    EXPECT_FALSE(file->cloud.has_normals()) << text;
+    EXPECT_EQ(file->cloud.positions[0], Eigen::Vector3d(1.5, -2.25, 3.0)) << text;
+    EXPECT_EQ(file->cloud.positions[1], Eigen::Vector3d(4.0, 5.0, 6.125)) << text;
+  }
+  const auto with_normals = read("n.csv", "1,2,3 0,0,1\n4,5,6 0,0,1\n");
+  ASSERT_TRUE(with_normals) << with_normals.error().line();
+  EXPECT_EQ(with_normals->cloud.normals[1], Eigen::Vector3d(0.0, 0.0, 1.0));
+}
+
 TEST_F(CloudFiles, TellsEveryFault) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex ";
   const std::string xyz = "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
@@ -262,7 +279,10 @@ TEST_F(CloudFiles, TellsEveryFault) {
                ErrorCode::kInvalidInput, "sigma");
   expect_fault("words.xyz", "0 0 0\nhello world you\n", corrupt, "line 2");
   expect_fault("columns.xyz", "0 0 0\n1 2 3 0 0 1\n", corrupt, "line 2");
-  expect_fault("comma.csv", "1,5;2,5;3,5\n2,5;2,5;3,5\n", corrupt, "decimal points");
+  expect_fault("comma.csv", "1,5;2,5;3\n1,2;3,4,5;6\n", corrupt, "line 2");
+  expect_fault("comma.csv", "1,2;3,4,5;6\n", corrupt, "cannot be told");
+  expect_fault("comma.csv", "1,5 2,5 3,5\n1,2,3\n", corrupt, "line 2");
+  expect_fault("comma.csv", "1,2,3\n1,5 2,5 3,5\n", corrupt, "line 2");
   expect_fault("picture.jpg", "\xff\xd8\xff\xe0 JFIF", ErrorCode::kUnsupported, "give PLY");
   EXPECT_EQ(read_cloud_file(folder_.path() / "missing.ply", LengthUnit::kAuto).error().code,
             ErrorCode::kNotFound);
