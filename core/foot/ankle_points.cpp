@@ -21,7 +21,7 @@ constexpr double kSpread = 0.03;
 constexpr double kAboveMm = 5.0;
 constexpr double kFrom = 0.10;
 constexpr double kTo = 0.45;
-constexpr CrestPatch kPatch{8.0, 10.0};
+constexpr CrestPatch kPatch{8.0, 14.0};
 
 }  // namespace
 

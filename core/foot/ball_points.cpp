@@ -23,7 +23,7 @@ constexpr double kSmoothingMm = 13.0;
 // a millimetre of the fibulare, and by 0.1 mm for one of the tibiale, whose head bends tighter.
 constexpr double kTibialePatchMm = 8.0;
 constexpr double kFibularePatchMm = 11.0;
-constexpr double kPatchAcrossMm = 8.0;
+constexpr double kPatchAcrossMm = 10.0;
 constexpr double kPriorConfidence = 0.3;  ///< where the border has no say
 constexpr double kMostConfidence = 0.95;  ///< where it alone decides
 

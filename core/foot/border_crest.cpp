@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Terms = Eigen::Matrix<double, 6, 1>;
 
-constexpr int kMostRounds = 8;
+constexpr int kMostRounds = 12;
 constexpr double kStandsStillMm = 0.01;
 constexpr double kDeepestMm = 8.0;  ///< under the start: beyond is another face
 constexpr std::size_t kFewestPoints = 12;
@@ -30,14 +30,21 @@ Terms terms(const Local& at) {
   return (Terms() << 1.0, x, y, x * x, x * y, y * y).finished();
 }
 
-/// Least squares in which what lies towards the patch's ends counts little.
-std::optional<Terms> fitted(const std::vector<Local>& patch, double half_mm) {
+/// Falls from 1 in the middle to 0 at a half-width off it, and smoothly there: a point that comes
+/// in or goes as the patch moves has no say yet.
+double weight_at(double off, double half_width) {
+  const double share = off / half_width;
+  return std::pow(1.0 - share * share, 2);
+}
+
+/// Least squares by weight_at() both along and across.
+std::optional<Terms> fitted(const std::vector<Local>& points, const CrestPatch& patch) {
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Terms right = Terms::Zero();
-  for (const auto& point : patch) {
+  for (const auto& point : points) {
     const Terms row = terms(point);
-    const double off = point.x() / half_mm;
-    const double weight = std::pow(1.0 - off * off, 2);
+    const double weight =
+        weight_at(point.x(), patch.along_mm) * weight_at(point.y(), patch.across_mm);
     normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     right += weight * point.z() * row;
   }
@@ -49,27 +56,27 @@ std::optional<Terms> fitted(const std::vector<Local>& patch, double half_mm) {
   return solution.allFinite() ? std::optional(solution) : std::nullopt;
 }
 
-bool holds_enough(const std::vector<Local>& patch) {
-  const auto behind =
-      std::count_if(patch.begin(), patch.end(), [](const Local& point) { return point.x() < 0.0; });
+bool are_enough(const std::vector<Local>& points) {
+  const auto behind = std::count_if(points.begin(), points.end(),
+                                    [](const Local& point) { return point.x() < 0.0; });
   const auto of_them = static_cast<std::size_t>(behind);
-  return patch.size() >= kFewestPoints && of_them >= kFewestOnASide &&
-         patch.size() - of_them >= kFewestOnASide;
+  return points.size() >= kFewestPoints && of_them >= kFewestOnASide &&
+         points.size() - of_them >= kFewestOnASide;
 }
 
-std::optional<Terms> skin_of(std::vector<Local> patch, double half_mm) {
-  if (!holds_enough(patch)) return std::nullopt;
-  const auto first = fitted(patch, half_mm);
+std::optional<Terms> skin_of(std::vector<Local> points, const CrestPatch& patch) {
+  if (!are_enough(points)) return std::nullopt;
+  const auto first = fitted(points, patch);
   if (!first) return std::nullopt;
   const auto off = [&](const Local& point) {
     return std::abs(point.z() - first->dot(terms(point)));
   };
   std::vector<double> sizes;
-  sizes.reserve(patch.size());
-  for (const auto& point : patch) sizes.push_back(off(point));
+  sizes.reserve(points.size());
+  for (const auto& point : points) sizes.push_back(off(point));
   const double limit = std::max(kTimesMedian * median(std::move(sizes)), kLeastLimitMm);
-  std::erase_if(patch, [&](const Local& point) { return off(point) > limit; });
-  return holds_enough(patch) ? fitted(patch, half_mm) : std::nullopt;
+  std::erase_if(points, [&](const Local& point) { return off(point) > limit; });
+  return are_enough(points) ? fitted(points, patch) : std::nullopt;
 }
 
 /// The crest of a skin over the line along: how far it reaches there, a parabola.
@@ -130,7 +137,7 @@ std::optional<SkinBorder::Place> crest_near(const std::vector<Vector3d>& points,
   const std::vector<Local> near = seen_near(origin, points, view, patch);
   SkinBorder::Place place;  // counted from the origin
   for (int round = 0; round < kMostRounds; ++round) {
-    const auto skin = skin_of(patch_at(place, near, patch), patch.along_mm);
+    const auto skin = skin_of(patch_at(place, near, patch), patch);
     if (!skin) return std::nullopt;
     const double middle = origin.y() + place.across;
     const Crest crest(*skin, std::max(view.across_from_mm - middle, -patch.across_mm),

@@ -28,9 +28,10 @@ struct UsualPlace {
 /// on each sample's own bend, and so its furthest place wanders with the noise two or three times
 /// as far as it has to. Here a quadratic surface is fitted at once: what its crest wanders by falls
 /// with the square root of the cube of the patch's length and of its width, until the border's own
-/// bends pull it aside. Strays do not count. A patch is laid round the crest of the last one until
-/// that stands still, eight times at the most: in one of seven places on feet it still goes to and
-/// fro then, as points come in and go, mostly by less than half a millimetre.
+/// bends pull it aside. Points have less say towards the patch's limits, along and across, so that
+/// none comes in or goes with a jump; strays have none. A patch is laid round the crest of the last
+/// one until that stands still, twelve times at the most: in one of forty places on feet it is
+/// still under way then, mostly by less than a tenth of a millimetre.
 ///
 /// Nothing where the patch holds too few points, or none on one side of the place, or has no crest
 /// within it, or where `start` lies beside the view by more than half of the patch. O(n).

@@ -57,7 +57,7 @@ struct Strip {
 
 BorderProfile::BorderProfile(const std::vector<Eigen::Vector2d>& points,
                              const Eigen::Vector2d& along, const Eigen::Vector2d& reach,
-                             double smoothing_mm, double strip_mm) {
+                             double smoothing_mm, double strip_mm, double tightest_bend_mm) {
   if (points.empty()) return;
   const Extent places = extent(points, along);
   const double width = std::max(
@@ -77,6 +77,20 @@ BorderProfile::BorderProfile(const std::vector<Eigen::Vector2d>& points,
   }
   std::sort(samples_.begin(), samples_.end(),
             [](const Sample& a, const Sample& b) { return a.place < b.place; });
+  if (tightest_bend_mm > 0.0) lift_short_samples(tightest_bend_mm);
+}
+
+void BorderProfile::lift_short_samples(double tightest_bend_mm) {
+  const std::vector<Sample> as_seen = samples_;
+  auto first_near = as_seen.begin();
+  for (auto& sample : samples_) {
+    while (first_near->place < sample.place - smoothing_mm_) ++first_near;
+    for (auto near = first_near; near != as_seen.end(); ++near) {
+      const double off = near->place - sample.place;
+      if (off > smoothing_mm_) break;
+      sample.reach = std::max(sample.reach, near->reach - 0.5 * off * off / tightest_bend_mm);
+    }
+  }
 }
 
 std::optional<double> BorderProfile::reach(double place) const {

@@ -20,8 +20,8 @@ constexpr int kMostRounds = 8;
 constexpr double kStandsStillRad = 3e-4;
 // A heel is round: its rearmost place on a small patch wanders sideways, and turns the axis. How
 // far back it reaches is read on a small one, which no kink beside it can pull.
-constexpr CrestPatch kHeelPatch{15.0, 12.0};
-constexpr CrestPatch kReachPatch{7.0, 7.0};
+constexpr CrestPatch kHeelPatch{15.0, 14.0};
+constexpr CrestPatch kReachPatch{7.0, 8.5};
 
 Points outline_points(const Points& points, double length) {
   Points low;

@@ -30,6 +30,13 @@ constexpr double kMostGirthShare = 1.65;
 constexpr double kFloorDoubtMm = 0.5;
 constexpr double kFloorDoubtAtToesMm = 0.9;
 
+// Feet of one length differ in breadths and girths by an eighth to either side at the most: a wider
+// interval says less than that length. Of an arch or a toe an eighth is hardly more than the doubt
+// of a floor, and toes point within twenty degrees.
+constexpr double kUselessShare = 0.125;
+constexpr double kUselessMm = 5.0;
+constexpr double kUselessDegrees = 10.0;
+
 struct LengthRule {
   const char* id;
   Result<double> (*length)(const Landmarks&);
@@ -326,6 +333,21 @@ Result<Measure> take(const GirthRule& rule, const FootScan& foot, const MeasureO
   return measure;
 }
 
+/// Whether the interval holds so much that a foot which was not measured could be told as well.
+bool is_useless(const Measure& measure) {
+  if (!measure.u95()) return false;
+  const double limit = measure.value_deg
+                           ? kUselessDegrees
+                           : std::max(kUselessMm, kUselessShare * std::abs(measure.value_mm));
+  return *measure.u95() > limit;
+}
+
+std::string why_useless(const Measure& measure) {
+  return "it is told to no better than +-" + std::to_string(std::lround(*measure.u95())) +
+         (measure.value_deg ? " degrees" : " mm") +
+         ": scan again, with one foot alone in full view of all cameras";
+}
+
 /// What a shoe last has nothing of: no scan brings it.
 bool is_of_feet_only(const std::string& id) {
   for (const char* one : {"heel_breadth", "arch_height", "toe1_height", "toe1_angle", "toe5_angle",
@@ -336,7 +358,9 @@ bool is_of_feet_only(const std::string& id) {
 }
 
 void keep(MeasureSet& set, const char* id, bool is_last, Result<Measure> measure) {
-  if (measure) {
+  if (measure && is_useless(*measure)) {
+    set.withheld.push_back({id, why_useless(*measure)});
+  } else if (measure) {
     set.measures.push_back(*std::move(measure));
   } else if (is_last && is_of_feet_only(id)) {
     set.withheld.push_back({id, "a shoe last has none"});

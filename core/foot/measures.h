@@ -31,11 +31,13 @@ struct MeasureOptions {
 /// laid round the same points, widened for what all redraws share; that of the surface is Girth's
 /// own. Neither knows of a rule that is not what was meant.
 ///
-/// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; one that
-/// leans on a doubtful landmark carries a warning. Fails with kInvalidInput if the foot has no
-/// landmarks, and with kInsufficientData if not even its length can be told. A left foot has the
-/// measures of its mirror image. The cost is that of the girths; `go_on` hears of each
-/// measure, and once it returns false the whole fails with kCancelled.
+/// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; so is one
+/// whose interval is wider, to either side, than an eighth of it and 5 mm, or than 10 degrees: the
+/// foot's length alone says as much. One that leans on a doubtful landmark carries a warning. Fails
+/// with kInvalidInput if the foot has no landmarks, and with kInsufficientData if not even its
+/// length can be told. A left foot has the measures of its mirror image. The cost is that of the
+/// girths; `go_on` hears of each measure, and once it returns false the whole fails with
+/// kCancelled.
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
                                 const GoOn& go_on = always);
 

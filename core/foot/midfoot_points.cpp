@@ -26,7 +26,7 @@ constexpr double kArchFrom = 0.35;
 constexpr double kArchTo = 0.60;
 constexpr double kArchPrior = 0.48;
 constexpr double kArchStep = 0.005;
-constexpr double kArchWindow = 0.06;
+constexpr double kArchWindow = 0.08;
 
 std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double place, double width) {
   std::vector<Vector3d> slab;
@@ -63,27 +63,30 @@ std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place,
   return Vector3d(place, y + step, fitted(0) + step * (fitted(2) + step * fitted(4)));
 }
 
-/// Where the parabola through (place, length) pairs is lowest, if it is so inside their range.
+/// Where the cubic through (place, length) pairs is lowest, if it is so inside their range.
 std::optional<double> lowest_place(const std::vector<Vector2d>& lengths) {
   if (lengths.size() < 8) return std::nullopt;
   const double middle = (lengths.front().x() + lengths.back().x()) / 2.0;
   const double half = (lengths.back().x() - lengths.front().x()) / 2.0;
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(lengths.size()), 3);
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(lengths.size()), 4);
   Eigen::VectorXd right(static_cast<Eigen::Index>(lengths.size()));
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double t = (lengths[i].x() - middle) / half;
-    matrix.row(static_cast<Eigen::Index>(i)) << 1.0, t, t * t;
+    matrix.row(static_cast<Eigen::Index>(i)) << 1.0, t, t * t, t * t * t;
     right(static_cast<Eigen::Index>(i)) = lengths[i].y();
   }
   const Eigen::VectorXd fitted = matrix.colPivHouseholderQr().solve(right);
-  if (!(fitted(2) > 0.0)) return std::nullopt;
-  const double t = -fitted(1) / (2.0 * fitted(2));
-  if (std::abs(t) >= 1.0) return std::nullopt;
-  return middle + t * half;
+  // Of the two places where it is level, the one where it bends upwards.
+  const double square = fitted(2) * fitted(2) - 3.0 * fitted(1) * fitted(3);
+  if (!(square > 0.0)) return std::nullopt;
+  const double divisor = fitted(2) + std::sqrt(square);
+  if (!(divisor > std::abs(fitted(1)))) return std::nullopt;
+  return middle - fitted(1) / divisor * half;
 }
 
-/// By a parabola through the places near the shortest length: the tape grows faster towards the
-/// heel than towards the ball, and where the plane comes to the leg it jumps.
+/// By the places near the shortest length, for where the plane comes to the leg the tape jumps; by
+/// a cubic, for towards the heel the tape grows faster than towards the ball, so that a parabola's
+/// lowest place is a millimetre nearer to the heel than the shortest tape.
 std::optional<double> lowest_near(const std::vector<Vector2d>& lengths, double window) {
   if (lengths.empty()) return std::nullopt;
   const auto through_those_near = [&](double place) {

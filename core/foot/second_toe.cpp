@@ -14,14 +14,10 @@ using Eigen::Vector2d;
 constexpr double kBorderSmoothingMm = 9.0;
 constexpr double kToeSmoothingMm = 3.5;
 constexpr double kToeStripMm = 1.0;
-constexpr double kCleftMm = 1.0;  ///< depth from which a cleft parts two toes
-constexpr double kDeeper = 1.2;
-constexpr double kDeepestCleftMm = 1.6;     ///< toes in deeper noise cannot be told apart
-constexpr double kNearestToesShare = 0.07;  ///< of the ball's breadth, from tip to tip
-constexpr double kHalfToeMm = 6.0;
+constexpr double kToeBendMm = 2.5;  ///< seen from above no toe is bent tighter
+constexpr double kCleftMm = 1.0;    ///< depth from which a cleft parts two toes
 constexpr double kToeRadiusShare =
-    0.027;                           ///< of a toe's tip seen from above, over the foot's length
-constexpr double kTipDepthMm = 1.0;  ///< how far behind the tip its flanks are felt
+    0.027;  ///< of a toe's tip seen from above, over the foot's length
 
 struct BallBorders {
   double medial = 0.0;
@@ -58,59 +54,29 @@ Vector2d square_to_toes(const BorderProfile& front, double from, double to) {
   return Vector2d(1.0, -slope).normalized();
 }
 
-bool lie_like_toes(const std::vector<Vector2d>& tips, double breadth) {
-  for (std::size_t i = 1; i < tips.size(); ++i) {
-    if (std::abs(tips[i].y() - tips[i - 1].y()) < kNearestToesShare * breadth) return false;
-  }
-  return true;
-}
-
-/// The toes that show, each by the point of its border that stands out most. Noise and folds of
-/// socks make clefts of their own, and tips nearer to each other than toes: then a cleft must be
-/// deeper to part toes.
+/// The toes that show, each by the point of its border that stands out most.
 std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vector2d& square,
                                    const BallBorders& ball) {
   const Vector2d along(-square.y(), square.x());
-  const BorderProfile toes(front, along, square, kToeSmoothingMm, kToeStripMm);
+  const BorderProfile toes(front, along, square, kToeSmoothingMm, kToeStripMm, kToeBendMm);
   double from = 1e300;
   double to = -1e300;
   for (const auto& point : front) {
     from = std::min(from, along.dot(point));
     to = std::max(to, along.dot(point));
   }
-  if (!(to - from < 2.0 * ball.breadth)) return {};
-  for (double cleft = kCleftMm; cleft < kDeepestCleftMm; cleft *= kDeeper) {
-    std::vector<Vector2d> tips;
-    for (const auto& summit : toes.summits(from, to, cleft)) {
-      tips.push_back(summit.place * along + summit.reach * square);
-    }
-    if (lie_like_toes(tips, ball.breadth)) return tips;
+  std::vector<Vector2d> tips;
+  if (!(to - from < 2.0 * ball.breadth)) return tips;
+  for (const auto& summit : toes.summits(from, to, kCleftMm)) {
+    tips.push_back(summit.place * along + summit.reach * square);
   }
-  return {};
+  return tips;
 }
 
-/// The foremost point of the toe that shows at `toe`, seen in the direction `square`. A tip is
-/// round, so that its very foremost place wanders with the noise: the middle between its flanks
-/// does not. Where a longer neighbour hides one flank, the roundness tells where the foremost place
-/// is.
-Vector2d foremost_of_toe(const BorderProfile& forwards, const Vector2d& toe, const Vector2d& square,
-                         double toe_radius) {
-  const Vector2d rounded = toe + toe_radius * (Vector2d::UnitX() - square);
-  const auto tip = forwards.furthest(rounded.y() - kHalfToeMm, rounded.y() + kHalfToeMm);
-  const bool is_summit = tip && std::abs(tip->place - rounded.y()) < 0.9 * kHalfToeMm;
-  if (!is_summit) return rounded;
-  const auto flank = [&](double step) -> std::optional<double> {
-    for (double off = 0.0; std::abs(off) < 1.5 * kHalfToeMm; off += step) {
-      const auto reach = forwards.reach(tip->place + off);
-      if (!reach) return std::nullopt;
-      if (*reach < tip->reach - kTipDepthMm) return tip->place + off;
-    }
-    return std::nullopt;
-  };
-  const auto medial = flank(0.1);
-  const auto lateral = flank(-0.1);
-  if (!medial || !lateral) return rounded;
-  return {tip->reach, 0.5 * (*medial + *lateral)};
+/// The foremost point of the toe that stands out most at `tip` when seen in the direction `square`,
+/// by its roundness: a longer neighbour often hides one of its flanks from the front.
+Vector2d foremost_of_toe(const Vector2d& tip, const Vector2d& square, double toe_radius) {
+  return tip + toe_radius * (Vector2d::UnitX() - square);
 }
 
 }  // namespace
@@ -123,7 +89,7 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
     if (point.x() > 0.75 * length_mm) front.push_back(point);
   }
   const BorderProfile forwards(front, Vector2d::UnitY(), Vector2d::UnitX(), kToeSmoothingMm,
-                               kToeStripMm);
+                               kToeStripMm, kToeBendMm);
   const double expected = ball->medial - kSecondToeShare * ball->breadth;
 
   const Vector2d square = square_to_toes(forwards, ball->medial - 0.9 * ball->breadth,
@@ -132,8 +98,7 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
   std::vector<double> shares;
   for (const auto& toe : toes) shares.push_back((ball->medial - toe.y()) / ball->breadth);
   if (const auto second = second_of_toes(shares)) {
-    return SecondToe{foremost_of_toe(forwards, toes[*second], square, kToeRadiusShare * length_mm),
-                     true};
+    return SecondToe{foremost_of_toe(toes[*second], square, kToeRadiusShare * length_mm), true};
   }
   const auto reach = forwards.reach(expected);
   if (!reach) return std::nullopt;

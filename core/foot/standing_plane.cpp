@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/geometry/moments.h"
@@ -24,7 +25,8 @@ constexpr double kClearlyLarger = 1.25;
 constexpr std::size_t kSample = 4000;      ///< points that candidates are compared by
 constexpr std::size_t kNormalPlaces = 80;  ///< at which the surface's normal is tried
 constexpr std::size_t kNeighbours = 16;
-constexpr double kTouchesMm = 8.0;       ///< a point this near to the plane touches it
+constexpr double kTouchesMm = 8.0;  ///< a point this near to the plane touches it
+constexpr double kRestsMm = 4.0;    ///< a point this near may be of a flat face that rests on it
 constexpr double kBorderReachMm = 12.0;  ///< a place of the border is touched by a point so near
 constexpr std::size_t kFewestOfSole = 50;
 constexpr double kLargestTilt = 0.14;
@@ -72,8 +74,8 @@ double touched_share(const std::vector<Vector2d>& hull, const std::vector<Vector
   return steps > 0.0 ? touched / steps : 0.0;
 }
 
-double support(const Points& sample, const StandingPlane& plane) {
-  const auto points = touching(sample, plane, kTouchesMm);
+double support(const Points& sample, const StandingPlane& plane, double thickness) {
+  const auto points = touching(sample, plane, thickness);
   const auto hull = convex_hull(points);
   if (hull.size() < 3) return 0.0;
   return std::abs(signed_area(hull)) * std::pow(touched_share(hull, points), 2);
@@ -125,7 +127,7 @@ struct Candidate {
 
 void keep_better(Candidate& best, const Points& sample, const StandingPlane& plane,
                  double advantage) {
-  const double own = support(sample, plane);
+  const double own = support(sample, plane, kTouchesMm);
   if (own > advantage * best.support) best = {plane, own};
 }
 
@@ -166,9 +168,25 @@ bool is_closed(const Points& near_plane, const StandingPlane& plane) {
 bool rests_flat(const Points& sample, const StandingPlane& plane) {
   Points low;
   for (const auto& point : sample) {
-    if (plane.up.dot(point) - plane.height_mm < 0.5 * kTouchesMm) low.push_back(point);
+    if (plane.up.dot(point) - plane.height_mm < kRestsMm) low.push_back(point);
   }
   return low.size() >= kFewestOfSole && is_closed(low, plane);
+}
+
+/// Of planes on which a flat face rests, the one under the largest. A foot's outer side is nearly
+/// as long and high as its sole is broad, but round: little of it is within the thickness of a
+/// face.
+std::optional<StandingPlane> under_largest_face(const Points& sample,
+                                                const std::vector<StandingPlane>& planes) {
+  std::optional<StandingPlane> best;
+  double largest = 0.0;
+  for (const auto& plane : planes) {
+    const double own = rests_flat(sample, plane) ? support(sample, plane, kRestsMm) : 0.0;
+    if (own <= largest) continue;
+    largest = own;
+    best = plane;
+  }
+  return best;
 }
 
 /// Whether the border of what touches the plane is touched nearly everywhere, as an open sole does.
@@ -277,8 +295,8 @@ Result<StandingPlane> find_standing_plane(const Points& points) {
       }
     }
   }
-  for (const auto& plane : likely_planes(sample)) {
-    if (rests_flat(sample, plane)) keep_better(best, sample, plane, kClearlyLarger);
+  if (const auto plane = under_largest_face(sample, likely_planes(sample))) {
+    keep_better(best, sample, *plane, kClearlyLarger);
   }
   if (best.support < kSmallestSupportMm2) {
     return fail(ErrorCode::kInvalidInput, "the cloud has no flat support as large as a foot's",

@@ -10,6 +10,7 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kToes = 5;
+constexpr std::size_t kBig = 0;
 constexpr std::size_t kSecond = 1;
 constexpr std::size_t kMostTips = 8;
 // On feet in socks the folds and the noise make tips as well, which seldom lie like toes: on drawn
@@ -21,14 +22,22 @@ constexpr double kDearest = 16.0;
 constexpr std::array<double, kToes> kUsual{0.25, 0.46, 0.62, 0.78, 0.93};
 constexpr double kMiddle = 0.65;         ///< of them, about which a foot is broader or narrower
 constexpr double kOwnSpread = 0.025;     ///< of one toe, standard deviation
+constexpr double kBigToesSpread = 0.08;  ///< broad, and its side rather than its tip stands out
 constexpr double kShiftSpread = 0.04;    ///< of all together
 constexpr double kStretchSpread = 0.12;  ///< of their distances
 // In units of half a squared standard deviation.
 constexpr std::array<double, kToes> kMissing{1.0, 3.0, 8.0, 8.0, 4.0};
 constexpr double kNoToe = 6.0;
+constexpr double kClearly = 3.0;  ///< dearer is what names another tip the second toe's, or none
 
 /// A name for each tip, 0 the big toe; none for what is no tip.
 using Names = std::vector<std::optional<std::size_t>>;
+
+/// Which tip is the second toe's; their number if none is.
+std::size_t second_of(const Names& names) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), std::optional(kSecond)) -
+                                  names.begin());
+}
 
 /// How unlikely tips with these names are.
 double price_of(const std::vector<double>& shares, const Names& names) {
@@ -43,8 +52,9 @@ double price_of(const std::vector<double>& shares, const Names& names) {
       continue;
     }
     const double usual = kUsual[*names[i]];
-    const Eigen::Vector2d row = Eigen::Vector2d(1.0, usual - kMiddle) / kOwnSpread;
-    const double off = (shares[i] - usual) / kOwnSpread;
+    const double spread = *names[i] == kBig ? kBigToesSpread : kOwnSpread;
+    const Eigen::Vector2d row = Eigen::Vector2d(1.0, usual - kMiddle) / spread;
+    const double off = (shares[i] - usual) / spread;
     normal += row * row.transpose();
     right += off * row;
     squares += off * off;
@@ -56,21 +66,24 @@ double price_of(const std::vector<double>& shares, const Names& names) {
 /// Tries all names in order, from the medial side on.
 class Naming {
  public:
-  explicit Naming(const std::vector<double>& shares) : shares_(shares), names_(shares.size()) {}
-
-  Names likeliest() {
+  explicit Naming(const std::vector<double>& shares)
+      : shares_(shares), names_(shares.size()), least_(shares.size() + 1, 1e300) {
     name(0, 0);
-    return best_;
   }
+
+  const Names& likeliest() const { return best_; }
+
+  /// The least price of names by which the second toe is this tip; of names by which it is none of
+  /// them, for the number of tips.
+  double least_price(std::size_t second) const { return least_[second]; }
 
  private:
   void name(std::size_t tip, std::size_t toe) {
     if (tip == shares_.size()) {
       const double price = price_of(shares_, names_);
-      if (price < least_) {
-        least_ = price;
-        best_ = names_;
-      }
+      if (price < *std::min_element(least_.begin(), least_.end())) best_ = names_;
+      double& least = least_[second_of(names_)];
+      least = std::min(least, price);
       return;
     }
     names_[tip].reset();
@@ -85,7 +98,7 @@ class Naming {
   const std::vector<double>& shares_;
   Names names_;
   Names best_;
-  double least_ = 1e300;
+  std::vector<double> least_;
 };
 
 }  // namespace
@@ -98,12 +111,17 @@ std::optional<std::size_t> second_of_toes(const std::vector<double>& shares) {
             [&](std::size_t a, std::size_t b) { return shares[a] < shares[b]; });
   std::vector<double> sorted;
   for (const std::size_t i : order) sorted.push_back(shares[i]);
-  const Names names = Naming(sorted).likeliest();
-  const auto toes = std::count_if(names.begin(), names.end(), [](auto& name) { return !!name; });
-  if (toes < kFewestToes || price_of(sorted, names) > kDearest) return std::nullopt;
-  const auto second = std::find(names.begin(), names.end(), std::optional(kSecond));
-  if (second == names.end()) return std::nullopt;
-  return order[static_cast<std::size_t>(second - names.begin())];
+  const Naming naming(sorted);
+  const auto toes = std::count_if(naming.likeliest().begin(), naming.likeliest().end(),
+                                  [](const auto& name) { return name.has_value(); });
+  const std::size_t second = second_of(naming.likeliest());
+  if (toes < kFewestToes || second == sorted.size()) return std::nullopt;
+  const double price = naming.least_price(second);
+  if (price > kDearest) return std::nullopt;
+  for (std::size_t other = 0; other <= sorted.size(); ++other) {
+    if (other != second && naming.least_price(other) < price + kClearly) return std::nullopt;
+  }
+  return order[second];
 }
 
 }  // namespace instep

@@ -15,8 +15,9 @@ namespace instep {
 /// when looked at square to the others. Of all ways to name them in their order, the likeliest is
 /// taken: tips of the average foot, shifted and stretched a little, each a little off, with a
 /// price for each toe that is missing and each tip that is none. Nothing where the second toe is
-/// not among them, fewer than four toes show, or even the likeliest is unlikely. Of more than eight
-/// tips nothing is told; eight take a sixth of a millisecond.
+/// not among them, fewer than four toes show, even the likeliest is unlikely, or another that has
+/// another second toe is hardly less so: a short second toe hides beside a big one that lies where
+/// second toes do. Of more than eight tips nothing is told; eight take a sixth of a millisecond.
 std::optional<std::size_t> second_of_toes(const std::vector<double>& shares);
 
 }  // namespace instep

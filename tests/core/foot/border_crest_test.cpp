@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/cases/drawn_feet.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -71,6 +72,37 @@ TEST(BorderCrest, WandersLessThanTheFurthestOfASmoothedBorder) {
     of_border += std::pow(furthest->along - 100.0, 2) / kDraws;
   }
   EXPECT_LT(std::sqrt(of_crest), 0.6 * std::sqrt(of_border));
+}
+
+/// Found again from where it was found, a crest on a foot is where it was: a patch that points
+/// enter and leave at its sides with their full weight goes to and fro.
+TEST(BorderCrest, ComesToRestOnAFoot) {
+  std::size_t found = 0;
+  std::size_t restless = 0;
+  for (const std::uint64_t seed : {301U, 309U, 315U}) {
+    const auto drawn = test::draw_scanned_foot_without_truth(seed);
+    const RigidTransform solid_from_input = drawn.input_from_solid.inverse();
+    std::vector<Vector3d> points;
+    for (const auto& point : drawn.cloud.positions) points.push_back(solid_from_input * point);
+    for (const double side : {1.0, -1.0}) {
+      const BorderView view{Vector3d::UnitX(), side * Vector3d::UnitY(), Vector3d::UnitZ(), 0.0,
+                            40.0};
+      const SkinBorder border(points, view, 9.0);
+      for (double x = 60.0; x < 180.0; x += 2.0) {
+        const auto place = border.at(x);
+        if (!place) continue;
+        const UsualPlace usual{x, 10.0};
+        const auto crest = crest_near(points, view, *place, CrestPatch{11.0, 10.0}, usual);
+        const auto again =
+            crest ? crest_near(points, view, *crest, CrestPatch{11.0, 10.0}, usual) : std::nullopt;
+        if (!again) continue;
+        ++found;
+        if (std::abs(again->along - crest->along) > 0.05) ++restless;
+      }
+    }
+  }
+  EXPECT_GT(found, 150U);
+  EXPECT_LE(restless, found / 20);
 }
 
 /// What lies outside of the view may not have a say, even where it reaches further.

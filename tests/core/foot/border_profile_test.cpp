@@ -42,6 +42,33 @@ TEST(BorderProfile, IgnoresAStray) {
   EXPECT_NEAR(*profile.reach(100.0), 30.0, 0.05);
 }
 
+/// Round tips 16 mm apart, of 6.5 mm radius; a gap of the points' own is no cleft, one between toes
+/// is.
+TEST(BorderProfile, LiftsSamplesThatFallShortOfABendTheBorderCanHave) {
+  const auto toes = [](double x) {
+    const double off = std::remainder(x - 8.0, 16.0);
+    return 50.0 + std::sqrt(std::max(0.0, 6.5 * 6.5 - off * off));
+  };
+  auto points = body(toes, 0.5);
+  const auto is_in_gap = [&](const Vector2d& point) {
+    return std::abs(point.x() - 42.0) < 1.0 && point.y() > 47.0;
+  };
+  std::erase_if(points, is_in_gap);
+  const auto summits = [&](double tightest_bend_mm) {
+    const BorderProfile profile(points, Vector2d::UnitX(), Vector2d::UnitY(), 3.5, 1.0,
+                                tightest_bend_mm);
+    return profile.summits(16.0, 64.0, 1.0);
+  };
+  EXPECT_EQ(summits(0.0).size(), 4U);
+  const auto lifted = summits(2.5);
+  ASSERT_EQ(lifted.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(lifted[i].place, 24.0 + 16.0 * static_cast<double>(i), 0.6);
+    EXPECT_NEAR(lifted[i].reach, 56.5, 0.3);
+    EXPECT_GT(lifted[i].rise, 2.0);
+  }
+}
+
 TEST(BorderProfile, TellsSummitsOfToesApart) {
   const auto toes = [](double x) { return 10.0 + 4.0 * std::cos(x * 2.0 * 3.14159265 / 40.0); };
   const BorderProfile profile(body(toes, 0.7), Vector2d::UnitX(), Vector2d::UnitY(), 5.0);

@@ -37,6 +37,18 @@ TEST_P(DrawnFeet, HaveAllTheirMeasuresWithinTheBars) {
     ASSERT_TRUE(parts) << id;
     EXPECT_NEAR(std::hypot(parts->surface, parts->landmarks), *set->find(id)->u95_mm, 1e-9) << id;
   }
+  // Where the skin turns under the sole, what all redraws share is a part of the radius.
+  const RigidTransform true_from_found = drawn.truth.foot_from_solid *
+                                         drawn.input_from_solid.inverse() *
+                                         foot->foot_from_input.inverse();
+  for (const auto& [name, true_name] :
+       {std::pair("metatarsale_fibulare", "mf"), {"toe1_tip", "toe1_tip"}}) {
+    const Landmark& landmark = foot->landmarks.at(name);
+    const double off =
+        (true_from_found * landmark.position_mm - drawn.truth.landmarks.at(true_name)).norm();
+    ASSERT_TRUE(landmark.radius_mm) << name;
+    EXPECT_LE(off, 1.2 * *landmark.radius_mm) << name;
+  }
 }
 
 // Strays stand under the arches of the last two.

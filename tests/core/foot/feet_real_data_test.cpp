@@ -150,8 +150,8 @@ TEST_F(RealFeet, WithAnOpenSoleAndALegKeepTheirSideAndLength) {
   const double beside = landmarks.at("toe1_tip").position_mm.y() * whole.foot.medial_sign();
   EXPECT_NEAR(beside, 24.0, 6.0);
   expect_same(whole, measured(turned(points, 2.0)), 0.5);
-  expect_same(whole, measured(test::half_of(points, 0)), 0.5, 1.5);
-  expect_same(whole, measured(test::half_of(points, 1)), 0.5, 1.5);
+  expect_same(whole, measured(test::half_of(points, 0)), 0.5, 1.0);
+  expect_same(whole, measured(test::half_of(points, 1)), 0.5, 1.0);
   const auto mirror = measured(test::mirrored(points));
   EXPECT_EQ(mirror.foot.side, Side::kRight);
   expect_same(whole, mirror, 0.5);

@@ -37,6 +37,13 @@ TEST(ToePattern, SaysNothingWhereTheSecondToeDoesNotShow) {
   EXPECT_LT(second({0.25, 0.62, 0.78, 0.93}), 0.0);
 }
 
+/// A simulated foot whose second toe is 7.6 mm shorter than the big one, seen without noise: the
+/// fourth tip is the big toe's side.
+TEST(ToePattern, DoesNotTakeABigToeForAHiddenSecondOne) {
+  EXPECT_LT(second({0.386, 0.622, 0.777, 0.926}), 0.0);
+  EXPECT_LT(second({0.405, 0.652, 0.795, 0.908}), 0.0);
+}
+
 TEST(ToePattern, SaysNothingOfASock) {
   EXPECT_LT(second({}), 0.0);
   EXPECT_LT(second({0.46}), 0.0);
