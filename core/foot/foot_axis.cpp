@@ -61,6 +61,19 @@ Vector3d foremost(const Points& points, double from) {
   return robust_extreme(beyond(points, Vector3d::UnitX(), from), Vector3d::UnitX());
 }
 
+/// How high the skin is that reaches forwards to the tip of a toe; `otherwise` where there is none.
+double tip_height(const Points& points, const Vector2d& tip, double otherwise) {
+  constexpr double kBesideMm = 4.0;
+  constexpr double kBehindMm = 8.0;
+  Points toe;
+  for (const auto& point : points) {
+    const bool is_near =
+        std::abs(point.y() - tip.y()) < kBesideMm && std::abs(point.x() - tip.x()) < kBehindMm;
+    if (is_near) toe.push_back(point);
+  }
+  return toe.empty() ? otherwise : robust_extreme(toe, Vector3d::UnitX()).z();
+}
+
 /// Counted from the heel, with the medial side on +y.
 Points as_right_foot(Points points, const Vector3d& heel, double medial_sign) {
   for (auto& point : points) {
@@ -103,7 +116,9 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
         find_second_toe(outline_of_right_foot(points, heel, medial_sign), start.length_mm);
     if (!toe) break;
     axis.is_second_toe_resolved = toe->is_resolved;
-    axis.toe2_tip = {toe->tip.x(), medial_sign * toe->tip.y(), axis.acropodion.z()};
+    const Vector2d tip(toe->tip.x(), medial_sign * toe->tip.y());
+    const double height = tip_height(points, tip + heel.head<2>(), axis.acropodion.z());
+    axis.toe2_tip = {tip.x(), tip.y(), height};
     double wanted = std::atan2(axis.toe2_tip.y(), axis.toe2_tip.x());
     if (axis.rule != AxisRule::kSecondToe) {
       const auto by_rule =
