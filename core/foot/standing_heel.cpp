@@ -68,10 +68,14 @@ struct WeighedPoint {
 
 enum class EdgeHeight { kKept, kFitted };
 
-/// Wall and edge. The unknowns are the wall's terms, the height at which the edge begins, and that
+/// Wall and edge, as a solid is rounded where two of its faces meet: where the skin lies within the
+/// edge's height of both, the squares of what it keeps from them are as much as that height's own,
+/// as on an arc. The unknowns are the wall's terms, the height at which the edge begins, and that
 /// of the floor.
 class Heel {
  public:
+  Heel() = default;
+
   explicit Heel(double foot_length_mm)
       : top_(kTopShare * foot_length_mm), half_width_(kHalfWidthShare * foot_length_mm) {}
 
@@ -89,7 +93,6 @@ class Heel {
     return own;
   }
 
-  Heel() = default;
   bool settles(const std::vector<WeighedPoint>& points);
   std::optional<Vector3d> furthest_from(const Vector3d& place) const;
 
@@ -120,7 +123,7 @@ class Heel {
   Unknowns unknowns_ = Unknowns::Zero();
 };
 
-/// Of a point from the skin, outwards.
+/// Of a point from the skin, outwards, as far as the skin's own bend does not matter.
 double Heel::distance(const Vector3d& point) const {
   const Share at = share_of(point.y(), point.z());
   const Vector2d slope = wall_slope(at);

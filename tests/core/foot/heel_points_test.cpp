@@ -47,14 +47,16 @@ TEST(HeelPoint, StaysByTheLineThatFallsFromTheInstepPoint) {
     for (double along = -60.0; along <= 60.0; along += 10.0) {
       for (double up = -60.0; up <= 60.0; up += 10.0) {
         const auto instep = shifted(foot.landmarks.at("instep_point"), along, up);
-        const auto heel = find_heel_point(outline, instep);
-        if (!heel) continue;
-        ++found;
-        EXPECT_LE(std::abs(across.dot(heel->position_mm - instep.position_mm)), range + 1e-6)
-            << along << ", " << up;
+        for (const auto stance : {HeelStance::kOnFloor, HeelStance::kRaised}) {
+          const auto heel = find_heel_point(outline, instep, stance);
+          if (!heel) continue;
+          ++found;
+          EXPECT_LE(std::abs(across.dot(heel->position_mm - instep.position_mm)), range + 1e-6)
+              << along << ", " << up;
+        }
       }
     }
-    EXPECT_GT(found, 50);
+    EXPECT_GT(found, 100);
   }
 }
 
