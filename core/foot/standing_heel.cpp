@@ -40,7 +40,7 @@ constexpr double kSigmaOfMedian = 1.5;
 constexpr double kLeastSigmaMm = 0.05;
 
 constexpr double kSearchStepMm = 0.02;
-constexpr double kSearchShare = 0.6;  ///< of the wall's height
+constexpr double kHighestMm = 16.0;  ///< over the floor, where a furthest place is looked for
 
 constexpr int kWallTerms = 7;
 constexpr int kEdge = kWallTerms;
@@ -221,16 +221,16 @@ std::optional<Vector3d> Heel::furthest_from(const Vector3d& place) const {
   const auto reach = [&](const Vector3d& skin) {
     return std::hypot(skin.x() - place.x(), skin.z() - place.z());
   };
-  const int steps = static_cast<int>(kSearchShare * top_ / kSearchStepMm);
+  constexpr int kSteps = static_cast<int>(kHighestMm / kSearchStepMm);
   std::optional<Vector3d> furthest;
   int best = 0;
-  for (int step = 0; step <= steps; ++step) {
+  for (int step = 0; step <= kSteps; ++step) {
     const Vector3d skin = rear(floor() + step * kSearchStepMm);
     if (furthest && reach(skin) <= reach(*furthest)) continue;
     furthest = skin;
     best = step;
   }
-  return best > 0 && best < steps ? furthest : std::nullopt;
+  return best > 0 && best < kSteps ? furthest : std::nullopt;
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ void print_foot(const FootOutcome& outcome, std::uint64_t seed) {
     for (const auto& [name, tally] : own) {
       const auto& error = tally.errors.front();
       fmt::print("    {:<26}{:>+8.2f}{:>+8.2f}{:>+8.2f}  {:.2f}\n", name, error.x(), error.y(),
-                 error.z(), outcome.foot->landmarks.at(name).radius_mm.value_or(-1.0));
+                 error.z(), outcome.foot->landmarks.at(name).confidence);
     }
   }
   for (const auto& [id, parts] : outcome.parts) {
