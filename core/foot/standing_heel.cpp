@@ -68,10 +68,10 @@ struct WeighedPoint {
 
 enum class EdgeHeight { kKept, kFitted };
 
-/// Wall and edge, as a solid is rounded where two of its faces meet: where the skin lies within the
-/// edge's height of both, the squares of what it keeps from them are as much as that height's own,
-/// as on an arc. The unknowns are the wall's terms, the height at which the edge begins, and that
-/// of the floor.
+/// Wall and edge. Nearer than the edge's height to both wall and floor the skin lies where what
+/// either depth leaves of that height has squares that add up to its own: in an arc where the two
+/// meet square, in a piece of an ellipse where the wall leans in. The unknowns are the wall's
+/// terms, the height at which the edge begins, and that of the floor.
 class Heel {
  public:
   Heel() = default;

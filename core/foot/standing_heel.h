@@ -13,9 +13,9 @@ namespace instep {
 /// where it is hangs on how the skin bends to either side, and the noise of few points hides just
 /// that. So the whole back of the heel is fitted at once, by the distances of the points to it: a
 /// wall that bends evenly on the way up and across, and an edge by which it goes over into the
-/// floor in an arc. That the edge has to reach the floor, and that the wall above goes on as
-/// evenly as it came down, says most of what the patch does not. What lies far off the skin that
-/// most points show does not count. How high the edge begins is held near what is usual, which
+/// floor in an arc or nearly so. That the edge has to reach the floor, and that the wall above goes
+/// on as evenly as it came down, says most of what the patch does not. What lies far off the skin
+/// that most points show does not count. How high the edge begins is held near what is usual, which
 /// decides only where no point tells, as under a sole that was not seen.
 ///
 /// `points`: those seen, foot frame (core/foot/foot_scan.h: pternion over the origin, floor at z =
