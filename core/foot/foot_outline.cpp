@@ -11,6 +11,17 @@ std::vector<Eigen::Vector3d> as_right_foot(const FootScan& foot) {
   return points;
 }
 
+/// None where all were.
+std::vector<Eigen::Vector3d> those_seen(const std::vector<Eigen::Vector3d>& points,
+                                        const PointCloud& cloud) {
+  std::vector<Eigen::Vector3d> seen;
+  if (!cloud.stands_on_platform()) return seen;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (cloud.was_seen(i)) seen.push_back(points[i]);
+  }
+  return seen;
+}
+
 BorderView from_above(double medial_sign) {
   return {Eigen::Vector3d::UnitX(), medial_sign * Eigen::Vector3d::UnitY(),
           Eigen::Vector3d::UnitZ(), 0.0, kLandmarkOutlineHeightMm};
@@ -22,7 +33,7 @@ FootOutline::FootOutline(const FootScan& foot)
     : length_mm_(foot.landmarks.at("acropodion").position_mm.x() -
                  foot.landmarks.at("pternion").position_mm.x()),
       points_(as_right_foot(foot)),
-      was_seen_below_(!foot.cloud.stands_on_platform()),
+      seen_points_(those_seen(points_, foot.cloud)),
       medial_(points_, from_above(1.0), kBorderSmoothingMm),
       lateral_(points_, from_above(-1.0), kBorderSmoothingMm) {}
 

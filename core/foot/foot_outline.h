@@ -22,8 +22,10 @@ class FootOutline {
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-  /// Whether all of the skin was seen: no points were put where nobody looked.
-  bool was_seen_below() const { return was_seen_below_; }
+  /// Those of the points that were not put where nobody looked.
+  const std::vector<Eigen::Vector3d>& seen_points() const {
+    return seen_points_.empty() ? points_ : seen_points_;
+  }
 
   /// Reach towards medial, and towards lateral, at each x, of the skin up to
   /// kLandmarkOutlineHeightMm.
@@ -33,7 +35,7 @@ class FootOutline {
  private:
   double length_mm_;
   std::vector<Eigen::Vector3d> points_;
-  bool was_seen_below_;
+  std::vector<Eigen::Vector3d> seen_points_;  ///< none where all were seen
   SkinBorder medial_;
   SkinBorder lateral_;
 };

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/foot/standing_heel.h"
 #include "core/foot/stationary_reach.h"
 
 namespace instep {
@@ -101,7 +102,8 @@ std::optional<Landmark> find_heel_lateral(const FootOutline& outline, HeelBreadt
   return at_heel(outline.lateral(), heel_breadth_place(outline, rule), rule);
 }
 
-std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep) {
+std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep,
+                                        HeelStance stance) {
   const double length = outline.length_mm();
   const Vector3d down = -rising(kHeelSlope);
   const auto heel = side_view(outline, down, [&](const Vector3d& point) {
@@ -116,15 +118,11 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
                                  : seen_from_side(place, instep.position_mm);
   });
   if (!point || is_under_floor(*point)) return std::nullopt;
-  // The round edge of the sole begins about there. Where it was not seen, the place where the
-  // points put for it begin is none to look for.
-  constexpr ReachPatch kOnSeenSkin{10.0, 16.0};
-  constexpr ReachPatch kBesideGuess{8.0, 12.0};
+  constexpr ReachPatch kWide{10.0, 16.0};
   const Vector3d& origin = instep.position_mm;
-  const auto refined =
-      outline.was_seen_below()
-          ? furthest_reach(outline.points(), origin, *point, kOnSeenSkin)
-          : level_reach(outline.points(), origin, *point, kBesideGuess, ReachSort::kFurthest);
+  const auto refined = stance == HeelStance::kOnFloor
+                           ? furthest_of_standing_heel(outline.seen_points(), length, origin)
+                           : furthest_reach(outline.points(), origin, *point, kWide);
   const bool is_in_range =
       refined && std::abs(along.dot(*refined) - middle) <= range && !is_under_floor(*refined);
   return Landmark{is_in_range ? *refined : *point, 0.8,
@@ -157,7 +155,7 @@ std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark
   };
   if (!point || !is_between_rays(*point)) return std::nullopt;
   constexpr ReachPatch kWide{15.0, 10.0};
-  const auto refined = level_reach(outline.points(), origin, *point, kWide, ReachSort::kNearest);
+  const auto refined = nearest_reach(outline.points(), origin, *point, kWide);
   return Landmark{refined && is_between_rays(*refined) ? *refined : *point, 0.7,
                   "point of the back's side view nearest to the heel point"};
 }

@@ -74,7 +74,9 @@ void mark_hindfoot(const FootOutline& outline, bool has_leg, HeelBreadthRule rul
   }
   const auto instep = marking.add("instep_point", find_instep_point(outline));
   if (!instep) return;
-  const auto heel = marking.add("heel_point", find_heel_point(outline, *instep));
+  const auto heel = marking.add(
+      "heel_point",
+      find_heel_point(outline, *instep, has_leg ? HeelStance::kOnFloor : HeelStance::kRaised));
   if (heel && has_leg) marking.add("junction", find_junction(outline, *heel));
   const auto lateral = marking.add("lateral_midfoot", find_lateral_midfoot(outline, *instep));
   if (lateral) marking.add("medial_arch", find_medial_arch(outline, *instep, *lateral));

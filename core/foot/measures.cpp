@@ -198,7 +198,7 @@ std::vector<GirthRule> girth_rules(const FootScan& foot) {
        {"heel_point", "junction"},
        "stretched tape round the heel point and over the junction of foot and leg, square to the "
        "side view",
-       0.7},
+       0.4},
       {"long_heel_girth",
        long_heel_tape,
        {"heel_point", "instep_point"},

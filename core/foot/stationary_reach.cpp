@@ -132,8 +132,8 @@ double bend_around(const SmoothTerms& c, const Vector2d& place) {
   return 2.0 * c(2) + 6.0 * c(3) * place.x();
 }
 
-/// Newton's way to where a smooth surface is level, and on the way round furthest or nearest.
-std::optional<Vector2d> level_place(const SmoothTerms& c, ReachSort sort) {
+/// Newton's way to where a smooth surface is level, and nearest on the way round.
+std::optional<Vector2d> nearest_place(const SmoothTerms& c) {
   constexpr int kSteps = 8;
   Vector2d place = Vector2d::Zero();
   for (int step = 0; step < kSteps; ++step) {
@@ -148,21 +148,19 @@ std::optional<Vector2d> level_place(const SmoothTerms& c, ReachSort sort) {
     place -= bend.inverse() * slope;
     if (!(place.cwiseAbs().maxCoeff() < 1.0)) return std::nullopt;
   }
-  const double bend = bend_around(c, place);
-  const bool is_wanted = sort == ReachSort::kFurthest ? bend < 0.0 : bend > 0.0;
-  return is_wanted ? std::optional(place) : std::nullopt;
+  return bend_around(c, place) > 0.0 ? std::optional(place) : std::nullopt;
 }
 
-std::optional<SeenPoint> level_point(const SeenPatch& patch, ReachSort sort) {
+std::optional<SeenPoint> nearest_point(const SeenPatch& patch) {
   const auto first = SmoothFit::to(patch, smooth_terms);
   if (!first) return std::nullopt;
   const auto kept = without_strays(
       patch, [&](const SeenPoint& point) { return first->terms.dot(smooth_terms(point)); });
   if (kept.size() < kFewestPoints) return std::nullopt;
   const auto fit = SmoothFit::to(kept, smooth_terms);
-  const auto level = fit ? level_place(fit->terms, sort) : std::nullopt;
-  if (!level) return std::nullopt;
-  SeenPoint point{level->x(), level->y(), 0.0};
+  const auto nearest = fit ? nearest_place(fit->terms) : std::nullopt;
+  if (!nearest) return std::nullopt;
+  SeenPoint point{nearest->x(), nearest->y(), 0.0};
   point.reach = fit->terms.dot(smooth_terms(point));
   return point;
 }
@@ -249,11 +247,10 @@ std::optional<Vector3d> found_from(const std::vector<Vector3d>& points, const Ve
 
 }  // namespace
 
-std::optional<Vector3d> level_reach(const std::vector<Vector3d>& points, const Vector3d& axis_place,
-                                    const Vector3d& start, const ReachPatch& patch,
-                                    ReachSort sort) {
-  return found_from(points, axis_place, start, patch,
-                    [sort](const SeenPatch& seen) { return level_point(seen, sort); });
+std::optional<Vector3d> nearest_reach(const std::vector<Vector3d>& points,
+                                      const Vector3d& axis_place, const Vector3d& start,
+                                      const ReachPatch& patch) {
+  return found_from(points, axis_place, start, patch, nearest_point);
 }
 
 std::optional<Vector3d> furthest_reach(const std::vector<Vector3d>& points,

@@ -12,9 +12,6 @@ struct ReachPatch {
   double across_mm = 0.0;  ///< along the axis
 };
 
-/// Which stationary distance is wanted, of those on the way round the axis.
-enum class ReachSort { kFurthest, kNearest };
-
 /// The place of the skin, near `start`, where its distance from an axis across the foot is
 /// stationary: largest or smallest on the way round, and level across. The axis runs along y
 /// through `axis_place`.
@@ -24,11 +21,10 @@ enum class ReachSort { kFurthest, kNearest };
 /// patch reaches. Nothing where too few points are near, where a half-width is not > 0, or
 /// where nothing in the patch is stationary in the way that is asked for.
 
-/// Where the skin is smooth: a cubic over the way round, a parabola across.
-std::optional<Eigen::Vector3d> level_reach(const std::vector<Eigen::Vector3d>& points,
-                                           const Eigen::Vector3d& axis_place,
-                                           const Eigen::Vector3d& start, const ReachPatch& patch,
-                                           ReachSort sort);
+/// Where smooth skin is nearest to the axis on the way round: a cubic over it, a parabola across.
+std::optional<Eigen::Vector3d> nearest_reach(const std::vector<Eigen::Vector3d>& points,
+                                             const Eigen::Vector3d& axis_place,
+                                             const Eigen::Vector3d& start, const ReachPatch& patch);
 
 /// Where the skin is furthest from the axis and may bend more on the one side than on the other, as
 /// a heel does where the round edge of the sole begins: two parabolas over the way round that meet

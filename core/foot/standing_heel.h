@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace instep {
+
+/// Where the side view of a heel that stands on the floor is furthest from a place over and before
+/// it, such as the instep point: there a tape comes round the heel.
+///
+/// That place lies about where the round edge of the sole begins. A patch round it tells it badly:
+/// where it is hangs on how the skin bends to either side, and the noise of few points hides just
+/// that. So the whole back of the heel is fitted at once, by the distances of the points to it: a
+/// wall that bends evenly on the way up and across, and an edge by which it goes over into the
+/// floor in an arc or nearly so. That the edge has to reach the floor, and that the wall above goes
+/// on as evenly as it came down, says most of what the patch does not. What lies far off the skin
+/// that most points show does not count. How high the edge begins is held near what is usual, which
+/// decides only where no point tells, as under a sole that was not seen.
+///
+/// `points`: those seen, foot frame (core/foot/foot_scan.h: pternion over the origin, floor at z =
+/// 0), of the heel or of all the foot. Nothing where they show no such heel, or where the place
+/// would be at the floor or too high for the wall to tell. O(n), some milliseconds for 50,000
+/// points.
+std::optional<Eigen::Vector3d> furthest_of_standing_heel(const std::vector<Eigen::Vector3d>& points,
+                                                         double foot_length_mm,
+                                                         const Eigen::Vector3d& place);
+
+}  // namespace instep
