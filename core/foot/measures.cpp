@@ -24,6 +24,9 @@ namespace {
 constexpr double kLeastGirthShare = 0.65;
 constexpr double kMostGirthShare = 1.65;
 
+// Heels are about a quarter of the foot's length; where one side was not seen, a sliver is left.
+constexpr double kLeastHeelShare = 0.125;
+
 // Over drawn feet (tests/bench/feet) heights are out by half a millimetre with the floor that they
 // are counted from, which the scatter of the redraws does not show; at the toes by more, since a
 // floor that leans by a third of a degree has no contact there to tell it.
@@ -256,9 +259,20 @@ std::string addition_of(const std::string& id, const MeasuringRules& rules) {
   return id == "heel_breadth" ? description(rules.heel_breadth) : "";
 }
 
+/// Of the foot itself only: redraws that fell out would hide how uncertain a breadth is.
+Result<void> check_heel(double breadth_mm, const FootScan& foot) {
+  const auto length = foot_length(foot.landmarks);
+  if (!length || breadth_mm >= kLeastHeelShare * *length) return {};
+  return fail(ErrorCode::kInsufficientData, "the heel is too narrow for a whole one",
+              "scan the foot again, from all sides");
+}
+
 Result<Measure> take(const LengthRule& rule, const FootScan& foot) {
   const auto length = rule.length(foot.landmarks);
   if (!length) return tl::unexpected(length.error());
+  if (rule.length == heel_breadth) {
+    if (auto whole = check_heel(*length, foot); !whole) return tl::unexpected(whole.error());
+  }
   Measure measure;
   measure.id = rule.id;
   auto u95 = u95_of(rule, foot);

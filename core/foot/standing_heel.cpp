@@ -30,6 +30,7 @@ constexpr double kFloorSpreadMm = 0.3;
 
 constexpr int kMostRounds = 12;
 constexpr double kNudgeMm = 1e-4;
+constexpr double kLeastDetermined = 1e-14;  ///< less is what rounding makes of nothing
 constexpr double kStandsStillMm = 1e-3;
 constexpr double kMostStepMm = 3.0;
 constexpr double kFirstLimitMm = 6.0;
@@ -176,7 +177,10 @@ std::optional<Unknowns> Heel::step(const std::vector<WeighedPoint>& points, doub
   hold(kEdge, kUsualEdgeMm, kEdgeSpreadMm);
   hold(kFloor, 0.0, kFloorSpreadMm);
   if (height == EdgeHeight::kKept) hold(kEdge, edge(), kNudgeMm);
-  const Unknowns found = normal.ldlt().solve(right);
+  const Eigen::LDLT<Eigen::Matrix<double, kUnknowns, kUnknowns>> solver(normal);
+  const auto sizes = solver.vectorD().cwiseAbs();
+  if (!(sizes.minCoeff() > kLeastDetermined * sizes.maxCoeff())) return std::nullopt;
+  const Unknowns found = solver.solve(right);
   if (!found.allFinite()) return std::nullopt;
   return std::min(1.0, kMostStepMm / found.cwiseAbs().maxCoeff()) * found;
 }
@@ -237,6 +241,7 @@ std::optional<Vector3d> Heel::furthest_from(const Vector3d& place) const {
 
 std::optional<Vector3d> furthest_of_standing_heel(const std::vector<Vector3d>& points,
                                                   double foot_length_mm, const Vector3d& place) {
+  if (!(foot_length_mm > 0.0) || !std::isfinite(foot_length_mm)) return std::nullopt;
   Heel heel(foot_length_mm);
   const auto own = heel.points_of(points);
   if (own.size() < kFewestPoints || !heel.settles(own)) return std::nullopt;

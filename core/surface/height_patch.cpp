@@ -97,7 +97,7 @@ std::optional<Fit> likeliest_exact_fit(const HeightSamples& samples, HeightKrigi
   auto fit = exact_fit(std::move(cubic), usual);
   for (const auto& [kernel, least_gain] : kSmootherKernels) {
     auto smoother = exact_fit(HeightKriging::of(samples, fewest_terms(kernel), kernel), usual);
-    if (!smoother || (fit && smoother->misfit + least_gain >= fit->misfit)) break;
+    if (!smoother || (fit && !(smoother->misfit + least_gain < fit->misfit))) break;
     fit = std::move(smoother);
   }
   return fit;

@@ -31,10 +31,10 @@ bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
 }
 
-/// Whether the commas are those of decimals: one in a word at most, between digits, and something
-/// else parts the words.
+/// Whether the commas are those of decimals: one in a word at most, between digits, something else
+/// parts the words, and no number has a decimal point, beside which commas part thousands.
 bool has_decimal_commas(std::string_view line) {
-  if (line.find(',') == line.npos) return false;
+  if (line.find(',') == line.npos || line.find('.') != line.npos) return false;
   int words = 0;
   for (auto word = take_word(line, kSeparatorsButCommas); !word.empty();
        word = take_word(line, kSeparatorsButCommas)) {
@@ -46,6 +46,12 @@ bool has_decimal_commas(std::string_view line) {
     if (!between_digits || word.find(',', comma + 1) != word.npos) return false;
   }
   return words > 1;
+}
+
+/// But for a semicolon that ends the line, as programs write the rows of a matrix.
+bool has_commas_and_semicolons(std::string_view line) {
+  const std::string_view row = line.substr(0, line.find_last_not_of(" \t;") + 1);
+  return row.find(',') != row.npos && row.find(';') != row.npos;
 }
 
 Row parse_row(std::string_view line) {
@@ -93,13 +99,14 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
       continue;
     }
     if (!is_point(row)) return bad_line(file, number, "is no point");
-    if (line->find(',') != line->npos) {
+    if (line->find_first_of(",.") != line->npos) {
       const bool decimal = has_decimal_commas(*line);
       if (decimal_commas.value_or(decimal) != decimal) {
-        return bad_line(file, number, "has commas within numbers or between them, unlike others");
+        return bad_line(file, number,
+                        "has decimal commas and others none, or none and others have them");
       }
       decimal_commas = decimal;
-      if (!decimal && line->find(';') != line->npos) {
+      if (!decimal && has_commas_and_semicolons(*line)) {
         return bad_line(file, number, "has commas and semicolons, so the numbers cannot be told");
       }
     }

@@ -9,9 +9,9 @@
 namespace instep {
 
 /// Reads points from lines of text: x y z, or x y z nx ny nz, parted by spaces, tabs, commas or
-/// semicolons, with decimal points or, where no commas part them, decimal commas. Empty lines,
-/// comments (# or //) and one heading line before the first point are passed over; so is a lone
-/// count of points there.
+/// semicolons, with decimal points or, where no commas part them and there are no decimal points,
+/// decimal commas. A semicolon may end a line. Empty lines, comments (# or //) and one heading line
+/// before the first point are passed over; so is a lone count of points there.
 ///
 /// Fails with kCorruptData and the number of the line where another line is no point or has another
 /// number of columns than the first, and where it cannot be told what commas mean.

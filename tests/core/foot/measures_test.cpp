@@ -219,6 +219,46 @@ TEST(Measures, WithholdWhatNoDecisionCouldRestOn) {
   EXPECT_EQ(useless->measures.size() + 1, useful->measures.size());
 }
 
+/// As where the cloud has one side of the heel alone.
+TEST(Measures, WithholdTheBreadthOfASliverOfAHeel) {
+  MeasureOptions options;
+  options.girth = no_girth;
+  FootScan foot = prepared(FootBody{}.points());
+  const Vector3d medial = foot.landmarks.at("heel_breadth_medial").position_mm;
+  foot.landmarks.at("heel_breadth_lateral").position_mm = medial - Vector3d(0.0, 12.0, 0.0);
+  const auto set = measure_foot(foot, options);
+  ASSERT_TRUE(set) << set.error().line();
+  EXPECT_EQ(set->find("heel_breadth"), nullptr);
+  const auto withheld =
+      std::find_if(set->withheld.begin(), set->withheld.end(),
+                   [](const WithheldMeasure& one) { return one.id == "heel_breadth"; });
+  ASSERT_NE(withheld, set->withheld.end());
+  EXPECT_NE(withheld->reason.find("too narrow"), std::string::npos) << withheld->reason;
+}
+
+/// The rest does not hang on the length's interval, and a toe's angle has a limit of its own.
+TEST(Measures, WithholdEvenALengthOrAnAngleThatIsUseless) {
+  MeasureOptions options;
+  options.girth = no_girth;
+  FootScan foot = prepared(FootBody{}.points());
+  double sign = 1.0;
+  for (auto& redrawn : foot.redraws.landmarks) {
+    redrawn.landmarks.at("acropodion").position_mm.x() += 100.0 * sign;
+    redrawn.landmarks.at("toe1_contact").position_mm.y() += 40.0 * sign;
+    sign = -sign;
+  }
+  const auto set = measure_foot(foot, options);
+  ASSERT_TRUE(set) << set.error().line();
+  EXPECT_NE(set->find("foot_breadth"), nullptr);
+  for (const auto& [id, unit] : {std::pair("foot_length", " mm"), {"toe1_angle", " degrees"}}) {
+    EXPECT_EQ(set->find(id), nullptr) << id;
+    const auto withheld = std::find_if(set->withheld.begin(), set->withheld.end(),
+                                       [&](const WithheldMeasure& one) { return one.id == id; });
+    ASSERT_NE(withheld, set->withheld.end()) << id;
+    EXPECT_NE(withheld->reason.find(unit), std::string::npos) << withheld->reason;
+  }
+}
+
 TEST(Measures, WithholdWhatHangsOnAMissingLandmark) {
   auto foot = prepared(FootBody{}.points());
   foot.landmarks.erase("medial_arch");

@@ -181,7 +181,20 @@ TEST(StandingHeel, IsNotFoundInPointsThatShowNone) {
   EXPECT_TRUE(!on_floor || on_floor->allFinite());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(by_standing_heel(std::vector<Vector3d>(100, Vector3d(nan, nan, nan))));
-  EXPECT_FALSE(furthest_of_standing_heel(heels().front().points(1), 0.0, kInstep));
+  // One place, and one upright line: they tell nothing of how the wall goes on beside them.
+  std::vector<Vector3d> line;
+  for (double up = 0.0; up < 25.0; up += 0.1) line.emplace_back(0.0, 0.0, up);
+  EXPECT_FALSE(by_standing_heel(std::vector<Vector3d>(100, Vector3d(0.0, 0.0, 10.0))));
+  EXPECT_FALSE(by_standing_heel(line));
+}
+
+TEST(StandingHeel, IsNotFoundInAFootOfNoLength) {
+  const auto points = heels().front().points(1);
+  EXPECT_TRUE(furthest_of_standing_heel(points, kLength, kInstep));
+  for (const double length : {0.0, -kLength, std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(furthest_of_standing_heel(points, length, kInstep)) << length;
+  }
 }
 
 }  // namespace

@@ -234,9 +234,10 @@ TEST_F(CloudFiles, NamesTheUnitOfAFootThatIsTooSmallOrTooLarge) {
 
 /// As tables are written where a comma marks the decimals; six numbers would be points of no body.
 TEST_F(CloudFiles, ReadsDecimalCommas) {
-  for (const std::string text : {"x;y;z\n1,5;-2,25;3\n4;5;6,125\n", "1,5 -2,25 3\n4 5 6,125\n",
-                                 "1,5\t-2,25\t3,0\r\n4,0\t5,0\t6,125\r\n",
-                                 "1.5,-2.25,3\n4,5,6.125 \n", "1.5, -2.25, 3\n4 , 5 , 6.125\n"}) {
+  for (const std::string text :
+       {"x;y;z\n1,5;-2,25;3\n4;5;6,125\n", "1,5 -2,25 3\n4 5 6,125\n",
+        "1,5\t-2,25\t3,0\r\n4,0\t5,0\t6,125\r\n", "1.5,-2.25,3\n4,5,6.125 \n",
+        "1.5, -2.25, 3\n4 , 5 , 6.125\n", "1.5, -2.25, 3;\n4, 5, 6.125;\n"}) {
     const auto file = read("table.csv", text);
     ASSERT_TRUE(file) << text << file.error().line();
     ASSERT_EQ(file->cloud.size(), 2U) << text;
@@ -283,6 +284,11 @@ TEST_F(CloudFiles, TellsEveryFault) {
   expect_fault("comma.csv", "1,2;3,4,5;6\n", corrupt, "cannot be told");
   expect_fault("comma.csv", "1,5 2,5 3,5\n1,2,3\n", corrupt, "line 2");
   expect_fault("comma.csv", "1,2,3\n1,5 2,5 3,5\n", corrupt, "line 2");
+  // Commas that part thousands, as decimal points in the line or in another one show.
+  expect_fault("comma.csv", "1,234 500.5 30.25\n999 500 30\n", corrupt, "line 1");
+  expect_fault("comma.csv", "1,234.5 500 30\n999 500 30\n", corrupt, "line 1");
+  expect_fault("comma.csv", "1,234 500 30\n999.5 500 30\n", corrupt, "line 2");
+  expect_fault("comma.csv", "999.5 500 30\n1,234 500 30\n", corrupt, "line 2");
   expect_fault("picture.jpg", "\xff\xd8\xff\xe0 JFIF", ErrorCode::kUnsupported, "give PLY");
   EXPECT_EQ(read_cloud_file(folder_.path() / "missing.ply", LengthUnit::kAuto).error().code,
             ErrorCode::kNotFound);
