@@ -27,4 +27,8 @@ T median(std::vector<T> values) {
   return *middle;
 }
 
+/// Three standard deviations of a normal spread, in medians of its absolute values: what lies
+/// further off is taken for a stray.
+inline constexpr double kThreeSigmasInMedians = 4.5;
+
 }  // namespace instep

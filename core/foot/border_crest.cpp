@@ -18,7 +18,6 @@ constexpr double kStandsStillMm = 0.01;
 constexpr double kDeepestMm = 8.0;  ///< under the start: beyond is another face
 constexpr std::size_t kFewestPoints = 12;
 constexpr std::size_t kFewestOnASide = 4;
-constexpr double kTimesMedian = 4.5;  ///< three standard deviations
 constexpr double kLeastLimitMm = 1.5;
 
 /// A point as seen from a patch's middle: along, across, outwards.
@@ -74,7 +73,7 @@ std::optional<Terms> skin_of(std::vector<Local> points, const CrestPatch& patch)
   std::vector<double> sizes;
   sizes.reserve(points.size());
   for (const auto& point : points) sizes.push_back(off(point));
-  const double limit = std::max(kTimesMedian * median(std::move(sizes)), kLeastLimitMm);
+  const double limit = std::max(kThreeSigmasInMedians * median(std::move(sizes)), kLeastLimitMm);
   std::erase_if(points, [&](const Local& point) { return off(point) > limit; });
   return are_enough(points) ? fitted(points, patch) : std::nullopt;
 }

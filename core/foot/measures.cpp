@@ -359,7 +359,7 @@ bool is_useless(const Measure& measure) {
 std::string why_useless(const Measure& measure) {
   return "it is told to no better than +-" + std::to_string(std::lround(*measure.u95())) +
          (measure.value_deg ? " degrees" : " mm") +
-         ": scan again, with one foot alone in full view of all cameras";
+         ": scan again with more frames, and one foot alone in full view of all cameras";
 }
 
 /// What a shoe last has nothing of: no scan brings it.

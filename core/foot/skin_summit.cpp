@@ -14,7 +14,6 @@ using Eigen::Vector3d;
 using Terms = Eigen::Matrix<double, 6, 1>;
 
 constexpr std::size_t kFewestPoints = 8;
-constexpr double kTimesMedian = 4.5;  ///< three standard deviations
 constexpr double kLeastLimitMm = 0.05;
 
 Terms terms(double x, double y) {
@@ -51,7 +50,7 @@ std::optional<QuadraticSkin> QuadraticSkin::through(const SkinPatch& points) {
   for (const auto& point : points) {
     off.push_back(std::abs(point.z() - first->dot(terms(point.x(), point.y()))));
   }
-  const double limit = std::max(kTimesMedian * median(std::move(off)), kLeastLimitMm);
+  const double limit = std::max(kThreeSigmasInMedians * median(std::move(off)), kLeastLimitMm);
   QuadraticSkin skin;
   skin.coefficients_ = fitted(points, &*first, limit).value_or(*first);
   return skin;

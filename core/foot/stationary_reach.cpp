@@ -18,7 +18,6 @@ constexpr int kMostRounds = 6;
 constexpr double kStandsStillMm = 0.03;
 constexpr double kDeepestMm = 5.0;  ///< off the start: beyond is another face
 constexpr std::size_t kFewestPoints = 24;
-constexpr double kTimesMedian = 4.5;  ///< three standard deviations
 constexpr double kLeastLimitMm = 0.05;
 constexpr double kMostAround = 0.8;  ///< of the patch, within which a place is looked for
 constexpr double kSearchStep = 0.1;
@@ -109,7 +108,7 @@ SeenPatch without_strays(const SeenPatch& patch, const Surface& surface) {
   std::vector<double> off;
   off.reserve(patch.size());
   for (const auto& point : patch) off.push_back(std::abs(point.reach - surface(point)));
-  const double limit = std::max(kTimesMedian * median(off), kLeastLimitMm);
+  const double limit = std::max(kThreeSigmasInMedians * median(off), kLeastLimitMm);
   SeenPatch kept;
   for (std::size_t i = 0; i < patch.size(); ++i) {
     if (off[i] <= limit) kept.push_back(patch[i]);
