@@ -11,6 +11,7 @@
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
+#include "core/girth/smooth_section.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {
@@ -134,6 +135,20 @@ void largest_first(std::vector<Loop>& loops) {
   });
 }
 
+/// The section as one even skin where it is that, else as its patches tell it.
+MeasuredSection measured(const PointCloud& cloud, const TapePlane& plane,
+                         const GirthOptions& options, const PlaneBand& band,
+                         const std::vector<Loop>& loops, const BlendedSurface& surface) {
+  const Contour& contour = loops.front().contour;
+  if (loops.size() == 1) {
+    const bool own_sigma = !options.sigma_mm && cloud.has_sigma();
+    if (auto smooth = smooth_section(cloud, plane, band, contour, own_sigma)) return *smooth;
+  }
+  const LengthDoubt doubt = doubt_of(contour, surface);
+  return {contour, contour.length() + doubt.waves, contour.tape_length() + doubt.waves,
+          doubt.contact_u95, doubt.stretched_u95};
+}
+
 /// What whoever reads the girth should know. `doubt`: half of the interval, against the length.
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
                   const SectionEvidence& evidence, double doubt, Girth& girth) {
@@ -181,25 +196,26 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
-  const LengthDoubt doubt = doubt_of(contour, surface);
-  if (!(doubt.stretched_u95 <= kMostDoubt * length)) {
+  const auto section = measured(cloud, plane, options, *band, loops, surface);
+  const double doubt = section.stretched_u95 / length;
+  if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,
                 "the points near the tape plane are too few or too noisy to tell the girth",
                 "scan again, with more or better frames");
   }
 
   Girth girth;
-  girth.contact_mm = band->unit_mm * (length + doubt.waves);
-  for (const auto& point : contour.refined(kPiecesOfChord))
+  girth.contact_mm = band->unit_mm * section.contact;
+  for (const auto& point : section.contour.refined(kPiecesOfChord))
     girth.contour.push_back(band->to_plane(point));
-  girth.stretched_mm = band->unit_mm * (contour.tape_length() + doubt.waves);
-  girth.contact_u95_mm = band->unit_mm * doubt.contact_u95;
-  girth.stretched_u95_mm = band->unit_mm * doubt.stretched_u95;
+  girth.stretched_mm = band->unit_mm * section.stretched;
+  girth.stretched_u95_mm = band->unit_mm * section.stretched_u95;
+  girth.contact_u95_mm = band->unit_mm * section.contact_u95;
   girth.points = cloud.size();
   girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
   girth.largest_gap_mm = band->unit_mm * evidence.seen_gap;
-  add_warnings(*band, loops, evidence, doubt.stretched_u95 / length, girth);
+  add_warnings(*band, loops, evidence, doubt, girth);
   return girth;
 }
 

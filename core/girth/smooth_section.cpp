@@ -1,0 +1,134 @@
+#include "core/girth/smooth_section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/geometry/plane_vectors.h"
+#include "core/girth/contour_turns.h"
+#include "core/girth/fair_line.h"
+#include "core/girth/plane_slab.h"
+#include "core/surface/ribbon_spline.h"
+
+namespace instep {
+namespace {
+
+/// All against the section.
+constexpr double kLeastNoise = 1e-4;
+constexpr double kHalfWidth = 0.2;
+constexpr double kFairKnotsApart = 0.12;
+constexpr double kKnotsApart = 0.06;
+/// Points further from the line are of something else: so far off on the plane, and more by as much
+/// as skin leans.
+constexpr double kReach = 0.03;
+constexpr double kReachInSigmas = 3.0;
+constexpr double kLean = 0.8;
+/// More points tell no more than these do.
+constexpr std::size_t kMostPoints = 12000;
+/// Even skin: what it bends from knot to knot, its scatter against that of the band, and by how
+/// much (radians) it turns more between two knots than beside them. Over drawn shapes, feet and
+/// lasts (tests/bench/accuracy) intervals of even sections hold as they should, of those beyond
+/// these limits in 40 to 75 %.
+constexpr double kMostBending = 0.005;
+constexpr double kMostScatter = 1.15;
+constexpr double kSharpestTurn = 0.15;
+
+constexpr double kDeviations = 1.96;
+constexpr double kLeast = 1e-4;
+
+std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& plane,
+                                   const PlaneBand& band, const FairLine& line, bool own_sigma) {
+  const PlaneSlab slab = slab_of(cloud, plane, kHalfWidth * band.unit_mm);
+  const std::size_t step = 1 + slab.places.size() / kMostPoints;
+  std::vector<RibbonPoint> ribbon;
+  ribbon.reserve(slab.places.size() / step + 1);
+  for (std::size_t i = 0; i < slab.places.size(); i += step) {
+    const Eigen::Vector2d place = (slab.places[i].head<2>() - band.middle_mm) / band.unit_mm;
+    const double off = slab.places[i].z() / band.unit_mm;
+    const auto foot = line.foot_of(place);
+    const double reach = kReach + kReachInSigmas * band.sigma + kLean * std::abs(off);
+    if (!(foot.distance <= reach)) continue;
+    const double sigma =
+        own_sigma ? cloud.sigma_mm[slab.indices[i]] / (band.unit_mm * band.sigma) : 1.0;
+    ribbon.push_back({foot.way, off / kHalfWidth, foot.height, 1.0 / (sigma * sigma)});
+  }
+  return ribbon;
+}
+
+/// Out of the body, of unit length, where the heights lean over the line.
+Eigen::Vector2d outward_at(const FairLine& line, const RibbonSpline& ribbon, double way) {
+  const auto place = line.at(way);
+  const double slope = ribbon.at(way).slope / place.tangent.squaredNorm();
+  return (place.outward - slope * place.tangent).normalized();
+}
+
+/// By how much the section turns more between two knots than beside them, at most: noise blunts a
+/// crease, but does not hide it.
+double sharpest_turn(const FairLine& line, const RibbonSpline& ribbon, int knots) {
+  std::vector<Eigen::Vector2d> outward;
+  for (int knot = 0; knot < knots; ++knot) {
+    outward.push_back(outward_at(line, ribbon, line.length() * knot / knots));
+  }
+  const std::size_t count = outward.size();
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < count; ++i) {
+    turns.push_back(turn_between(outward[i], outward[(i + 1) % count]));
+  }
+  double sharpest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double beside = 0.5 * (turns[(i + 1) % count] + turns[(i + count - 1) % count]);
+    sharpest = std::max(sharpest, std::abs(turns[i] - beside));
+  }
+  return sharpest;
+}
+
+bool is_even(const FairLine& line, const RibbonSpline& ribbon, int knots, double noise) {
+  return ribbon.bending() <= kMostBending && ribbon.sigma() <= kMostScatter * noise &&
+         sharpest_turn(line, ribbon, knots) <= kSharpestTurn;
+}
+
+/// As many corners as the contour had.
+Contour moved(const FairLine& line, const RibbonSpline& ribbon, const std::vector<double>& ways) {
+  Contour contour;
+  for (const double way : ways) {
+    const auto place = line.at(way);
+    contour.points.emplace_back(place.point + ribbon.at(way).value * place.outward);
+    contour.outward.push_back(outward_at(line, ribbon, way));
+  }
+  return contour;
+}
+
+double half_width(const RibbonSpline& ribbon, const std::vector<double>& ways,
+                  const std::vector<double>& turns, double length) {
+  return kDeviations * std::sqrt(ribbon.variance_of_sum(ways, turns)) + kLeast * length;
+}
+
+}  // namespace
+
+std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const TapePlane& plane,
+                                              const PlaneBand& band, const Contour& contour,
+                                              bool own_sigma) {
+  if (!(band.sigma > kLeastNoise)) return std::nullopt;
+  const auto line = FairLine::through(contour, kFairKnotsApart);
+  if (!line) return std::nullopt;
+  const auto knots = static_cast<int>(std::lround(line->length() / kKnotsApart));
+  const auto ribbon =
+      RibbonSpline::through(ribbon_of(cloud, plane, band, *line, own_sigma), line->length(), knots);
+  if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;
+
+  std::vector<double> ways;
+  for (std::size_t i = 0; i < contour.points.size(); ++i) {
+    ways.push_back(line->length() * static_cast<double>(i) /
+                   static_cast<double>(contour.points.size()));
+  }
+  MeasuredSection section{moved(*line, *ribbon, ways)};
+  section.contact = section.contour.length();
+  section.stretched = section.contour.tape_length();
+  const auto turns = turns_of(section.contour);
+  section.contact_u95 = half_width(*ribbon, ways, turns.contact, section.contact);
+  section.stretched_u95 = half_width(*ribbon, ways, turns.stretched, section.contact);
+  return section;
+}
+
+}  // namespace instep
