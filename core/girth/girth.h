@@ -57,8 +57,10 @@ struct Girth {
 /// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
 /// than a tenth of it to each side. Strays and loops that far fewer points make are left out; of
 /// several loops the one round the largest area counts, and the others are named in a warning. A
-/// crease such as a last's featherline stays sharp. The intervals are LengthDoubt's. Deterministic:
-/// the same cloud gives the same bytes.
+/// crease such as a last's featherline stays sharp. Where the points are noisy and the skin even,
+/// the lengths and their intervals are read off one surface through far more points, laid along
+/// that contour (smooth_section()); elsewhere the intervals are LengthDoubt's. Deterministic: the
+/// same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 
