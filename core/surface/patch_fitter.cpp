@@ -347,7 +347,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
       continue;
     }
-    if (smooth->is_smooth() && nearest_only) {
+    if (here.exact && nearest_only && here.nearest.size() <= kPatchPoints) {
       if (auto across = fit_across_lines(here, place, likely)) return across;
     }
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());

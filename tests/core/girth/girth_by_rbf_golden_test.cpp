@@ -36,7 +36,7 @@ std::vector<Golden> goldens() {
   return {
       golden("rings", "cylinder of 10 rings of 120", {}, 0.001),
       golden("rings", "cylinder of 15 rings of 60", {}, 0.001),
-      golden("rings", "cylinder of 15 rings of 30", {}, 0.002),
+      golden("rings", "cylinder of 15 rings of 30", {}, 0.001),
       golden("shapes", "exact shapes, 6000 points", {}, 0.0002),
       golden("shapes", "exact shapes, 1500 points", {}, 0.002),
       golden("shapes", "exact shapes, 450 points", {}, 0.03),
