@@ -14,8 +14,8 @@ namespace {
 
 /// Points of a patch: enough to fit a surface, few enough to solve quickly.
 constexpr std::size_t kPatchPoints = 60;
-/// Of exact points, so many of them are asked first for a crease and for one side of a thin part:
-/// the further ones tell no more of it, but may lie round a second bend or on the other side.
+/// Of exact points, so many of them are asked first for a crease: the further ones tell no more of
+/// it, but may lie round a second one or on the other side of a thin part.
 constexpr std::size_t kNearerPoints = 30;
 /// Variances less than this part of the square of their reach are those of exact points.
 constexpr double kExactVariance = 1e-10;
@@ -102,10 +102,6 @@ double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
 /// spans it and is not put forth from one side.
 PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
   auto first = index_.nearest(place, kPatchPoints);
-  if (are_exact(first) && first.size() > kNearerPoints && is_thin(first)) {
-    const Neighbours nearer(first.begin(), first.begin() + kNearerPoints);
-    if (!is_thin(nearer)) return nearer;
-  }
   auto nearest = first;
   for (std::size_t count = kMoreInAHole * kPatchPoints / 2;; count = kMoreInAHole * count / 2) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -290,6 +286,18 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
                       0.0};
 }
 
+/// A crease that the nearer points of a thin part tell, if they all lie on one side of it: a field
+/// in space would round it.
+std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& surroundings,
+                                                            const Eigen::Vector3d& place) const {
+  if (!surroundings.exact || surroundings.nearest.size() <= kNearerPoints) return std::nullopt;
+  const auto nearest = surroundings.nearest.begin();
+  if (is_thin({nearest, nearest + kNearerPoints})) return std::nullopt;
+  const Members members = members_of(surroundings, place, surroundings.reach);
+  if (members.all.size() <= kNearerPoints) return std::nullopt;
+  return fit_creased(surroundings, place, nearer_of(members, place), surroundings.roughness);
+}
+
 /// A patch of as many points, but of more lines and fewer points of each, where the points lie on
 /// lines so far apart that few of these are among the nearest. As smooth a surface tells all the
 /// more of a place by them; a rougher one would only have more bends in the patch, and nothing is
@@ -326,7 +334,10 @@ std::optional<SurfacePatch> PatchFitter::fit_across_lines(Surroundings surroundi
 
 std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const {
   const Surroundings here = surroundings_of(place);
-  if (is_thin(here.nearest)) return fit_in_space(here, place);
+  if (is_thin(here.nearest)) {
+    if (auto creased = fit_creased_nearby(here, place)) return creased;
+    return fit_in_space(here, place);
+  }
   const double narrowest = std::max(here.reach, kLeastReach);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   for (int attempt = 1;; ++attempt) {
@@ -347,7 +358,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
       continue;
     }
-    if (here.exact && nearest_only && here.nearest.size() <= kPatchPoints) {
+    if (smooth->is_smooth() && nearest_only && here.nearest.size() <= kPatchPoints) {
       if (auto across = fit_across_lines(here, place, likely)) return across;
     }
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());

@@ -99,6 +99,8 @@ class PatchFitter {
   std::optional<SurfacePatch> fit_creased(const Surroundings& surroundings,
                                           const Eigen::Vector3d& place, const Members& members,
                                           double roughness) const;
+  std::optional<SurfacePatch> fit_creased_nearby(const Surroundings& surroundings,
+                                                 const Eigen::Vector3d& place) const;
   std::optional<SurfacePatch> fit_across_lines(Surroundings surroundings,
                                                const Eigen::Vector3d& place,
                                                double roughness) const;

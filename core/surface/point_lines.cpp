@@ -28,16 +28,22 @@ Bins bins_of(const std::vector<Eigen::Vector3d>& arms, const Eigen::Vector3d& ac
   return bins;
 }
 
-/// From one taken bin to the next.
-int widest_step(const Bins& bins) {
+/// From one taken bin to the next: the second widest of all steps, but at most the widest near the
+/// middle. A single wide one is a hole.
+int second_widest_step(const Bins& bins) {
   int widest = 0;
+  int second = 0;
+  int near_middle = 0;
   int last = kBins;
-  for (int bin = kFirstBin; bin < kLastBin; ++bin) {
+  for (int bin = 0; bin < kBins; ++bin) {
     if (!bins[static_cast<std::size_t>(bin)]) continue;
-    widest = std::max(widest, bin - last);
+    const int step = bin - last;
+    second = std::max(second, std::min(step, widest));
+    widest = std::max(widest, step);
+    if (last >= kFirstBin && bin < kLastBin) near_middle = std::max(near_middle, step);
     last = bin;
   }
-  return widest;
+  return std::min(second, near_middle);
 }
 
 }  // namespace
@@ -51,7 +57,7 @@ PointLines lines_among(const std::vector<Eigen::Vector3d>& arms, const Eigen::Ve
   for (int i = 0; i < kDirections; ++i) {
     const double angle = std::numbers::pi * i / kDirections;
     const Eigen::Vector3d across = std::cos(angle) * east + std::sin(angle) * north;
-    const int step = widest_step(bins_of(arms, across, reach));
+    const int step = second_widest_step(bins_of(arms, across, reach));
     if (step <= widest) continue;
     widest = step;
     lines.across = across;

@@ -38,16 +38,36 @@ OrientedPoints plane_points(double sigma) {
   return points;
 }
 
-/// Two sheets, some of their points' distances apart.
-OrientedPoints plate_points(double thickness = kSpacing) {
+/// Two sheets as far apart as their points.
+OrientedPoints plate_points() {
   OrientedPoints points;
   test::RandomNumbers random(2);
   for (const double side : {-1.0, 1.0}) {
     for (int i = 0; i < 2500; ++i) {
       points.push_back(
-          {{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.5 * thickness * side},
+          {{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.5 * kSpacing * side},
            side * Vector3d::UnitZ(),
            0.0});
+    }
+  }
+  return points;
+}
+
+/// A plate over x > 0 and the rim at which it ends.
+OrientedPoints rimmed_plate_points(double thickness) {
+  OrientedPoints points;
+  test::RandomNumbers random(7);
+  const auto about = [&](int step) { return kSpacing * (step + random.uniform(-0.3, 0.3)); };
+  for (int j = -25; j <= 25; ++j) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int i = 0; i < 20; ++i) {
+        points.push_back({{about(i) + 0.5 * kSpacing, about(j), 0.5 * thickness * side},
+                          side * Vector3d::UnitZ(),
+                          0.0});
+      }
+    }
+    for (int k = -1; k <= 1; ++k) {
+      points.push_back({{0.0, about(j), about(k)}, -Vector3d::UnitX(), 0.0});
     }
   }
   return points;
@@ -279,23 +299,28 @@ TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
   }
 }
 
-/// Its nearest points lie on both sides, the nearer half of them on one.
-TEST(PatchFitter, MakesOneSheetOfEachSideOfAPlateThatTheNearerPointsDoNotReachAcross) {
+/// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
+/// one side and the rim.
+TEST(PatchFitter, FindsTheEdgeOfARimWhereThePatchReachesRoundAThinPart) {
   const double thickness = 3.5 * kSpacing;
-  const auto points = plate_points(thickness);
+  const auto points = rimmed_plate_points(thickness);
   const auto fitter = fitter_of(points);
   for (const double side : {-1.0, 1.0}) {
-    const Vector3d place(0.05, -0.1, 0.5 * thickness * side);
-    const auto nearest = fitter.index().nearest(place, 60);
+    const Vector3d edge(0.0, 0.03, 0.5 * thickness * side);
+    const auto nearest = fitter.index().nearest(edge, 60);
     ASSERT_GT(
         std::count_if(nearest.begin(), nearest.end(),
                       [&](const auto& one) { return points[one.index].normal.z() * side < 0.0; }),
         6);
-    const auto patch = fitter.fit(place);
+    const auto patch = fitter.fit(edge);
     ASSERT_TRUE(patch);
-    ASSERT_TRUE(std::holds_alternative<HeightPatch>(patch->field));
-    for (const auto i : patch->members) EXPECT_GT(points[i].normal.z() * side, 0.0);
-    EXPECT_NEAR(patch->at(place + Vector3d(0.02, 0.03, 0.0)).value, 0.0, 1e-9);
+    const auto* creased = std::get_if<CreasedPatch>(&patch->field);
+    ASSERT_NE(creased, nullptr);
+    EXPECT_NEAR(creased->turn(), 0.5 * std::numbers::pi, 0.02);
+    for (const double off : {0.01, 0.03}) {
+      EXPECT_NEAR(patch->at(edge + Vector3d(off, 0.0, 0.0)).value, 0.0, 1e-6);
+      EXPECT_NEAR(patch->at(edge - Vector3d(0.0, 0.0, off * side)).value, 0.0, 1e-6);
+    }
   }
 }
 
@@ -318,20 +343,21 @@ TEST(PatchFitter, FindsOneEdgeOfSeveralThatThePatchReachesOver) {
 }
 
 /// Of the nearest points to a place between columns that are four times as far apart as their
-/// points, all lie on four columns.
+/// points, all lie on four columns or five.
 TEST(PatchFitter, ReachesAcrossTheColumnsOfASmoothSurface) {
   constexpr double kRadius = 0.4;
   constexpr int kColumns = 30;
   const double apart = 2.0 * std::numbers::pi * kRadius / kColumns;
   const auto points = cylinder_columns(kRadius, kColumns, apart / 4.0);
-  const double angle = std::numbers::pi / kColumns;
+  const double angle = 0.4 * 2.0 * std::numbers::pi / kColumns;
   const Vector3d between(kRadius * std::cos(angle), kRadius * std::sin(angle), 0.004);
   const auto patch = fitter_of(points).fit(between);
   ASSERT_TRUE(patch);
   std::set<int> columns;
   for (const auto i : patch->members) {
     const auto& at = points[i].position;
-    columns.insert(static_cast<int>(std::lround(std::atan2(at.y(), at.x()) / (2.0 * angle))));
+    columns.insert(static_cast<int>(
+        std::lround(std::atan2(at.y(), at.x()) * kColumns / (2.0 * std::numbers::pi))));
   }
   EXPECT_GE(columns.size(), 6U);
   EXPECT_LE(patch->members.size(), 60U);

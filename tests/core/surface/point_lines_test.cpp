@@ -89,6 +89,16 @@ TEST(PointLines, PointsOnNoLinesAreAboutTheirSpacingApart) {
   EXPECT_LT(wide, 50);
 }
 
+TEST(PointLines, AHoleIsNoStripBetweenLines) {
+  Arms arms;
+  for (int i = -40; i <= 40; ++i) {
+    for (int j = -40; j <= 40; ++j) {
+      if (std::abs(i) > 10) arms.emplace_back(0.07 * i, 0.07 * j, 0.0);
+    }
+  }
+  EXPECT_LT(lines_among(arms, Vector3d::UnitZ(), kReach).apart, 0.07 + kReach / 30.0);
+}
+
 /// Of points on one side of a hole, the hole is no strip between lines.
 TEST(PointLines, WhatIsFreeBeyondTheOutermostPointsIsNoStrip) {
   Arms arms;
