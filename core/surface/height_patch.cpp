@@ -221,6 +221,10 @@ bool HeightPatch::is_exact() const {
   return are_exact(*kriging_);
 }
 
+bool HeightPatch::is_smooth() const {
+  return kriging_->kernel() == HeightKernel::kSeptic;
+}
+
 double HeightPatch::fine_bending() const {
   if (!is_exact() || !(wander_ > 0.0)) return 1.0;
   return kriging_->left_out(solution_) / wander_;

@@ -54,6 +54,9 @@ class HeightPatch {
   /// Whether the points carry no noise worth smoothing.
   bool is_exact() const;
 
+  /// Whether the points are exact and plainly likelier by the smoothest kernel.
+  bool is_smooth() const;
+
   /// The likeliest; for exact points the given one.
   double roughness() const { return roughness_; }
 

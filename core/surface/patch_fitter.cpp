@@ -7,12 +7,20 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/surface/point_lines.h"
 
 namespace instep {
 namespace {
 
 /// Points of a patch: enough to fit a surface, few enough to solve quickly.
 constexpr std::size_t kPatchPoints = 60;
+/// Of exact points, so many of them are asked first for a crease: the further ones tell no more of
+/// it, but may lie round a second one or on the other side of a thin part.
+constexpr std::size_t kNearerPoints = 30;
+/// Variances less than this part of the square of their reach are those of exact points.
+constexpr double kExactVariance = 1e-10;
+/// Lines further apart than so many spacings are told from a chance gap.
+constexpr double kLinesApart = 1.5;
 /// A place whose points have their middle further off, against their reach, lies in a hole; holes
 /// wider than this part of the body are not spanned.
 constexpr double kOneSided = 0.5;
@@ -89,7 +97,8 @@ double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
   return std::pow(noise_area / of_roughness, 0.2);
 }
 
-/// The nearest points; more of them in a hole, until they lie on all sides, so that the surface
+/// The nearest points; fewer of them, if exact, where all would be on both sides of a thin part,
+/// but these are not; more of them in a hole, until they lie on all sides, so that the surface
 /// spans it and is not put forth from one side.
 PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
   auto first = index_.nearest(place, kPatchPoints);
@@ -105,20 +114,30 @@ PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& pl
   }
 }
 
+/// Of a point, here.
+double PatchFitter::variance_of(const Neighbours& nearest) const {
+  const std::size_t count = std::min(kFacingPoints, nearest.size());
+  double variance = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    variance += points_[nearest[i].index].variance / static_cast<double>(count);
+  }
+  return variance;
+}
+
+bool PatchFitter::are_exact(const Neighbours& nearest) const {
+  return variance_of(nearest) <= kExactVariance * nearest.back().squared_distance;
+}
+
 PatchFitter::Surroundings PatchFitter::surroundings_of(const Eigen::Vector3d& place) const {
   Surroundings here;
   here.nearest = nearest_all_round(place);
   here.reach = std::sqrt(here.nearest.back().squared_distance);
   here.outward = outward_of(here.nearest);
-  const std::size_t count = std::min(kFacingPoints, here.nearest.size());
-  double variance = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    variance += points_[here.nearest[i].index].variance / static_cast<double>(count);
-  }
   const auto found = static_cast<double>(here.nearest.size());
   here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
-  here.noise_area = variance * here.spacing * here.spacing;
+  here.noise_area = variance_of(here.nearest) * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
+  here.exact = are_exact(here.nearest);
   return here;
 }
 
@@ -182,8 +201,20 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
     members.front.push_back(i);
     farthest = std::max(farthest, distance_of(points_[i]));
   }
-  members.front_radius = farthest;
+  // Across lines, points lie beyond the reach of those along them, which all have to serve.
+  members.front_radius = std::min(farthest, members.radius);
   return members;
+}
+
+/// The nearer ones of all, which come nearest first.
+PatchFitter::Members PatchFitter::nearer_of(const Members& members,
+                                            const Eigen::Vector3d& place) const {
+  Members nearer;
+  nearer.all.assign(members.all.begin(), members.all.begin() + kNearerPoints);
+  for (const auto i : nearer.all) nearer.outward += points_[i].normal;
+  nearer.outward.normalize();
+  nearer.radius = (points_[nearer.all.back()].position - place).norm();
+  return nearer;
 }
 
 std::vector<OrientedPoint> PatchFitter::points_at(const std::vector<std::size_t>& indices) const {
@@ -255,15 +286,69 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
                       0.0};
 }
 
+/// A crease that the nearer points of a thin part tell, if they all lie on one side of it: a field
+/// in space would round it.
+std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& surroundings,
+                                                            const Eigen::Vector3d& place) const {
+  if (!surroundings.exact || surroundings.nearest.size() <= kNearerPoints) return std::nullopt;
+  const auto nearest = surroundings.nearest.begin();
+  if (is_thin({nearest, nearest + kNearerPoints})) return std::nullopt;
+  const Members members = members_of(surroundings, place, surroundings.reach);
+  if (members.all.size() <= kNearerPoints) return std::nullopt;
+  return fit_creased(surroundings, place, nearer_of(members, place), surroundings.roughness);
+}
+
+/// A patch of as many points, but of more lines and fewer points of each, where the points lie on
+/// lines so far apart that few of these are among the nearest. As smooth a surface tells all the
+/// more of a place by them; a rougher one would only have more bends in the patch, and nothing is
+/// returned.
+std::optional<SurfacePatch> PatchFitter::fit_across_lines(Surroundings surroundings,
+                                                          const Eigen::Vector3d& place,
+                                                          double roughness) const {
+  std::vector<Eigen::Vector3d> arms;
+  arms.reserve(surroundings.nearest.size());
+  for (const auto& one : surroundings.nearest) arms.push_back(points_[one.index].position - place);
+  const PointLines lines = lines_among(arms, surroundings.outward, surroundings.reach);
+  if (lines.apart < kLinesApart * surroundings.spacing) return std::nullopt;
+  // Half way, by the ratio of the distances, to a patch of as many lines as points of each.
+  const double stretch = lines.apart / surroundings.spacing;
+  const Eigen::Vector3d along = surroundings.outward.cross(lines.across);
+  const auto count = static_cast<double>(surroundings.nearest.size());
+  auto nearest = index_.nearest(place, static_cast<std::size_t>(stretch * count));
+  for (auto& one : nearest) {
+    const Eigen::Vector3d arm = points_[one.index].position - place;
+    one.squared_distance += (1.0 / stretch - 1.0) * std::pow(lines.across.dot(arm), 2) +
+                            (stretch - 1.0) * std::pow(along.dot(arm), 2);
+  }
+  std::sort(nearest.begin(), nearest.end(),
+            [](const auto& a, const auto& b) { return a.squared_distance < b.squared_distance; });
+  nearest.resize(std::min(nearest.size(), surroundings.nearest.size()));
+  surroundings.nearest = std::move(nearest);
+  const Members members = members_of(surroundings, place, surroundings.reach);
+  const auto points = points_at(members.front);
+  auto patch = HeightPatch::fit(points, place, members.outward, members.front_radius, roughness);
+  if (!patch || !patch->is_smooth()) return std::nullopt;
+  return SurfacePatch{
+      place, middle_of(points), members.front_radius, std::move(*patch), members.front, 0.0};
+}
+
 std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const {
   const Surroundings here = surroundings_of(place);
-  if (is_thin(here.nearest)) return fit_in_space(here, place);
+  if (is_thin(here.nearest)) {
+    if (auto creased = fit_creased_nearby(here, place)) return creased;
+    return fit_in_space(here, place);
+  }
   const double narrowest = std::max(here.reach, kLeastReach);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   for (int attempt = 1;; ++attempt) {
     const Members members = members_of(here, place, std::max(width, narrowest));
     // Noise hides a roughness whose bandwidth is wider than the patch.
     const double likely = std::max(here.roughness, here.noise_area / std::pow(members.radius, 5));
+    const bool nearest_only = members.radius <= here.reach;
+    if (here.exact && nearest_only && members.all.size() > kNearerPoints) {
+      if (auto creased = fit_creased(here, place, nearer_of(members, place), likely))
+        return creased;
+    }
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
     const auto points = points_at(members.front);
     auto smooth = HeightPatch::fit(points, place, members.outward, members.front_radius, likely);
@@ -272,6 +357,9 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       width = kWidening * members.radius;
       if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
       continue;
+    }
+    if (smooth->is_smooth() && nearest_only && here.nearest.size() <= kPatchPoints) {
+      if (auto across = fit_across_lines(here, place, likely)) return across;
     }
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
     if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) {

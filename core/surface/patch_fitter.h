@@ -41,9 +41,10 @@ struct SurfacePatch {
 };
 
 /// Chooses what piece of surface the points round a place make, and fits it: as wide as its
-/// neighbours make it, wider where noise asks for it and the surface allows it, and over holes;
-/// with two sheets where the points tell a crease; a field in space where a thin part shows both of
-/// its sides. Read-only: may be used from several threads.
+/// neighbours make it, wider where noise asks for it and the surface allows it, over holes and
+/// across lines that the points of a smooth surface lie on; with two sheets where the points tell a
+/// crease; a field in space where a thin part shows both of its sides. Read-only: may be used from
+/// several threads.
 class PatchFitter {
  public:
   /// At least four points, in a unit in which the body is about one long, whose positions `index`
@@ -68,6 +69,7 @@ class PatchFitter {
     double spacing = 0.0;     ///< between points
     double noise_area = 0.0;  ///< variance of a point times the area it has for itself
     double roughness = 0.0;
+    bool exact = false;  ///< no noise worth smoothing
 
     double bandwidth(double of_roughness) const;
   };
@@ -83,17 +85,25 @@ class PatchFitter {
 
   Neighbours nearest_all_round(const Eigen::Vector3d& place) const;
   Eigen::Vector3d outward_of(const Neighbours& nearest) const;
+  double variance_of(const Neighbours& nearest) const;
+  bool are_exact(const Neighbours& nearest) const;
   Surroundings surroundings_of(const Eigen::Vector3d& place) const;
   void drop_strays(Members& members) const;
   void drop_twins(std::vector<std::size_t>& members, double nearest) const;
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
+  Members nearer_of(const Members& members, const Eigen::Vector3d& place) const;
   bool is_thin(const Neighbours& nearest) const;
   std::optional<SurfacePatch> fit_in_space(const Surroundings& surroundings,
                                            const Eigen::Vector3d& place) const;
   std::optional<SurfacePatch> fit_creased(const Surroundings& surroundings,
                                           const Eigen::Vector3d& place, const Members& members,
                                           double roughness) const;
+  std::optional<SurfacePatch> fit_creased_nearby(const Surroundings& surroundings,
+                                                 const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> fit_across_lines(Surroundings surroundings,
+                                               const Eigen::Vector3d& place,
+                                               double roughness) const;
   std::vector<OrientedPoint> points_at(const std::vector<std::size_t>& indices) const;
 
   std::vector<OrientedPoint> points_;

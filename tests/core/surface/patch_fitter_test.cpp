@@ -53,6 +53,74 @@ OrientedPoints plate_points() {
   return points;
 }
 
+/// A plate over x > 0 and the rim at which it ends.
+OrientedPoints rimmed_plate_points(double thickness) {
+  OrientedPoints points;
+  test::RandomNumbers random(7);
+  const auto about = [&](int step) { return kSpacing * (step + random.uniform(-0.3, 0.3)); };
+  for (int j = -25; j <= 25; ++j) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int i = 0; i < 20; ++i) {
+        points.push_back({{about(i) + 0.5 * kSpacing, about(j), 0.5 * thickness * side},
+                          side * Vector3d::UnitZ(),
+                          0.0});
+      }
+    }
+    for (int k = -1; k <= 1; ++k) {
+      points.push_back({{0.0, about(j), about(k)}, -Vector3d::UnitX(), 0.0});
+    }
+  }
+  return points;
+}
+
+/// Of a hexagonal prism along z, each wall `width` wide; walls begin at edges at whole sixths of a
+/// turn.
+struct Hexagon {
+  double width;
+
+  static double angle(int sixth) { return std::numbers::pi / 3.0 * sixth; }
+  Vector3d edge(int sixth) const {
+    return width * Vector3d(std::cos(angle(sixth)), std::sin(angle(sixth)), 0.0);
+  }
+  static Vector3d normal(int wall) {
+    const double turned = angle(wall) + std::numbers::pi / 6.0;
+    return {std::cos(turned), std::sin(turned), 0.0};
+  }
+  /// `part` of the way from the wall's first edge to its second one.
+  Vector3d at(int wall, double part) const {
+    return (1.0 - part) * edge(wall) + part * edge(wall + 1);
+  }
+
+  OrientedPoints points(int columns, std::uint64_t seed) const {
+    test::RandomNumbers random(seed);
+    const double step = width / columns;
+    OrientedPoints points;
+    for (int wall = 0; wall < 6; ++wall) {
+      for (int row = -20; row <= 20; ++row) {
+        for (int i = 0; i < columns; ++i) {
+          const double part = (i + random.uniform(0.2, 0.8)) / columns;
+          const Vector3d up(0.0, 0.0, step * (row + random.uniform(-0.3, 0.3)));
+          points.push_back({at(wall, part) + up, normal(wall), 0.0});
+        }
+      }
+    }
+    return points;
+  }
+};
+
+/// Columns of points round a cylinder about z, further from each other than their points.
+OrientedPoints cylinder_columns(double radius, int columns, double pitch) {
+  OrientedPoints points;
+  for (int column = 0; column < columns; ++column) {
+    const double angle = 2.0 * std::numbers::pi * column / columns;
+    const Vector3d normal(std::cos(angle), std::sin(angle), 0.0);
+    for (int row = -40; row <= 40; ++row) {
+      points.push_back({radius * normal + row * pitch * Vector3d::UnitZ(), normal, 0.0});
+    }
+  }
+  return points;
+}
+
 std::set<std::size_t> members_of(const SurfacePatch::Sheet& sheet) {
   std::set<std::size_t> members;
   for (std::size_t i = 0; i < sheet.size(); ++i) members.insert(sheet.member(i));
@@ -229,6 +297,71 @@ TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
                 20);
     }
   }
+}
+
+/// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
+/// one side and the rim.
+TEST(PatchFitter, FindsTheEdgeOfARimWhereThePatchReachesRoundAThinPart) {
+  const double thickness = 3.5 * kSpacing;
+  const auto points = rimmed_plate_points(thickness);
+  const auto fitter = fitter_of(points);
+  for (const double side : {-1.0, 1.0}) {
+    const Vector3d edge(0.0, 0.03, 0.5 * thickness * side);
+    const auto nearest = fitter.index().nearest(edge, 60);
+    ASSERT_GT(
+        std::count_if(nearest.begin(), nearest.end(),
+                      [&](const auto& one) { return points[one.index].normal.z() * side < 0.0; }),
+        6);
+    const auto patch = fitter.fit(edge);
+    ASSERT_TRUE(patch);
+    const auto* creased = std::get_if<CreasedPatch>(&patch->field);
+    ASSERT_NE(creased, nullptr);
+    EXPECT_NEAR(creased->turn(), 0.5 * std::numbers::pi, 0.02);
+    for (const double off : {0.01, 0.03}) {
+      EXPECT_NEAR(patch->at(edge + Vector3d(off, 0.0, 0.0)).value, 0.0, 1e-6);
+      EXPECT_NEAR(patch->at(edge - Vector3d(0.0, 0.0, off * side)).value, 0.0, 1e-6);
+    }
+  }
+}
+
+/// The patch reaches over the next edges on both sides, the nearer half of its points does not.
+TEST(PatchFitter, FindsOneEdgeOfSeveralThatThePatchReachesOver) {
+  const Hexagon hexagon{0.08};
+  const auto points = hexagon.points(4, 6);
+  const auto fitter = fitter_of(points);
+  for (const int sixth : {0, 1, 4}) {
+    const auto patch = fitter.fit(hexagon.edge(sixth));
+    ASSERT_TRUE(patch);
+    const auto* creased = std::get_if<CreasedPatch>(&patch->field);
+    ASSERT_NE(creased, nullptr);
+    EXPECT_NEAR(creased->turn(), std::numbers::pi / 3.0, 0.02);
+    for (const double part : {0.1, 0.3, 0.5}) {
+      EXPECT_NEAR(patch->at(hexagon.at(sixth, part)).value, 0.0, 1e-6);
+      EXPECT_NEAR(patch->at(hexagon.at(sixth - 1, 1.0 - part)).value, 0.0, 1e-6);
+    }
+  }
+}
+
+/// Of the nearest points to a place between columns that are four times as far apart as their
+/// points, all lie on four columns or five.
+TEST(PatchFitter, ReachesAcrossTheColumnsOfASmoothSurface) {
+  constexpr double kRadius = 0.4;
+  constexpr int kColumns = 30;
+  const double apart = 2.0 * std::numbers::pi * kRadius / kColumns;
+  const auto points = cylinder_columns(kRadius, kColumns, apart / 4.0);
+  const double angle = 0.4 * 2.0 * std::numbers::pi / kColumns;
+  const Vector3d between(kRadius * std::cos(angle), kRadius * std::sin(angle), 0.004);
+  const auto patch = fitter_of(points).fit(between);
+  ASSERT_TRUE(patch);
+  std::set<int> columns;
+  for (const auto i : patch->members) {
+    const auto& at = points[i].position;
+    columns.insert(static_cast<int>(
+        std::lround(std::atan2(at.y(), at.x()) * kColumns / (2.0 * std::numbers::pi))));
+  }
+  EXPECT_GE(columns.size(), 6U);
+  EXPECT_LE(patch->members.size(), 60U);
+  EXPECT_NEAR(patch->at(between).value, 0.0, 7.5e-5 * kRadius);
 }
 
 TEST(PatchFitter, LeavesOutWhatFacesTheOtherWay) {
