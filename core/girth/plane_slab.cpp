@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -27,8 +28,8 @@ class Reach {
 
   void add(const Eigen::Array2d& x, const Eigen::Array2d& y, const Eigen::Array2d& z) {
     const Eigen::Array2d measures = along_.x() * x + along_.y() * y + along_.z() * z;
-    least_ = least_.min(measures);
-    most_ = most_.max(measures);
+    least_ = measures.min(least_);
+    most_ = measures.max(most_);
   }
   double length() const { return most_.maxCoeff() - least_.minCoeff(); }
 
@@ -54,10 +55,11 @@ bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
 /// As they come.
 PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
   PlaneSlab slab;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double height = plane.distance(cloud.positions[i]);
+  const std::span<const Eigen::Vector3d> points(cloud.positions);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double height = plane.distance(points[i]);
     if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
+    const Eigen::Vector2d place = plane.project(points[i]);
     slab.indices.push_back(i);
     slab.places.emplace_back(place.x(), place.y(), height);
   }
@@ -134,7 +136,7 @@ SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
   Reach along(plane.u());
   Reach across(plane.v());
   Reach above(plane.normal());
-  const auto& points = cloud.positions;
+  const std::span<const Eigen::Vector3d> points(cloud.positions);
   for (std::size_t i = 0; i < points.size(); i += 2) {
     const Eigen::Vector3d& one = points[i];
     const Eigen::Vector3d& other = points[std::min(i + 1, points.size() - 1)];
