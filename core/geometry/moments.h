@@ -10,30 +10,40 @@ namespace instep {
 struct Moments {
   double count = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  ///< the lower triangle; the rest is nothing
 
   void add(const Eigen::Vector3d& arm) {
     count += 1.0;
     sum += arm;
-    squares += arm * arm.transpose();
+    add_products(arm, arm);
   }
 
-  /// Those of other points, whose origin lies at `shift` from this one's.
-  void add(const Moments& other, const Eigen::Vector3d& shift) {
-    count += other.count;
-    squares += other.squares + shift * other.sum.transpose() + other.sum * shift.transpose() +
-               other.count * shift * shift.transpose();
-    sum += other.sum + other.count * shift;
+  /// Those of other points round their own middle, which lies at `arm`.
+  void add(const Moments& others, const Eigen::Vector3d& arm) {
+    const Eigen::Vector3d share = others.count * arm;
+    count += others.count;
+    sum += share;
+    squares += others.squares;
+    add_products(share, arm);
   }
 
   Eigen::Vector3d middle() const { return sum / count; }
 
   /// The direction in which the points spread least; of either sign. At least one point.
   Eigen::Vector3d flattest() const {
-    const Eigen::Matrix3d spread = squares - sum * sum.transpose() / count;
+    Moments round_middle = *this;
+    round_middle.add_products(-sum / count, sum);
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(spread);  // in closed form: a millionth of a radian is far more than enough
+    // In closed form: a millionth of a radian is far more than enough.
+    axes.computeDirect(round_middle.squares);
     return axes.eigenvectors().col(0);
+  }
+
+ private:
+  void add_products(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      for (Eigen::Index row = column; row < 3; ++row) squares(row, column) += a[row] * b[column];
+    }
   }
 };
 

@@ -17,9 +17,15 @@ constexpr double kStrayRatio = 2.2;
 constexpr double kCellInSpacings = 1.5;
 constexpr std::size_t kCompany = 10;
 
+/// Of a point whose `others` nearest others lie at most so far from it.
+double spacing_within(double distance, std::size_t others) {
+  return distance *
+         std::sqrt(std::numbers::pi / static_cast<double>(std::max<std::size_t>(others, 1)));
+}
+
+/// `nearest`: to the point, itself included.
 double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
-  const auto found = static_cast<double>(nearest.size() - 1);
-  return std::sqrt(nearest.back().squared_distance * std::numbers::pi / std::max(found, 1.0));
+  return spacing_within(std::sqrt(nearest.back().squared_distance), nearest.size() - 1);
 }
 
 /// The spacings of points, each looked for once: points that stand apart ask for the same ones.
@@ -28,16 +34,23 @@ class OwnSpacings {
   explicit OwnSpacings(const PointIndex& index)
       : index_(index), known_(index.points().size(), kUnknown) {}
 
+  /// Whether its own spacing is far more than the median one of its neighbours and itself. Asks no
+  /// more of them, nearest first, than it takes to know.
   bool stands_alone(std::size_t point) {
     const auto nearest = nearest_of(point);
     const double own = known_[point] = own_spacing(nearest);
-    std::vector<double> around;
-    for (const auto& neighbour : nearest) {
-      double& spacing = known_[neighbour.index];
-      if (spacing == kUnknown) spacing = own_spacing(nearest_of(neighbour.index));
-      around.push_back(spacing);
+    const double reach = std::sqrt(nearest.back().squared_distance);
+    std::size_t alike = 0;
+    for (const auto& [neighbour, squared_distance] : nearest) {
+      // Its reach is shorter than the point's by no more than lies between the two.
+      const double rest = reach - std::sqrt(squared_distance);
+      if (own <= kStrayRatio * spacing_within(rest, nearest.size() - 1) ||
+          own <= kStrayRatio * spacing_of(neighbour)) {
+        ++alike;
+      }
+      if (alike > (nearest.size() - 1) / 2) return false;
     }
-    return own > kStrayRatio * median(std::move(around));
+    return true;
   }
 
  private:
@@ -45,6 +58,12 @@ class OwnSpacings {
 
   std::vector<PointIndex::Neighbour> nearest_of(std::size_t point) const {
     return index_.nearest(index_.points()[point], kNeighbours + 1);
+  }
+
+  double spacing_of(std::size_t point) {
+    double& spacing = known_[point];
+    if (spacing == kUnknown) spacing = own_spacing(nearest_of(point));
+    return spacing;
   }
 
   const PointIndex& index_;

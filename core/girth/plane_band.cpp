@@ -186,6 +186,7 @@ std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const Tape
 void set_points(const PointCloud& cloud, const TapePlane& plane, bool own_sigma, PlaneBand& band) {
   const auto normals = outward_normals(cloud, plane, band);
   const double least = 1e-9 * band.spacing;
+  band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double sigma =
         std::max(own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : band.sigma, least);

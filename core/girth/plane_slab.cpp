@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -19,16 +20,23 @@ constexpr double kWiderThanOthers = 1.2;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
 
-/// From the least to the most of some numbers.
-struct Reach {
-  double least = std::numeric_limits<double>::infinity();
-  double most = -std::numeric_limits<double>::infinity();
+/// From the least to the most of what a cloud measures along a direction; taken of two points at a
+/// time, which costs no more than of one.
+class Reach {
+ public:
+  explicit Reach(const Eigen::Vector3d& along) : along_(along) {}
 
-  void add(double number) {
-    least = std::min(least, number);
-    most = std::max(most, number);
+  void add(const Eigen::Array2d& x, const Eigen::Array2d& y, const Eigen::Array2d& z) {
+    const Eigen::Array2d measures = along_.x() * x + along_.y() * y + along_.z() * z;
+    least_ = measures.min(least_);
+    most_ = measures.max(most_);
   }
-  double length() const { return most - least; }
+  double length() const { return most_.maxCoeff() - least_.minCoeff(); }
+
+ private:
+  Eigen::Vector3d along_;
+  Eigen::Array2d least_ = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array2d most_ = Eigen::Array2d::Constant(-std::numeric_limits<double>::infinity());
 };
 
 /// A place by its first coordinate, to be put in order with little to move.
@@ -44,15 +52,14 @@ bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
   return std::tuple(one.x(), one.y(), one.z(), a) < std::tuple(other.x(), other.y(), other.z(), b);
 }
 
-/// As they come. `height_of`: of a point over the plane, by its number.
-template <class HeightOf>
-PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width,
-                         const HeightOf& height_of) {
+/// As they come.
+PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
   PlaneSlab slab;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double height = height_of(i);
+  const std::span<const Eigen::Vector3d> points(cloud.positions);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double height = plane.distance(points[i]);
     if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
+    const Eigen::Vector2d place = plane.project(points[i]);
     slab.indices.push_back(i);
     slab.places.emplace_back(place.x(), place.y(), height);
   }
@@ -109,9 +116,7 @@ PlaneSlab ordered_slab(const PlaneSlab& found) {
 }  // namespace
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  return ordered_slab(unordered_slab(cloud, plane, half_width, [&](std::size_t point) {
-    return plane.distance(cloud.positions[point]);
-  }));
+  return ordered_slab(unordered_slab(cloud, plane, half_width));
 }
 
 PlaneSlab within(const PlaneSlab& slab, double half_width) {
@@ -127,16 +132,20 @@ PlaneSlab within(const PlaneSlab& slab, double half_width) {
 }
 
 SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
-    : cloud_(cloud), plane_(plane), heights_(cloud.size()) {
-  Reach along;
-  Reach across;
-  Reach above;
-  for (std::size_t i = 0; i < heights_.size(); ++i) {
-    const Eigen::Vector2d place = plane.project(cloud.positions[i]);
-    heights_[i] = plane.distance(cloud.positions[i]);
-    along.add(place.x());
-    across.add(place.y());
-    above.add(heights_[i]);
+    : cloud_(cloud), plane_(plane) {
+  Reach along(plane.u());
+  Reach across(plane.v());
+  Reach above(plane.normal());
+  const std::span<const Eigen::Vector3d> points(cloud.positions);
+  for (std::size_t i = 0; i < points.size(); i += 2) {
+    const Eigen::Vector3d& one = points[i];
+    const Eigen::Vector3d& other = points[std::min(i + 1, points.size() - 1)];
+    const Eigen::Array2d x(one.x(), other.x());
+    const Eigen::Array2d y(one.y(), other.y());
+    const Eigen::Array2d z(one.z(), other.z());
+    along.add(x, y, z);
+    across.add(x, y, z);
+    above.add(x, y, z);
   }
   size_ = std::hypot(along.length(), across.length(), above.length());
 }
@@ -144,8 +153,7 @@ SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
 PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
-    widest_ = ordered_slab(unordered_slab(cloud_, plane_, half_width_,
-                                          [&](std::size_t point) { return heights_[point]; }));
+    widest_ = slab_of(cloud_, plane_, half_width_);
   }
   return within(widest_, half_width);
 }

@@ -22,9 +22,8 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
 /// Those of a slab that lie at most `half_width` from the plane, in the same order.
 PlaneSlab within(const PlaneSlab& slab, double half_width);
 
-/// Slabs of one cloud at one plane, of widths that only what they hold can tell: measures the
-/// height of each point once, then picks more than is asked for, and seldom again. Borrows the
-/// cloud; takes a third of its memory.
+/// Slabs of one cloud at one plane, of widths that only what they hold can tell: picks more than is
+/// asked for, so that it seldom has to look through the cloud again, which it borrows.
 class SlabSource {
  public:
   /// O(n).
@@ -40,7 +39,6 @@ class SlabSource {
  private:
   const PointCloud& cloud_;
   TapePlane plane_;
-  std::vector<double> heights_;  ///< of the cloud's points
   double size_ = 0.0;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it

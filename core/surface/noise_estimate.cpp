@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "core/median.h"
 #include "core/surface/height_kriging.h"
@@ -25,14 +26,20 @@ constexpr double kRatioStep = 2.0;
 constexpr double kRoughest = 4.0;
 constexpr double kSmoothest = 1e-8;
 constexpr double kRoughnessStep = 0.5;
-constexpr std::size_t kPoints = 60;
+/// Of a neighbourhood so many points count at most, evenly chosen by their distance from its
+/// middle: the work grows with their cube.
+constexpr std::size_t kMostSamples = 60;
 /// Terms of a quadratic in two variables: curvature is shape, not roughness.
 constexpr Eigen::Index kTerms = 6;
 /// A neighbourhood whose thickness is at most this part of its width is flat enough. One that is
 /// not is taken larger, where noise is thicker than the spacing, or smaller, where it bends too
 /// much or reaches across a thin part; the flattest counts.
 constexpr double kFlatEnough = 0.15;
-constexpr std::array<std::size_t, 6> kTriedPoints = {60, 30, 20, 120, 240, 480};
+constexpr std::size_t kNearest = 60;
+constexpr std::array<std::size_t, 3> kTriedFirst = {kNearest, 30, 20};
+constexpr std::array<std::size_t, 3> kTriedThen = {120, 240, 480};
+/// So many times as far as the nearest ones lie some eight times as many.
+constexpr double kWider = 2.83;
 
 /// A neighbourhood's heights in units of its radius.
 struct Neighbourhood {
@@ -46,15 +53,15 @@ struct TangentView {
   double thickness = std::numeric_limits<double>::infinity();  ///< against the width
 };
 
-/// Of the first `count` of the nearest.
+/// `nearest`: to its middle, in that order.
 TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
-                         const std::vector<PointIndex::Neighbour>& nearest, std::size_t count) {
+                         std::span<const PointIndex::Neighbour> nearest) {
   TangentView view;
-  count = std::min(count, nearest.size());
-  const std::size_t stride = (count + kPoints - 1) / kPoints;
-  view.points.resize(3, static_cast<Eigen::Index>((count + stride - 1) / stride));
-  for (std::size_t i = 0; i * stride < count; ++i) {
-    view.points.col(static_cast<Eigen::Index>(i)) = points[nearest[i * stride].index];
+  const std::size_t count = std::min(nearest.size(), kMostSamples);
+  view.points.resize(3, static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t chosen = nearest[i * nearest.size() / count].index;
+    view.points.col(static_cast<Eigen::Index>(i)) = points[chosen];
   }
   view.points.colwise() -= view.points.rowwise().mean().eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(view.points * view.points.transpose());
@@ -64,17 +71,27 @@ TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
   return view;
 }
 
+/// Whether the view of so many of the nearest is flat enough, for one of the counts; the flattest
+/// of those looked at goes into `best`.
+bool find_flat_view(const std::vector<Eigen::Vector3d>& points,
+                    std::span<const PointIndex::Neighbour> nearest,
+                    std::span<const std::size_t> counts, TangentView& best) {
+  for (const std::size_t count : counts) {
+    TangentView view = tangent_view(points, nearest.first(std::min(count, nearest.size())));
+    if (view.thickness < best.thickness) best = std::move(view);
+    if (best.thickness <= kFlatEnough) return true;
+  }
+  return false;
+}
+
 TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                           const Eigen::Vector3d& centre) {
   TangentView best;
-  std::vector<PointIndex::Neighbour> nearest;
-  for (const std::size_t count : kTriedPoints) {
-    if (nearest.empty()) nearest = index.nearest(centre, count);
-    if (nearest.size() < count) nearest = index.nearest(centre, kTriedPoints.back());
-    TangentView view = tangent_view(points, nearest, count);
-    if (view.thickness < best.thickness) best = std::move(view);
-    if (best.thickness <= kFlatEnough) break;
-  }
+  const auto nearest = index.nearest(centre, kNearest);
+  if (find_flat_view(points, nearest, kTriedFirst, best)) return best;
+  // Within a radius many are found far quicker than one by one.
+  const double reach = std::sqrt(nearest.back().squared_distance);
+  find_flat_view(points, index.within(centre, kWider * reach), kTriedThen, best);
   return best;
 }
 

@@ -41,12 +41,13 @@ TEST(Moments, HaveTheMiddleAndTheNormalOfFlatPoints) {
   EXPECT_GT(std::abs(moments.flattest().dot(normal)), 0.999);
 }
 
-TEST(Moments, OfPartsRoundTheirOwnOriginsAddUp) {
+TEST(Moments, OfPartsRoundTheirOwnMiddlesAddUp) {
   const auto points = flat_points(Vector3d::UnitY(), 2);
   const Vector3d first = points[0];
-  const Vector3d second = points[30];
   Moments sum = moments_of(points, 0, 15, first);
-  sum.add(moments_of(points, 15, points.size(), second), second - first);
+  const auto others = moments_of(points, 15, points.size(), first);
+  const Vector3d middle = first + others.middle();
+  sum.add(moments_of(points, 15, points.size(), middle), middle - first);
   const auto whole = moments_of(points, 0, points.size(), first);
   EXPECT_EQ(sum.count, whole.count);
   EXPECT_NEAR((sum.sum - whole.sum).norm(), 0.0, 1e-12);
