@@ -27,6 +27,7 @@ struct PlaneBand {
   double grain = 0.0;                     ///< finest detail that they tell, in the unit
   double sigma = 0.0;                     ///< noise of the points, in the unit
   std::size_t strays = 0;                 ///< points that stood alone and were left out
+  double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
   std::vector<LocalRoughness> roughness;  ///< in the unit
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {

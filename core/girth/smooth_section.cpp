@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/geometry/near_copies.h"
 #include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_turns.h"
 #include "core/girth/fair_line.h"
@@ -37,9 +38,22 @@ constexpr double kSharpestTurn = 0.15;
 constexpr double kDeviations = 1.96;
 constexpr double kLeast = 1e-4;
 
+PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
+  PlaneSlab rest;
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    if (marked[i]) continue;
+    rest.indices.push_back(slab.indices[i]);
+    rest.places.push_back(slab.places[i]);
+  }
+  return rest;
+}
+
 std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& plane,
                                    const PlaneBand& band, const FairLine& line, bool own_sigma) {
-  const PlaneSlab slab = slab_of(cloud, plane, kHalfWidth * band.unit_mm);
+  PlaneSlab slab = slab_of(cloud, plane, kHalfWidth * band.unit_mm);
+  if (band.copies_within > 0.0) {
+    slab = without(near_copies(slab.places, band.copies_within * band.unit_mm), slab);
+  }
   const std::size_t step = 1 + slab.places.size() / kMostPoints;
   std::vector<RibbonPoint> ribbon;
   ribbon.reserve(slab.places.size() / step + 1);

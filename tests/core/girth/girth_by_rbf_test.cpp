@@ -271,6 +271,41 @@ TEST(GirthByRbf, ChoosesTheLargerOfTwoBodiesAndNamesTheOther) {
   EXPECT_NE(girth->warnings.front().find("125.7"), std::string::npos) << girth->warnings.front();
 }
 
+/// A cloud merged with itself: noise that is the same in two points looks like an exact surface.
+TEST(GirthByRbf, TakesNearCopiesForOnePoint) {
+  for (const double apart : {1e-4, 1e-2, 0.1}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      PointCloud cloud = cylinder(3000, 0.3, seed);
+      test::RandomNumbers random(seed);
+      for (std::size_t i = 0; i < 3000; ++i) {
+        const Eigen::Vector3d aside(random.normal(), random.normal(), random.normal());
+        cloud.positions.emplace_back(cloud.positions[i] + apart * aside);
+      }
+      const auto girth = girth_by_rbf(cloud, level_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      EXPECT_NEAR(girth->contact_mm, test::kCylinderGirth, 0.3) << apart << " mm, seed " << seed;
+    }
+  }
+}
+
+/// One in twenty is 20 mm off in any direction, so that some end just beside the skin.
+TEST(GirthByRbf, LeavesOutStraysBesideTheSkin) {
+  for (const double sigma : {0.0, 0.1, 0.5}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+      PointCloud cloud = cylinder(4000, sigma, seed);
+      test::RandomNumbers random(seed);
+      for (std::size_t i = 0; i < cloud.size(); i += 20) {
+        const Eigen::Vector3d way(random.normal(), random.normal(), random.normal());
+        cloud.positions[i] += 20.0 * way.normalized();
+      }
+      const auto girth = girth_by_rbf(cloud, level_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      EXPECT_NEAR(girth->contact_mm, test::kCylinderGirth, 1.0) << sigma << " mm, seed " << seed;
+      EXPECT_FALSE(girth->warnings.empty());
+    }
+  }
+}
+
 TEST(GirthByRbf, LeavesStrayPointsOut) {
   PointCloud cloud = cylinder(6000, 0.1);
   test::RandomNumbers random(4);
