@@ -20,18 +20,19 @@ struct MeasuredSection {
 };
 
 /// The section of noisy points where the skin is even: read off one surface through all points
-/// within a fifth of the section of the plane, not off patches of some tens. Noise leaves of a
-/// girth what it leaves of a mean, and only points further along the body make more of them: to
-/// first order it matters nothing how much is smoothed round the section. RMS errors are 1.2 times
-/// what white noise leaves of any local fit, and half of those of the patches
+/// within a fifth of the section of the plane, or the nearest 20,000, not off patches of some tens.
+/// Noise leaves of a girth what it leaves of a mean, and only points further along the body make
+/// more of them: to first order it matters nothing how much is smoothed round the section. RMS
+/// errors are 1.2 times what white noise leaves of any local fit, and half of those of the patches
 /// (tests/bench/accuracy, noise).
 ///
 /// The patches' contour, made fair, is the line that heights are seen from (FairLine); the heights
-/// are a RibbonSpline. That holds for skin alone that is even: nothing if it bends more from place
-/// to place than a tape round it does, if it scatters more round the spline than the noise, or if
-/// there is no noise to speak of. The caller must know that no crease crosses the section.
+/// are a RibbonSpline. That holds for even skin alone: nothing if it bends more from place to place
+/// than a tape round it does, turns sharply somewhere (noise blunts a crease, but does not hide it)
+/// or scatters more round the spline than the noise, or if there is no noise to speak of.
 ///
 /// `contour` as traced in the band of that cloud and plane; the points of `cloud` need no normals.
+/// `own_sigma`: each point counts by the sigma that the cloud tells of it.
 /// O(points of the cloud).
 std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const TapePlane& plane,
                                               const PlaneBand& band, const Contour& contour,
