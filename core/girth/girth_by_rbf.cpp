@@ -135,18 +135,38 @@ void largest_first(std::vector<Loop>& loops) {
   });
 }
 
-/// The section as one even skin where it is that, else as its patches tell it.
+/// Two readings of one section whose intervals do not even meet: one of them is wrong.
+bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
+  return std::abs(one.contact - other.contact) > one.contact_u95 + other.contact_u95 ||
+         std::abs(one.stretched - other.stretched) > one.stretched_u95 + other.stretched_u95;
+}
+
+/// A stretch without a seen point.
+bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
+  return evidence.seen_gap > kNotableGapInGrains * band.grain;
+}
+
+/// The section as one even skin where it is that, else as its patches tell it: they see a narrow
+/// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
+/// looked is known of the patches alone.
 MeasuredSection measured(const PointCloud& cloud, const TapePlane& plane,
                          const GirthOptions& options, const PlaneBand& band,
-                         const std::vector<Loop>& loops, const BlendedSurface& surface) {
+                         const std::vector<Loop>& loops, const BlendedSurface& surface,
+                         const SectionEvidence& evidence) {
   const Contour& contour = loops.front().contour;
-  if (loops.size() == 1) {
-    const bool own_sigma = !options.sigma_mm && cloud.has_sigma();
-    if (auto smooth = smooth_section(cloud, plane, band, contour, own_sigma)) return *smooth;
-  }
   const LengthDoubt doubt = doubt_of(contour, surface);
-  return {contour, contour.length() + doubt.waves, contour.tape_length() + doubt.waves,
-          doubt.contact_u95, doubt.stretched_u95};
+  const MeasuredSection patches{contour, contour.length() + doubt.waves,
+                                contour.tape_length() + doubt.waves, doubt.contact_u95,
+                                doubt.stretched_u95};
+  if (loops.size() > 1) return patches;
+  const bool own_sigma = !options.sigma_mm && cloud.has_sigma();
+  auto smooth = smooth_section(cloud, plane, band, contour, own_sigma);
+  if (!smooth || contradict(*smooth, patches)) return patches;
+  if (has_notable_gap(band, evidence)) {
+    smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
+    smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
+  }
+  return *smooth;
 }
 
 /// What whoever reads the girth should know. `doubt`: half of the interval, against the length.
@@ -158,7 +178,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   for (std::size_t i = 1; i < loops.size(); ++i) {
     girth.warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
   }
-  warn_if(evidence.seen_gap > kNotableGapInGrains * band.grain, kBridgedWarning);
+  warn_if(has_notable_gap(band, evidence), kBridgedWarning);
   warn_if(leaves_points_unexplained(band, loops, evidence),
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
@@ -196,7 +216,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
-  const auto section = measured(cloud, plane, options, *band, loops, surface);
+  const auto section = measured(cloud, plane, options, *band, loops, surface, evidence);
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,
