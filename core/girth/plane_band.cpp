@@ -28,9 +28,9 @@ constexpr int kMostRounds = 3;
 constexpr std::size_t kSpacingSample = 200;
 /// Points nearer to each other than this part of the spacing are copies of one, if so many have
 /// such a neighbour: two thirds of a cloud of which half was added again. Of a random cloud 7 % do,
-/// of points along rows a quarter.
+/// of points along rows half.
 constexpr double kCopy = 0.15;
-constexpr double kManyCopies = 0.4;
+constexpr double kManyCopies = 0.6;
 /// A share of the points that stands alone, with which more are to be looked for.
 constexpr double kManyStrays = 0.005;
 /// Places where noise is looked for lie so near to the plane.
