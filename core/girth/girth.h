@@ -60,8 +60,9 @@ struct Girth {
 /// crease such as a last's featherline stays sharp. Where the points are noisy and the skin even,
 /// the lengths and their intervals are read off one surface through far more points, laid along
 /// that contour (smooth_section()), unless the two contradict each other; elsewhere, and where a
-/// hole is reported, the intervals are LengthDoubt's. Deterministic: the same cloud gives the same
-/// bytes.
+/// hole is reported, the intervals are LengthDoubt's. They take the noise of points to be
+/// independent: what is common to neighbours, such as a bent depth map, is not in them.
+/// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 

@@ -149,8 +149,7 @@ bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
 /// The section as one even skin where it is that, else as its patches tell it: they see a narrow
 /// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
 /// looked is known of the patches alone.
-MeasuredSection measured(const PointCloud& cloud, const TapePlane& plane,
-                         const GirthOptions& options, const PlaneBand& band,
+MeasuredSection measured(const PointCloud& cloud, const TapePlane& plane, const PlaneBand& band,
                          const std::vector<Loop>& loops, const BlendedSurface& surface,
                          const SectionEvidence& evidence) {
   const Contour& contour = loops.front().contour;
@@ -159,8 +158,7 @@ MeasuredSection measured(const PointCloud& cloud, const TapePlane& plane,
                                 contour.tape_length() + doubt.waves, doubt.contact_u95,
                                 doubt.stretched_u95};
   if (loops.size() > 1) return patches;
-  const bool own_sigma = !options.sigma_mm && cloud.has_sigma();
-  auto smooth = smooth_section(cloud, plane, band, contour, own_sigma);
+  auto smooth = smooth_section(cloud, plane, band, contour);
   if (!smooth || contradict(*smooth, patches)) return patches;
   if (has_notable_gap(band, evidence)) {
     smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
@@ -216,7 +214,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
-  const auto section = measured(cloud, plane, options, *band, loops, surface, evidence);
+  const auto section = measured(cloud, plane, *band, loops, surface, evidence);
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,

@@ -102,6 +102,7 @@ PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
                  0.0,
                  0.0,
                  0,
+                 false,
                  0.0,
                  {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
@@ -144,16 +145,16 @@ PlaneBand gather_enough(SlabSource& slabs, const Probe& found, double sigma) {
 
 void drop_strays(PlaneBand& band) {
   if (!(band.spacing > 0.0)) return;
-  const auto all = static_cast<double>(band.sources.size());
+  const std::size_t all = band.sources.size();
   const auto strays = stray_points(band.index, band.spacing);
   const auto alone = std::count(strays.begin(), strays.end(), true);
   if (alone == 0) return;
   drop(strays, band);
   // Where some fly about, others came to lie nearer to the skin.
-  if (static_cast<double>(alone) > kManyStrays * all) {
+  if (static_cast<double>(alone) > kManyStrays * static_cast<double>(all)) {
     drop(off_skin_points(band.index, band.spacing), band);
   }
-  band.strays = static_cast<std::size_t>(all) - band.sources.size();
+  band.strays = all - band.sources.size();
 }
 
 /// Points next to the plane that were seen, in the order in which they lie round the middle. Those
@@ -214,13 +215,13 @@ std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const Tape
   return normals;
 }
 
-void set_points(const PointCloud& cloud, const TapePlane& plane, bool own_sigma, PlaneBand& band) {
+void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band) {
   const auto normals = outward_normals(cloud, plane, band);
   const double least = 1e-9 * band.spacing;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double sigma =
-        std::max(own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : band.sigma, least);
+    const double sigma = std::max(
+        band.own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : band.sigma, least);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
   }
 }
@@ -255,7 +256,8 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   band.sigma = noise.sigma;
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
-  set_points(cloud, plane, own_sigma, band);
+  band.own_sigma = own_sigma;
+  set_points(cloud, plane, band);
   return band;
 }
 

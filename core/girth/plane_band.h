@@ -27,6 +27,7 @@ struct PlaneBand {
   double grain = 0.0;                     ///< finest detail that they tell, in the unit
   double sigma = 0.0;                     ///< noise of the points, in the unit
   std::size_t strays = 0;                 ///< points that stood alone and were left out
+  bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
   std::vector<LocalRoughness> roughness;  ///< in the unit
 

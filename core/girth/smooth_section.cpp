@@ -29,8 +29,8 @@ constexpr double kLean = 0.8;
 constexpr double kMostPoints = 20000.0;
 /// Even skin: what it bends from knot to knot, its scatter against that of the band, and by how
 /// much (radians) it turns more between two knots than beside them. Over drawn shapes, feet and
-/// lasts (tests/bench/accuracy) intervals of even sections hold as they should, of those beyond
-/// these limits in 40 to 75 %.
+/// lasts (tests/bench/accuracy) intervals of even sections hold as they should; of sections beyond
+/// these limits, sorted by both, those of most sorts hold in 36 to 75 %.
 constexpr double kMostBending = 0.005;
 constexpr double kMostScatter = 1.15;
 constexpr double kSharpestTurn = 0.15;
@@ -55,7 +55,7 @@ double half_width_of(const PlaneBand& band) {
 }
 
 std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& plane,
-                                   const PlaneBand& band, const FairLine& line, bool own_sigma) {
+                                   const PlaneBand& band, const FairLine& line) {
   const double half_width = half_width_of(band);
   PlaneSlab slab = slab_of(cloud, plane, half_width * band.unit_mm);
   if (band.copies_within > 0.0) {
@@ -70,7 +70,7 @@ std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& pla
     const double reach = kReach + kReachInSigmas * band.sigma + kLean * std::abs(off);
     if (!(foot.distance <= reach)) continue;
     const double sigma =
-        own_sigma ? cloud.sigma_mm[slab.indices[i]] / (band.unit_mm * band.sigma) : 1.0;
+        band.own_sigma ? cloud.sigma_mm[slab.indices[i]] / (band.unit_mm * band.sigma) : 1.0;
     ribbon.push_back({foot.way, off / half_width, foot.height, 1.0 / (sigma * sigma)});
   }
   return ribbon;
@@ -119,22 +119,21 @@ Contour moved(const FairLine& line, const RibbonSpline& ribbon, const std::vecto
   return contour;
 }
 
-double half_width(const RibbonSpline& ribbon, const std::vector<double>& ways,
-                  const std::vector<double>& turns, double length) {
+double u95_of(const RibbonSpline& ribbon, const std::vector<double>& ways,
+              const std::vector<double>& turns, double length) {
   return kDeviations * std::sqrt(ribbon.variance_of_sum(ways, turns)) + kLeast * length;
 }
 
 }  // namespace
 
 std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const TapePlane& plane,
-                                              const PlaneBand& band, const Contour& contour,
-                                              bool own_sigma) {
+                                              const PlaneBand& band, const Contour& contour) {
   if (!(band.sigma > kLeastNoise)) return std::nullopt;
   const auto line = FairLine::through(contour, kFairKnotsApart);
   if (!line) return std::nullopt;
   const auto knots = static_cast<int>(std::lround(line->length() / kKnotsApart));
   const auto ribbon =
-      RibbonSpline::through(ribbon_of(cloud, plane, band, *line, own_sigma), line->length(), knots);
+      RibbonSpline::through(ribbon_of(cloud, plane, band, *line), line->length(), knots);
   if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;
 
   std::vector<double> ways;
@@ -146,8 +145,8 @@ std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const Tap
   section.contact = section.contour.length();
   section.stretched = section.contour.tape_length();
   const auto turns = turns_of(section.contour);
-  section.contact_u95 = half_width(*ribbon, ways, turns.contact, section.contact);
-  section.stretched_u95 = half_width(*ribbon, ways, turns.stretched, section.contact);
+  section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section.contact);
+  section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section.contact);
   return section;
 }
 

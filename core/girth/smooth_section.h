@@ -32,10 +32,8 @@ struct MeasuredSection {
 /// or scatters more round the spline than the noise, or if there is no noise to speak of.
 ///
 /// `contour` as traced in the band of that cloud and plane; the points of `cloud` need no normals.
-/// `own_sigma`: each point counts by the sigma that the cloud tells of it.
 /// O(points of the cloud).
 std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const TapePlane& plane,
-                                              const PlaneBand& band, const Contour& contour,
-                                              bool own_sigma);
+                                              const PlaneBand& band, const Contour& contour);
 
 }  // namespace instep

@@ -97,8 +97,7 @@ double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
   return std::pow(noise_area / of_roughness, 0.2);
 }
 
-/// The nearest points; fewer of them, if exact, where all would be on both sides of a thin part,
-/// but these are not; more of them in a hole, until they lie on all sides, so that the surface
+/// The nearest points; more of them in a hole, until they lie on all sides, so that the surface
 /// spans it and is not put forth from one side.
 PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
   auto first = index_.nearest(place, kPatchPoints);
@@ -114,30 +113,21 @@ PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& pl
   }
 }
 
-/// Of a point, here.
-double PatchFitter::variance_of(const Neighbours& nearest) const {
-  const std::size_t count = std::min(kFacingPoints, nearest.size());
-  double variance = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    variance += points_[nearest[i].index].variance / static_cast<double>(count);
-  }
-  return variance;
-}
-
-bool PatchFitter::are_exact(const Neighbours& nearest) const {
-  return variance_of(nearest) <= kExactVariance * nearest.back().squared_distance;
-}
-
 PatchFitter::Surroundings PatchFitter::surroundings_of(const Eigen::Vector3d& place) const {
   Surroundings here;
   here.nearest = nearest_all_round(place);
   here.reach = std::sqrt(here.nearest.back().squared_distance);
   here.outward = outward_of(here.nearest);
+  const std::size_t count = std::min(kFacingPoints, here.nearest.size());
+  double variance = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    variance += points_[here.nearest[i].index].variance / static_cast<double>(count);
+  }
   const auto found = static_cast<double>(here.nearest.size());
   here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
-  here.noise_area = variance_of(here.nearest) * here.spacing * here.spacing;
+  here.noise_area = variance * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
-  here.exact = are_exact(here.nearest);
+  here.exact = variance <= kExactVariance * here.nearest.back().squared_distance;
   return here;
 }
 

@@ -85,8 +85,6 @@ class PatchFitter {
 
   Neighbours nearest_all_round(const Eigen::Vector3d& place) const;
   Eigen::Vector3d outward_of(const Neighbours& nearest) const;
-  double variance_of(const Neighbours& nearest) const;
-  bool are_exact(const Neighbours& nearest) const;
   Surroundings surroundings_of(const Eigen::Vector3d& place) const;
   void drop_strays(Members& members) const;
   void drop_twins(std::vector<std::size_t>& members, double nearest) const;

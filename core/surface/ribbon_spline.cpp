@@ -199,22 +199,12 @@ bool RibbonSpline::settle(const Evidence& evidence, const Prices& prices) {
   return sigma_ > 0.0;
 }
 
-double RibbonSpline::height_of(const RibbonPoint& point) const {
-  const auto spot = basis_.at(point.way);
-  const Columns columns = columns_at(point.off);
-  double height = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Index row = spot.terms[static_cast<std::size_t>(i)] * kColumns;
-    height += spot.values[i] * columns.dot(terms_.segment<kColumns>(row));
-  }
-  return height;
-}
-
 std::vector<RibbonPoint> RibbonSpline::without_strays(std::vector<RibbonPoint> points) const {
   std::vector<double> off;
   off.reserve(points.size());
   for (const auto& point : points) {
-    off.push_back(std::abs(point.height - height_of(point)) * std::sqrt(point.certainty));
+    off.push_back(std::abs(point.height - height(point.way, point.off).value) *
+                  std::sqrt(point.certainty));
   }
   const double sigma = kSigmaOfMedian * median(off);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -240,16 +230,20 @@ std::optional<RibbonSpline> RibbonSpline::through(const std::vector<RibbonPoint>
 }
 
 RibbonSpline::Height RibbonSpline::at(double way) const {
+  return height(way, 0.0);
+}
+
+RibbonSpline::Height RibbonSpline::height(double way, double off) const {
   const auto spot = basis_.at(way);
-  const Columns columns = columns_at(0.0);
-  Height height;
+  const Columns columns = columns_at(off);
+  Height read;
   for (int i = 0; i < 4; ++i) {
     const Eigen::Index row = spot.terms[static_cast<std::size_t>(i)] * kColumns;
     const double term = columns.dot(terms_.segment<kColumns>(row));
-    height.value += spot.values[i] * term;
-    height.slope += spot.slopes[i] * term;
+    read.value += spot.values[i] * term;
+    read.slope += spot.slopes[i] * term;
   }
-  return height;
+  return read;
 }
 
 double RibbonSpline::variance_of_sum(const std::vector<double>& ways,

@@ -90,7 +90,7 @@ class RibbonSpline {
                      double& unlikelihood) const;
   Prices likeliest(const Evidence& evidence) const;
   bool settle(const Evidence& evidence, const Prices& prices);
-  double height_of(const RibbonPoint& point) const;
+  Height height(double way, double off) const;
   std::vector<RibbonPoint> without_strays(std::vector<RibbonPoint> points) const;
 
   ClosedSplineBasis basis_;

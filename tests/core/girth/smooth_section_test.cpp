@@ -127,7 +127,7 @@ TEST(SmoothSection, IsForNoisyPoints) {
     const auto cloud = test::cylinder(6000, sigma_mm);
     const auto band = band_at(cloud, plane, std::nullopt);
     EXPECT_TRUE(band);
-    return smooth_section(cloud, plane, *band, circle_in(*band), false);
+    return smooth_section(cloud, plane, *band, circle_in(*band));
   };
   EXPECT_TRUE(section(0.3));
   EXPECT_FALSE(section(0.0));
