@@ -81,21 +81,13 @@ std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& 
   return stretches;
 }
 
-Eigen::VectorXd column(const std::vector<double>& values) {
-  return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-/// Adds the influence of the points on a sum of heights; returns the variance by wandering.
-double add(const Stretch& stretch, const std::vector<double>& shares,
-           std::vector<double>& influence) {
-  const auto sum = stretch.sheet.patch->sum(stretch.corners, column(shares));
-  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
-    influence[stretch.sheet.member(i)] += sum.influence[static_cast<Eigen::Index>(i)];
-  }
+/// A part of the variance by wandering that is believed. `shares`: of the corners' heights.
+double likely_wandering(const Stretch& stretch, double variance,
+                        const std::vector<double>& shares) {
   double turn = 0.0;
   for (const double share : shares) turn += std::abs(share);
   const double widest = kWidestWandering * stretch.sheet.owner->radius * turn;
-  return std::min(sum.variance, widest * widest);
+  return std::min(variance, widest * widest);
 }
 
 /// Of a stretch's corners the first of the two that are neighbours on the contour and nearest to
@@ -113,27 +105,51 @@ std::optional<std::size_t> middle_chord(const Stretch& stretch) {
   return best;
 }
 
-/// A line of that length whose direction varies by `variance` is longer by half of it.
-void add_waves(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {
+/// The sums of a stretch's heights that are asked for.
+enum SumOfHeights : Eigen::Index { kContact, kStretched, kTilt };
+
+/// What each corner's height counts for them, a column each. The tilt is that of the middle chord;
+/// none if there is none.
+Eigen::MatrixXd shares_of(const Stretch& stretch) {
+  const auto column = [](const std::vector<double>& values) {
+    return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(column(stretch.contact).size(), 3);
+  shares.col(kContact) = column(stretch.contact);
+  shares.col(kStretched) = column(stretch.stretched);
   const auto middle = middle_chord(stretch);
-  if (!middle) return;
-  const std::size_t at = *middle;
-  const std::vector<Eigen::Vector3d> pair = {stretch.corners[at], stretch.corners[at + 1]};
-  const double step = (pair[1] - pair[0]).norm();
-  if (!(step > 0.0)) return;
-  const double rise = 1.0 / (step * stretch.slopes[at]);
-  const auto tilt = stretch.sheet.patch->sum(pair, Eigen::Vector2d(-rise, rise));
-  double noise = 0.0;
-  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
-    const double influence = tilt.influence[static_cast<Eigen::Index>(i)];
-    noise += influence * influence * points[stretch.sheet.member(i)].variance;
-  }
+  if (!middle) return shares;
+  const double step = (stretch.corners[*middle + 1] - stretch.corners[*middle]).norm();
+  if (!(step > 0.0)) return shares;
+  const double rise = 1.0 / (step * stretch.slopes[*middle]);
+  shares.col(kTilt).segment<2>(static_cast<Eigen::Index>(*middle)) = Eigen::Vector2d(-rise, rise);
+  return shares;
+}
+
+/// A line of that length whose direction varies by `noise` and `wandering` is longer by half of it.
+void add_waves(const Stretch& stretch, double noise, double wandering, Sums& sums) {
   sums.noise_waves += 0.5 * stretch.length * std::min(noise, kSteepestWaves);
-  const double unseen = 0.5 * stretch.length * std::min(tilt.variance, kSteepestWaves);
+  const double unseen = 0.5 * stretch.length * std::min(wandering, kSteepestWaves);
   sums.unseen_waves += unseen;
   if (unseen < kLeastWaves * stretch.length) return;
   const double bending = stretch.sheet.patch->fine_bending();
   sums.likely_waves += bending * bending * unseen;
+}
+
+void add(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {
+  const auto of_patch = stretch.sheet.patch->sums(stretch.corners, shares_of(stretch));
+  double noise = 0.0;
+  for (std::size_t i = 0; i < stretch.sheet.size(); ++i) {
+    const auto influence = of_patch.influence.row(static_cast<Eigen::Index>(i));
+    const std::size_t point = stretch.sheet.member(i);
+    sums.contact[point] += influence[kContact];
+    sums.stretched[point] += influence[kStretched];
+    noise += influence[kTilt] * influence[kTilt] * points[point].variance;
+  }
+  sums.contact_wandering += likely_wandering(stretch, of_patch.variance[kContact], stretch.contact);
+  sums.stretched_wandering +=
+      likely_wandering(stretch, of_patch.variance[kStretched], stretch.stretched);
+  add_waves(stretch, noise, of_patch.variance[kTilt], sums);
 }
 
 /// A patch in space knows no sums: all of its stretch may be off by as much as its middle.
@@ -168,9 +184,7 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
       sums.stretched_wandering += coherent_variance(stretch, stretch.stretched);
       continue;
     }
-    sums.contact_wandering += add(stretch, stretch.contact, sums.contact);
-    sums.stretched_wandering += add(stretch, stretch.stretched, sums.stretched);
-    add_waves(stretch, points, sums);
+    add(stretch, points, sums);
   }
   const double length = contour.length();
   const double most = kMostWaves * length;

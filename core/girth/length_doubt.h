@@ -10,7 +10,7 @@ namespace instep {
 ///
 /// To first order a length changes by what each corner moves outwards times what the line turns
 /// there (ContourTurns). Each height of a patch is a sum over the heights of points, so their
-/// noise goes through to the length (HeightPatch::sum()); for a corner the patch that counts most
+/// noise goes through to the length (HeightPatch::sums()); for a corner the patch that counts most
 /// there stands for the blend. The same sums tell how far the surface may wander between the points
 /// (kriging), holes and the reach beyond the last points of a crease included.
 ///

@@ -29,20 +29,18 @@ void set_kernel(HeightKernel kernel, const Squares& squared, const Factor& facto
   }
 }
 
-/// Sum of the kernels round `places` times `shares`, at each of `samples`.
-Eigen::ArrayXd kernels_at(HeightKernel kernel, const Eigen::Matrix2Xd& samples,
-                          const Eigen::Matrix2Xd& places, const Eigen::VectorXd& shares) {
+/// Of each of `samples`, a row, with each of `places`.
+Eigen::MatrixXd kernels_between(HeightKernel kernel, const Eigen::Matrix2Xd& samples,
+                                const Eigen::Matrix2Xd& places) {
   const Eigen::ArrayXd x = samples.row(0);
   const Eigen::ArrayXd y = samples.row(1);
   Eigen::ArrayXd squared(samples.cols());
-  Eigen::ArrayXd one(samples.cols());
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(samples.cols());
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+  Eigen::MatrixXd kernels(samples.cols(), places.cols());
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
     squared = (x - places(0, i)).square() + (y - places(1, i)).square();
-    set_kernel(kernel, squared, shares[i], one);
-    sum += one;
+    set_kernel(kernel, squared, 1.0, kernels.col(i).array());
   }
-  return sum;
+  return kernels;
 }
 
 /// Its lower triangle; both sides scaled.
@@ -171,15 +169,15 @@ void HeightKriging::set_kernel(const Eigen::MatrixXd& kernel) {
   subtract_both_ways(off.bottomRows(rest), reflectors_.bottomRows(rest), reduced_);
 }
 
-Eigen::VectorXd HeightKriging::off_polynomials(const Eigen::VectorXd& scaled) const {
-  const Eigen::VectorXd along = scaled_reflectors_.transpose() * scaled;
-  return scaled.tail(free()) - reflectors_.bottomRows(free()) * along;
+Eigen::MatrixXd HeightKriging::off_polynomials(const Eigen::MatrixXd& scaled) const {
+  const Eigen::MatrixXd along = scaled_reflectors_.transpose().lazyProduct(scaled);
+  return scaled.bottomRows(free()) - reflectors_.bottomRows(free()).lazyProduct(along);
 }
 
-Eigen::VectorXd HeightKriging::from_off_polynomials(const Eigen::VectorXd& reduced) const {
-  const Eigen::VectorXd along = reflectors_.bottomRows(free()).transpose() * reduced;
-  Eigen::VectorXd scaled = -(scaled_reflectors_ * along);
-  scaled.tail(free()) += reduced;
+Eigen::MatrixXd HeightKriging::from_off_polynomials(const Eigen::MatrixXd& reduced) const {
+  const Eigen::MatrixXd along = reflectors_.bottomRows(free()).transpose().lazyProduct(reduced);
+  Eigen::MatrixXd scaled = -scaled_reflectors_.lazyProduct(along);
+  scaled.bottomRows(free()) += reduced;
   return scaled;
 }
 
@@ -237,41 +235,38 @@ double HeightKriging::left_out(const Solution& solution) const {
   return sum / static_cast<double>(count);
 }
 
-Eigen::VectorXd HeightKriging::influence(const Solution& solution, const Eigen::Matrix2Xd& places,
-                                         const Eigen::VectorXd& shares) const {
+HeightKriging::Sums HeightKriging::sums(const Solution& solution, const Eigen::Matrix2Xd& places,
+                                        const Eigen::MatrixXd& shares) const {
   const Eigen::Index rank = basis_.cols();
-  const Eigen::VectorXd terms = monomials(places, qr_.cols()).transpose() * shares;
-  const Eigen::VectorXd sought = qr_.colsPermutation().transpose() * terms;
-  const Eigen::VectorXd along = qr_.matrixQR()
+  const Eigen::MatrixXd terms = monomials(places, qr_.cols()).transpose().lazyProduct(shares);
+  const Eigen::MatrixXd sought = qr_.colsPermutation().transpose() * terms;
+  const Eigen::MatrixXd along = qr_.matrixQR()
                                     .topLeftCorner(rank, rank)
                                     .triangularView<Eigen::Upper>()
                                     .transpose()
-                                    .solve(sought.head(rank));
-  const Eigen::VectorXd right =
-      (scales_ * kernels_at(kernel_, places_, places, shares)).matrix() - on_basis_ * along;
-  const Eigen::VectorXd solved = solution.cholesky.solve(off_polynomials(right));
-  const Eigen::VectorXd scaled = basis_ * along + from_off_polynomials(solved);
-  return scales_ * scaled.array();
-}
-
-/// The weighed kernel times `scaled` from both sides, by its parts on the polynomials and off them;
-/// off them it is what was solved, less the ratio.
-double HeightKriging::kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const {
-  const Eigen::VectorXd along = basis_.transpose() * scaled;
-  const Eigen::VectorXd off = off_polynomials(scaled);
-  const Eigen::VectorXd rooted = solution.cholesky.matrixU() * off;
-  const Eigen::VectorXd crossed = on_basis_ * along;
-  return rooted.squaredNorm() - solution.ratio * off.squaredNorm() +
-         crossed.dot(2.0 * scaled - basis_ * along);
-}
-
-double HeightKriging::wandering(const Solution& solution, const Eigen::VectorXd& influence,
-                                const Eigen::Matrix2Xd& places,
-                                const Eigen::VectorXd& shares) const {
-  const double between = kernels_at(kernel_, places, places, shares).matrix().dot(shares);
-  const double across = kernels_at(kernel_, places_, places, shares).matrix().dot(influence);
-  const Eigen::VectorXd scaled = influence.array() / scales_;
-  return std::max(between - 2.0 * across + kernel_square(solution, scaled), 0.0);
+                                    .solve(sought.topRows(rank));
+  const Eigen::MatrixXd across = kernels_between(kernel_, places_, places).lazyProduct(shares);
+  const Eigen::MatrixXd crossed = on_basis_.lazyProduct(along);
+  const Eigen::MatrixXd off = off_polynomials(scales_.matrix().asDiagonal() * across - crossed);
+  Eigen::MatrixXd solved(off.rows(), off.cols());
+  for (Eigen::Index i = 0; i < off.cols(); ++i) {
+    solved.col(i) = solution.cholesky.solve(off.col(i));  // quicker than all of so few at once
+  }
+  const Eigen::MatrixXd on_polynomials = basis_.lazyProduct(along);
+  const Eigen::MatrixXd scaled = on_polynomials + from_off_polynomials(solved);
+  Sums sums;
+  sums.influence = scales_.matrix().asDiagonal() * scaled;
+  const auto of_columns = [](const auto& a, const auto& b) -> Eigen::ArrayXd {
+    return a.cwiseProduct(b).colwise().sum().transpose();
+  };
+  // The weighed kernel from both sides, by its parts on the polynomials and off them; off them it
+  // is what was solved, less the ratio.
+  const Eigen::ArrayXd own = of_columns(solved, off - solution.ratio * solved) +
+                             of_columns(crossed, 2.0 * scaled - on_polynomials);
+  const Eigen::ArrayXd between =
+      of_columns(kernels_between(kernel_, places, places).lazyProduct(shares), shares);
+  sums.wandering = (between - 2.0 * of_columns(across, sums.influence) + own).max(0.0);
+  return sums;
 }
 
 }  // namespace instep

@@ -73,15 +73,15 @@ class HeightKriging {
   /// same at all scales; less where the surface is smoother than the kernel takes it to be. O(n^3).
   double left_out(const Solution& solution) const;
 
-  /// By how much each sample's height moves the sum of the solution's heights at `places` times
-  /// `shares`. O(n^2).
-  Eigen::VectorXd influence(const Solution& solution, const Eigen::Matrix2Xd& places,
-                            const Eigen::VectorXd& shares) const;
-
-  /// Variance of that sum round the true one if there were no noise, for a roughness of one.
-  /// O(n^2).
-  double wandering(const Solution& solution, const Eigen::VectorXd& influence,
-                   const Eigen::Matrix2Xd& places, const Eigen::VectorXd& shares) const;
+  /// What sums of the solution's heights rest on.
+  struct Sums {
+    Eigen::MatrixXd influence;  ///< by how much each sample's height moves each sum: a column
+    /// Variance of each sum round the true one if there were no noise, for a roughness of one.
+    Eigen::ArrayXd wandering;
+  };
+  /// Of the heights at `places` times each column of `shares`. O(n^2) for each.
+  Sums sums(const Solution& solution, const Eigen::Matrix2Xd& places,
+            const Eigen::MatrixXd& shares) const;
 
  private:
   HeightKriging() = default;
@@ -89,9 +89,8 @@ class HeightKriging {
   void set_reflectors(Eigen::Index rank);
   void set_kernel(const Eigen::MatrixXd& kernel);
   /// The part off the polynomials in the basis of reduced(), and back.
-  Eigen::VectorXd off_polynomials(const Eigen::VectorXd& scaled) const;
-  Eigen::VectorXd from_off_polynomials(const Eigen::VectorXd& reduced) const;
-  double kernel_square(const Solution& solution, const Eigen::VectorXd& scaled) const;
+  Eigen::MatrixXd off_polynomials(const Eigen::MatrixXd& scaled) const;
+  Eigen::MatrixXd from_off_polynomials(const Eigen::MatrixXd& reduced) const;
 
   HeightKernel kernel_ = HeightKernel::kCubic;
   Eigen::Matrix2Xd places_;

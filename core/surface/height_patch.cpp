@@ -197,24 +197,22 @@ void HeightPatch::set_columns(const Eigen::Matrix2Xd& places, const Eigen::Vecto
   weights_.head(count) = weights;
 }
 
-HeightPatch::Sum HeightPatch::sum(const std::vector<Eigen::Vector3d>& positions,
-                                  const Eigen::VectorXd& shares) const {
-  Eigen::Matrix2Xd places(2, shares.size());
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& positions,
+                                    const Eigen::MatrixXd& shares) const {
+  Eigen::Matrix2Xd places(2, shares.rows());
+  for (Eigen::Index i = 0; i < shares.rows(); ++i) {
     const Eigen::Vector3d arm = positions[static_cast<std::size_t>(i)] - centre_;
     places.col(i) = axes_.topRows<2>() * arm / radius_;
   }
-  Sum sum;
-  const Eigen::VectorXd influence = kriging_->influence(solution_, places, shares);
-  sum.variance =
-      radius_ * radius_ * wander_ * kriging_->wandering(solution_, influence, places, shares);
-  sum.influence = influence;
-  if (cells_.empty()) return sum;
-  sum.influence.resize(shares_.size());
+  HeightKriging::Sums of_samples = kriging_->sums(solution_, places, shares);
+  Sums sums{std::move(of_samples.influence), radius_ * radius_ * wander_ * of_samples.wandering};
+  if (cells_.empty()) return sums;
+  Eigen::MatrixXd of_points(shares_.size(), shares.cols());
   for (Eigen::Index i = 0; i < shares_.size(); ++i) {
-    sum.influence[i] = shares_[i] * influence[cells_[static_cast<std::size_t>(i)]];
+    of_points.row(i) = shares_[i] * sums.influence.row(cells_[static_cast<std::size_t>(i)]);
   }
-  return sum;
+  sums.influence = std::move(of_points);
+  return sums;
 }
 
 bool HeightPatch::is_exact() const {

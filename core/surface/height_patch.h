@@ -35,15 +35,16 @@ class HeightPatch {
 
   FieldValue at(const Eigen::Vector3d& position) const;
 
-  /// What a sum of heights rests on.
-  struct Sum {
-    Eigen::VectorXd influence;  ///< by how much each point's height moves it, as given to fit()
-    /// Of the sum round the true one, as the surface wanders between the points: noise apart.
-    double variance = 0.0;
+  /// What sums of heights rest on.
+  struct Sums {
+    /// By how much each point's height, as given to fit(), moves each sum: a column.
+    Eigen::MatrixXd influence;
+    /// Of each sum round the true one, as the surface wanders between the points: noise apart.
+    Eigen::ArrayXd variance;
   };
 
-  /// Of the heights at `positions` times `shares`. O(samples^2).
-  Sum sum(const std::vector<Eigen::Vector3d>& positions, const Eigen::VectorXd& shares) const;
+  /// Of the heights at `positions` times each column of `shares`. O(samples^2) for each.
+  Sums sums(const std::vector<Eigen::Vector3d>& positions, const Eigen::MatrixXd& shares) const;
 
   /// How far exact points are off what the others predict, against what the patch expects of that
   /// from all of them: mean square. About one where the surface bends at the smallest scale as at

@@ -221,7 +221,7 @@ TEST(HeightKriging, InfluenceIsWhatMovingASampleDoesToTheSum) {
       const auto samples = wavy_samples(30, 6);
       const auto kriging = model.of(samples).value();
       const VectorXd influence =
-          kriging.influence(kriging.solve(ratio).value(), sought.places, sought.shares);
+          kriging.sums(kriging.solve(ratio).value(), sought.places, sought.shares).influence;
       ASSERT_EQ(influence.size(), 30);
       const double before = sum_of_heights(samples, ratio, model, sought);
       for (Index i = 0; i < samples.size(); ++i) {
@@ -303,8 +303,7 @@ TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
 
       const auto kriging = model.of(samples).value();
       const auto solution = kriging.solve(ratio).value();
-      const VectorXd influence = kriging.influence(solution, sought.places, sought.shares);
-      EXPECT_NEAR(kriging.wandering(solution, influence, sought.places, sought.shares), expected,
+      EXPECT_NEAR(kriging.sums(solution, sought.places, sought.shares).wandering[0], expected,
                   1e-8 + 1e-8 * expected);
       EXPECT_GT(expected, 1e-3);
     }
@@ -316,8 +315,7 @@ TEST(HeightKriging, HardlyWandersAtASampleAndMoreTheFurtherFromAll) {
   const auto kriging = HeightKriging::of(samples, 6).value();
   const auto solution = kriging.solve(1e-9).value();
   const auto wandering_at = [&](const Vector2d& place) {
-    const VectorXd one = VectorXd::Ones(1);
-    return kriging.wandering(solution, kriging.influence(solution, place, one), place, one);
+    return kriging.sums(solution, place, VectorXd::Ones(1)).wandering[0];
   };
   for (Index i = 0; i < 5; ++i) EXPECT_LT(wandering_at(samples.places.col(i)), 1e-7);
   EXPECT_GT(wandering_at({1.0, 0.0}), 1e-3);
