@@ -15,6 +15,10 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kNeighbourhoods = 24;
+/// Every third of them is asked first: if all of those are of exact points, the others are too.
+/// Variances less than this part of the square of their radius are those of exact points.
+constexpr std::array<std::size_t, 3> kTurns = {1, 0, 2};
+constexpr double kExactVariance = 1e-10;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 constexpr double kLeastRoughness = 1e-12;
@@ -115,6 +119,10 @@ double own_variance(const Neighbourhood& here) {
          here.likelihood.likeliest_variance(kLeastRatio * scale, kMostRatio * scale, kRatioStep);
 }
 
+bool is_exact(const Neighbourhood& here, double variance) {
+  return variance <= kExactVariance * here.radius * here.radius;
+}
+
 /// The roughness that fits best at a given noise; the likelihood is flat where noise hides the
 /// shape, so it is held near `usual`, if that is known.
 double likely_roughness(const Neighbourhood& here, double variance, std::optional<double> usual) {
@@ -138,13 +146,19 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
   std::vector<double> variances;
   NoiseEstimate estimate;
   const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
-  for (std::size_t i = stride / 2; i < places.size(); i += stride) {
-    const Eigen::Vector3d& place = points[places[i]];
-    auto neighbourhood = neighbourhood_in(flattest_view(points, index, place));
-    if (!neighbourhood) continue;
-    if (!sigma) variances.push_back(own_variance(*neighbourhood));
-    neighbourhoods.push_back(std::move(*neighbourhood));
-    estimate.roughness.push_back({place, 0.0});
+  bool exact = !sigma;
+  for (const std::size_t turn : kTurns) {
+    for (std::size_t i = stride / 2 + turn * stride; i < places.size();
+         i += kTurns.size() * stride) {
+      const Eigen::Vector3d& place = points[places[i]];
+      auto neighbourhood = neighbourhood_in(flattest_view(points, index, place));
+      if (!neighbourhood) continue;
+      if (!sigma) variances.push_back(own_variance(*neighbourhood));
+      exact = exact && is_exact(*neighbourhood, variances.back());
+      neighbourhoods.push_back(std::move(*neighbourhood));
+      estimate.roughness.push_back({place, 0.0});
+    }
+    if (exact && !neighbourhoods.empty()) break;
   }
   if (neighbourhoods.empty()) return {sigma.value_or(0.0), {}};
   estimate.sigma = sigma ? *sigma : std::sqrt(median(std::move(variances)));
