@@ -14,6 +14,29 @@ bool left_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
 
+/// In order, whatever they were; quicker where they come in few long runs to and fro, as those
+/// along a line do.
+void sort_from_the_left(std::vector<Eigen::Vector2d>& points) {
+  constexpr std::size_t kMostRuns = 16;
+  std::vector<std::vector<Eigen::Vector2d>::iterator> ends = {points.begin()};
+  while (ends.back() != points.end() && ends.size() <= kMostRuns) {
+    const auto begin = ends.back();
+    const auto falls = [](const auto& a, const auto& b) { return left_of(b, a); };
+    auto end = std::is_sorted_until(begin, points.end(), left_of);
+    const auto other = std::is_sorted_until(begin, points.end(), falls);
+    if (other > end) {
+      end = other;
+      std::reverse(begin, end);
+    }
+    ends.push_back(end);
+  }
+  if (ends.back() != points.end()) return std::sort(points.begin(), points.end(), left_of);
+  for (; ends.size() > 2; ends.pop_back()) {
+    std::inplace_merge(ends[ends.size() - 3], ends[ends.size() - 2], ends.back(), left_of);
+    ends[ends.size() - 2] = ends.back();
+  }
+}
+
 /// Appends the chain that keeps turning left over points in the order given.
 template <typename Iterator>
 void append_chain(Iterator begin, Iterator end, std::vector<Eigen::Vector2d>& hull) {
@@ -58,7 +81,7 @@ void drop_inner(std::vector<Eigen::Vector2d>& points) {
 
 std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   drop_inner(points);
-  std::sort(points.begin(), points.end(), left_of);
+  sort_from_the_left(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   std::vector<Eigen::Vector2d> hull;
