@@ -68,24 +68,38 @@ void RibbonSpline::add_ahead(std::size_t knot, int ahead, const Square& square, 
   if (ahead > 0) system.own[block].block<kColumns, kColumns>(column, row) += square;
 }
 
+/// Of Legendre's polynomials with each other, from sums of the powers of what they are taken at.
+RibbonSpline::Square RibbonSpline::products_of_columns(const Powers& powers) {
+  Square legendre;
+  legendre << 1.0, 0.0, 0.0, 0.0, 0.0,  //
+      0.0, 1.0, 0.0, 0.0, 0.0,          //
+      -0.5, 0.0, 1.5, 0.0, 0.0,         //
+      0.0, -1.5, 0.0, 2.5, 0.0,         //
+      0.375, 0.0, -3.75, 0.0, 4.375;
+  Square products;
+  for (int i = 0; i < kColumns; ++i) products.col(i) = powers.segment<kColumns>(i);
+  return legendre * products * legendre.transpose();
+}
+
 RibbonSpline::Evidence RibbonSpline::evidence_of(const std::vector<RibbonPoint>& points) const {
   const auto knots = static_cast<std::size_t>(basis_.knots());
   // Of each knot with itself and the three ahead of it.
-  std::vector<std::array<Square, 4>> ahead(
-      knots, {Square::Zero(), Square::Zero(), Square::Zero(), Square::Zero()});
+  std::vector<std::array<Powers, 4>> ahead(
+      knots, {Powers::Zero(), Powers::Zero(), Powers::Zero(), Powers::Zero()});
   Evidence evidence{{}, Eigen::VectorXd::Zero(basis_.knots() * kColumns)};
   for (const auto& point : points) {
     if (!(point.certainty > 0.0)) continue;
     const auto spot = basis_.at(point.way);
-    const Columns columns = columns_at(point.off);
-    const Square square = point.certainty * columns * columns.transpose();
+    const Columns columns = point.certainty * point.height * columns_at(point.off);
+    Powers powers;
+    powers[0] = point.certainty;
+    for (int i = 1; i < kPowers; ++i) powers[i] = powers[i - 1] * point.off;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto knot = static_cast<std::size_t>(spot.terms[i]);
       const double value = spot.values[static_cast<Eigen::Index>(i)];
-      evidence.right.segment<kColumns>(spot.terms[i] * kColumns) +=
-          point.certainty * point.height * value * columns;
+      evidence.right.segment<kColumns>(spot.terms[i] * kColumns) += value * columns;
       for (std::size_t j = i; j < 4; ++j) {
-        ahead[knot][j - i] += value * spot.values[static_cast<Eigen::Index>(j)] * square;
+        ahead[knot][j - i] += value * spot.values[static_cast<Eigen::Index>(j)] * powers;
       }
     }
     evidence.squares += point.certainty * point.height * point.height;
@@ -95,10 +109,21 @@ RibbonSpline::Evidence RibbonSpline::evidence_of(const std::vector<RibbonPoint>&
   evidence.products.own.assign(blocks, System::Block::Zero());
   evidence.products.next.assign(blocks, System::Block::Zero());
   for (std::size_t knot = 0; knot < knots; ++knot) {
-    for (int i = 0; i < 4; ++i)
-      add_ahead(knot, i, ahead[knot][static_cast<std::size_t>(i)], evidence.products);
+    for (int i = 0; i < 4; ++i) {
+      const Powers& powers = ahead[knot][static_cast<std::size_t>(i)];
+      add_ahead(knot, i, products_of_columns(powers), evidence.products);
+    }
   }
   return evidence;
+}
+
+void RibbonSpline::Evidence::take(const Evidence& less) {
+  for (std::size_t i = 0; i < products.own.size(); ++i) {
+    products.own[i] -= less.products.own[i];
+    products.next[i] -= less.products.next[i];
+  }
+  right -= less.right;
+  squares -= less.squares;
 }
 
 void RibbonSpline::add_prices(const Prices& prices, System& system) const {
@@ -199,7 +224,8 @@ bool RibbonSpline::settle(const Evidence& evidence, const Prices& prices) {
   return sigma_ > 0.0;
 }
 
-std::vector<RibbonPoint> RibbonSpline::without_strays(std::vector<RibbonPoint> points) const {
+RibbonSpline::Evidence RibbonSpline::without_strays(Evidence evidence,
+                                                    const std::vector<RibbonPoint>& points) const {
   std::vector<double> off;
   off.reserve(points.size());
   for (const auto& point : points) {
@@ -207,11 +233,17 @@ std::vector<RibbonPoint> RibbonSpline::without_strays(std::vector<RibbonPoint> p
                   std::sqrt(point.certainty));
   }
   const double sigma = kSigmaOfMedian * median(off);
+  // Few points count less: what they no longer count is taken from what all say.
+  std::vector<RibbonPoint> less;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (off[i] > kStray * sigma) points[i].certainty = 0.0;
-    if (off[i] > kFarOff * sigma) points[i].certainty *= kFarOff * sigma / off[i];
+    if (!(off[i] > kFarOff * sigma)) continue;
+    const bool is_stray = off[i] > kStray * sigma;
+    less.push_back(points[i]);
+    if (!is_stray) less.back().certainty *= 1.0 - kFarOff * sigma / off[i];
+    if (is_stray) evidence.count -= 1.0;
   }
-  return points;
+  evidence.take(evidence_of(less));
+  return evidence;
 }
 
 std::optional<RibbonSpline> RibbonSpline::through(const std::vector<RibbonPoint>& points,
@@ -220,7 +252,7 @@ std::optional<RibbonSpline> RibbonSpline::through(const std::vector<RibbonPoint>
   RibbonSpline spline(length, knots);
   const Evidence first = spline.evidence_of(points);
   if (!spline.settle(first, spline.likeliest(first))) return std::nullopt;
-  const Evidence second = spline.evidence_of(spline.without_strays(points));
+  const Evidence second = spline.without_strays(first, points);
   if (second.count < kFewestPoints) return std::nullopt;
   Prices prices = spline.prices_;
   double unlikely = spline.unlikelihood(second, prices);

@@ -58,8 +58,10 @@ class RibbonSpline {
   static constexpr int kColumns = 5;
   static constexpr int kKnotsInBlock = 3;
   static constexpr int kSide = kColumns * kKnotsInBlock;
+  static constexpr int kPowers = 2 * kColumns - 1;
   using Columns = Eigen::Matrix<double, kColumns, 1>;
   using Square = Eigen::Matrix<double, kColumns, kColumns>;
+  using Powers = Eigen::Matrix<double, kPowers, 1>;
   using System = CyclicSystem<kSide>;
   using Cholesky = CyclicCholesky<kSide>;
 
@@ -75,11 +77,15 @@ class RibbonSpline {
     Eigen::VectorXd right;
     double squares = 0.0;
     double count = 0.0;
+
+    /// Takes what other points say from it; not their number.
+    void take(const Evidence& less);
   };
 
   RibbonSpline(double length, int knots);
 
   static Columns columns_at(double off);
+  static Square products_of_columns(const Powers& powers);
   static void add_ahead(std::size_t knot, int ahead, const Square& square, System& system);
   Evidence evidence_of(const std::vector<RibbonPoint>& points) const;
   void add_prices(const Prices& prices, System& system) const;
@@ -91,7 +97,7 @@ class RibbonSpline {
   Prices likeliest(const Evidence& evidence) const;
   bool settle(const Evidence& evidence, const Prices& prices);
   Height height(double way, double off) const;
-  std::vector<RibbonPoint> without_strays(std::vector<RibbonPoint> points) const;
+  Evidence without_strays(Evidence evidence, const std::vector<RibbonPoint>& points) const;
 
   ClosedSplineBasis basis_;
   Prices prices_;
