@@ -16,10 +16,12 @@ constexpr int kPiecesUnderTape = 8;
 
 constexpr int kMostCorrections = 12;
 /// A last move of Newton that is shorter, in steps, leaves an error of its square.
-constexpr double kLastMove = 1e-5;
+constexpr double kLastMove = 1e-3;
 /// A step that turns further is halved, down to this part of the full step.
 constexpr double kLargestTurn = 0.2;
 constexpr double kShortestStep = 1.0 / 64.0;
+/// A line that turns less at a step is likely to go on like that.
+constexpr double kSmoothTurn = 0.05;
 /// At a crease the line is looked for round the last point, from outside inwards, in steps of the
 /// angle.
 constexpr double kCreaseStep = 1.0 / 64.0;
@@ -56,12 +58,16 @@ std::optional<Place> correct(BlendedSurface& surface, const Eigen::Vector2d& sta
   return std::nullopt;
 }
 
-/// One step onwards, as long as the bend allows.
-std::optional<Place> advance(BlendedSurface& surface, const Place& from, double step) {
+/// One step onwards, as long as the bend allows. `bend`: by how much the line turned for each unit
+/// of its length so far.
+std::optional<Place> advance(BlendedSurface& surface, const Place& from, double bend, double step) {
   const Eigen::Vector2d along(-from.outward.y(), from.outward.x());
   for (double length = step; length >= kShortestStep * step; length *= 0.5) {
     const bool shortest = length < 2.0 * kShortestStep * step;
-    const auto next = correct(surface, from.point + length * along, 0.7 * length);
+    // The chord of an arc runs half way between its ends.
+    const double half = 0.5 * bend * length;
+    const Eigen::Vector2d ahead = length * (std::cos(half) * along - std::sin(half) * from.outward);
+    const auto next = correct(surface, from.point + ahead, 0.7 * length);
     if (!next) continue;
     const double turn = std::abs(turn_between(from.outward, next->outward));
     if (turn <= kLargestTurn || (shortest && turn < 1.5)) return next;
@@ -160,6 +166,7 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
   Contour contour;
   Place here = *first;
   double way = 0.0;
+  double bend = 0.0;
   double leeway = 0.0;  // so far the line may go before it can be too far from all points
   int corners = 0;
   const auto most = static_cast<std::size_t>(kMostSteps * longest / step);
@@ -167,17 +174,19 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
     contour.points.push_back(here.point);
     contour.outward.push_back(here.outward);
     const std::size_t patches = surface.patches();
-    auto next = advance(surface, here, step);
+    auto next = advance(surface, here, bend, step);
     if (!next && surface.patches() > patches) {
       // A new patch has moved the line from under the last point.
       const auto moved = correct(surface, here.point, step);
-      if (moved) next = advance(surface, *moved, step);
+      if (moved) next = advance(surface, *moved, bend, step);
     }
     if (!next && ++corners <= kMostCorners) {
       next = turn_corner(surface, here, kCreaseStep * step);
     }
     if (!next) return std::nullopt;
     const double length = (next->point - here.point).norm();
+    const double turn = turn_between(here.outward, next->outward);
+    bend = std::abs(turn) < kSmoothTurn ? turn / length : 0.0;
     way += length;
     leeway -= length;
     if (leeway < 0.0) {
