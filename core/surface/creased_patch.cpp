@@ -1,6 +1,7 @@
 #include "core/surface/creased_patch.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -15,6 +16,8 @@ namespace {
 
 /// Sheets whose planes turn less (radians) are not worth a closer look.
 constexpr double kLeastTurn = 0.6;
+/// And where quadratics through them turn less: nearly as the sheets do, at a fraction of the work.
+constexpr double kLeastTurnOfQuadratics = 0.55;
 constexpr std::size_t kFewestOnASheet = 6;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
@@ -139,9 +142,40 @@ std::vector<Eigen::Vector3d> least_high(const std::vector<Eigen::Vector3d>& plac
   return least;
 }
 
+/// A sheet as the quadratic that fits its points best.
+class QuadraticSheet {
+ public:
+  QuadraticSheet(const std::vector<OrientedPoint>& points, const Eigen::Vector3d& outward,
+                 const Eigen::Vector3d& centre, double radius)
+      : centre_(centre), radius_(radius) {
+    axes_.row(0) = outward.unitOrthogonal();
+    axes_.row(1) = outward.cross(axes_.row(0));
+    axes_.row(2) = outward;
+    terms_ = least_squares(samples_over(points, axes_, centre, radius));
+  }
+
+  FieldValue at(const Eigen::Vector3d& position) const {
+    const Eigen::Vector3d local = axes_ * (position - centre_) / radius_;
+    const double x = local.x();
+    const double y = local.y();
+    const double height = terms_[0] + x * (terms_[1] + x * terms_[3] + y * terms_[4]) +
+                          y * (terms_[2] + y * terms_[5]);
+    const Eigen::Vector3d gradient(-terms_[1] - 2.0 * x * terms_[3] - y * terms_[4],
+                                   -terms_[2] - x * terms_[4] - 2.0 * y * terms_[5], 1.0);
+    return {radius_ * (local.z() - height), axes_.transpose() * gradient};
+  }
+
+ private:
+  Eigen::Vector3d centre_;
+  double radius_;
+  Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards
+  Quadratic terms_;
+};
+
 /// The points that lie nearest to both patches, of those that lie near both planes; their middle.
+template <class Patch>
 Eigen::Vector3d near_crease(const std::vector<OrientedPoint>& points, const TwoSheets& sheets,
-                            const HeightPatch& first, const HeightPatch& second) {
+                            const Patch& first, const Patch& second) {
   std::vector<Eigen::Vector3d> places;
   places.reserve(points.size());
   for (const auto& point : points) places.push_back(point.position);
@@ -162,7 +196,10 @@ struct Crease {
 };
 
 /// The nearest place, found by Newton's steps, where both patches vanish, and their angle there.
-Crease crease_near(Eigen::Vector3d place, const HeightPatch& first, const HeightPatch& second) {
+template <class Patch>
+Crease crease_between(const std::vector<OrientedPoint>& points, const TwoSheets& sheets,
+                      const Patch& first, const Patch& second) {
+  Eigen::Vector3d place = near_crease(points, sheets, first, second);
   double turn = 0.0;
   for (int step = 0; step < 4; ++step) {
     const FieldValue one = first.at(place);
@@ -203,11 +240,16 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
     parts[sheets->sides[i]].push_back(points[i]);
     members[sheets->sides[i]].push_back(i);
   }
-  auto first = HeightPatch::fit(parts[0], centre, sheets->planes[0].normal, radius, roughness);
+  const auto& [one, other] = sheets->planes;
+  const Crease rough =
+      crease_between(points, *sheets, QuadraticSheet(parts[0], one.normal, centre, radius),
+                     QuadraticSheet(parts[1], other.normal, centre, radius));
+  if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
+  auto first = HeightPatch::fit(parts[0], centre, one.normal, radius, roughness);
   if (!first) return std::nullopt;
-  auto second = HeightPatch::fit(parts[1], centre, sheets->planes[1].normal, radius, roughness);
+  auto second = HeightPatch::fit(parts[1], centre, other.normal, radius, roughness);
   if (!second) return std::nullopt;
-  const Crease crease = crease_near(near_crease(points, *sheets, *first, *second), *first, *second);
+  const Crease crease = crease_between(points, *sheets, *first, *second);
   CreasedPatch patch({std::move(*first), std::move(members[0])},
                      {std::move(*second), std::move(members[1])}, sheets->convex);
   patch.turn_ = crease.turn;

@@ -17,7 +17,8 @@ namespace instep {
 class CreasedPatch {
  public:
   /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six that
-  /// meet in an angle. Two fits and some passes over the points.
+  /// meet in an angle, or if quadratics through the two plainly meet in none, as where one smooth
+  /// surface was cut in two. Two fits and some passes over the points.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
                                          double roughness);
@@ -32,8 +33,7 @@ class CreasedPatch {
   /// The sheet that bounds the body there.
   const Sheet& sheet_at(const Eigen::Vector3d& position) const;
 
-  /// Angle between the two sheets' normals where they meet, in radians; near zero where one smooth
-  /// surface was cut in two.
+  /// Angle between the two sheets' normals where they meet, in radians.
   double turn() const { return turn_; }
 
   /// Distance from the place where they meet nearest to the points on both, to the nearest point of

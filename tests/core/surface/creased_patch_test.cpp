@@ -168,13 +168,11 @@ TEST(CreasedPatch, IsLikelierThanOneSmoothSheetOnARoof) {
   EXPECT_LT(creased->misfit(), smooth(points, Vector3d::Zero()));
 }
 
-TEST(CreasedPatch, HardlyTurnsWhereASmoothSurfaceWasCutInTwo) {
+TEST(CreasedPatch, IsNoneWhereASmoothSurfaceWasCutInTwo) {
   // Strongly curved caps fall in two by their normals; their halves meet evenly.
   for (const double radius : {0.8, 1.0, 1.2}) {
     const auto cap = test::cap_points(radius, 0.95 * std::min(radius, 1.0), 200, 0.0, 1);
-    const auto patch = CreasedPatch::fit(cap, {0, 0, radius}, 1.0, 1e-3);
-    ASSERT_TRUE(patch) << radius;
-    EXPECT_LT(patch->turn(), 5.0 * kDegree) << radius;
+    EXPECT_FALSE(CreasedPatch::fit(cap, {0, 0, radius}, 1.0, 1e-3)) << radius;
   }
 }
 
