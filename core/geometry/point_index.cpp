@@ -69,6 +69,28 @@ class NearestFound {
   std::vector<PointIndex::Neighbour> found_;
 };
 
+/// Keeps all within a distance.
+class AllFound {
+ public:
+  using DistanceType = double;
+
+  explicit AllFound(double squared_radius) : squared_radius_(squared_radius) {}
+
+  bool full() const { return true; }
+  std::size_t size() const { return found_.size(); }
+  double worstDist() const { return squared_radius_; }
+  bool addPoint(double squared_distance, std::size_t index) {
+    if (squared_distance <= squared_radius_) found_.push_back({index, squared_distance});
+    return true;
+  }
+
+  std::vector<PointIndex::Neighbour> take() && { return std::move(found_); }
+
+ private:
+  double squared_radius_;
+  std::vector<PointIndex::Neighbour> found_;
+};
+
 }  // namespace
 
 struct PointIndex::Tree {
@@ -108,16 +130,11 @@ const std::vector<Eigen::Vector3d>& PointIndex::points() const {
 
 std::vector<PointIndex::Neighbour> PointIndex::around(const Eigen::Vector3d& query,
                                                       double radius) const {
-  std::vector<Neighbour> found;
-  if (tree_->adaptor.points.empty()) return found;
+  if (tree_->adaptor.points.empty()) return {};
   // nanoflann leaves out points at exactly the squared radius.
-  const double squared_radius = std::nextafter(radius * radius, radius * radius + 1.0);
-  std::vector<std::pair<std::size_t, double>> raw;
-  tree_->tree.radiusSearch(query.data(), squared_radius, raw,
-                           nanoflann::SearchParams(32, 0.0F, false));
-  found.reserve(raw.size());
-  for (const auto& [index, squared] : raw) found.push_back({index, squared});
-  return found;
+  AllFound all(std::nextafter(radius * radius, radius * radius + 1.0));
+  tree_->tree.findNeighbors(all, query.data(), nanoflann::SearchParams());
+  return std::move(all).take();
 }
 
 double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,

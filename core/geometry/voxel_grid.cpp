@@ -51,10 +51,6 @@ VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm)
   find_rows();
 }
 
-std::span<const std::uint32_t> VoxelGrid::members(std::size_t cell) const {
-  return {members_.data() + begins_[cell], members_.data() + begins_[cell + 1]};
-}
-
 /// The cells above each other round a cell follow each other in the order of keys: nine rows, whose
 /// beginnings move forward as the cell does.
 void VoxelGrid::find_rows() {

@@ -23,7 +23,9 @@ class VoxelGrid {
   std::size_t cell_count() const { return keys_.size(); }
 
   /// Indices of the points in a cell, ascending.
-  std::span<const std::uint32_t> members(std::size_t cell) const;
+  std::span<const std::uint32_t> members(std::size_t cell) const {
+    return {members_.data() + begins_[cell], members_.data() + begins_[cell + 1]};
+  }
 
   /// The occupied cells among a cell and the 26 round it, the cell itself included, ascending.
   std::vector<std::size_t> neighbourhood(std::size_t cell) const;

@@ -48,30 +48,32 @@ ContourIndex::Cell ContourIndex::cell_of(const Eigen::Vector2d& point) const {
 }
 
 /// Looks at the cells in squares round the point's own, until none further out can hold a nearer
-/// corner.
+/// corner. Cells of one column follow each other.
 std::size_t ContourIndex::nearest_corner(const Eigen::Vector2d& point) const {
   const Cell middle = cell_of(point);
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
-  const auto look_at = [&](int column, int row) {
-    const std::size_t cell = number_of(column, row);
-    for (std::uint32_t at = begins_[cell]; at < begins_[cell + 1]; ++at) {
+  const auto look_at = [&](int column, int from_row, int to_row) {
+    const std::uint32_t end = begins_[number_of(column, to_row) + 1];
+    for (std::uint32_t at = begins_[number_of(column, from_row)]; at < end; ++at) {
       const double squared = (corners_[members_[at]] - point).squaredNorm();
       if (squared > least || (squared == least && members_[at] > nearest)) continue;
       least = squared;
       nearest = members_[at];
     }
   };
-  for (int ring = 0; ring < kCells; ++ring) {
+  for (int ring = 1; ring < kCells; ++ring) {
     const double looked_at = (ring - 1) * side_;
-    if (ring > 1 && least < looked_at * looked_at) break;
+    if (least < looked_at * looked_at) break;
     const Cell from = (middle - ring).max(0);
     const Cell to = (middle + ring).min(kCells - 1);
     for (int column = from.x(); column <= to.x(); ++column) {
-      const bool is_side = std::abs(column - middle.x()) == ring;
-      for (int row = from.y(); row <= to.y(); ++row) {
-        if (is_side || std::abs(row - middle.y()) == ring) look_at(column, row);
+      if (ring == 1 || std::abs(column - middle.x()) == ring) {
+        look_at(column, from.y(), to.y());
+        continue;
       }
+      if (middle.y() - ring >= 0) look_at(column, from.y(), from.y());
+      if (middle.y() + ring < kCells) look_at(column, to.y(), to.y());
     }
   }
   return nearest;

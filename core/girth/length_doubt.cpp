@@ -24,7 +24,7 @@ constexpr double kBlendedNoise = 0.5;
 /// More than this part of a length is no correction but a guess.
 constexpr double kMostWaves = 0.001;
 /// Unseen waves that lengthen a line by less than this part of it are not looked at closer.
-constexpr double kLeastWaves = 1e-7;
+constexpr double kLeastWaves = 1e-6;
 /// Variance of a direction (square radians) beyond which waves would be folds.
 constexpr double kSteepestWaves = 0.01;
 /// What first order leaves out, against the length.

@@ -60,17 +60,6 @@ Eigen::MatrixXd kernel_between(HeightKernel kernel, const Eigen::Matrix2Xd& plac
   return matrix;
 }
 
-/// Takes a * b' + b * a' from the lower triangle.
-void subtract_both_ways(const Eigen::Ref<const Eigen::MatrixXd>& a,
-                        const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& matrix) {
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    const Eigen::Index rest = matrix.cols() - j;
-    for (Eigen::Index k = 0; k < a.cols(); ++k) {
-      matrix.col(j).tail(rest) -= b(j, k) * a.col(k).tail(rest) + a(j, k) * b.col(k).tail(rest);
-    }
-  }
-}
-
 /// Diagonal of the inverse of what was decomposed, by the columns of the inverse of the factor:
 /// each begins as far down as it stands to the right.
 Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
@@ -114,7 +103,7 @@ Eigen::Index fewest_terms(HeightKernel kernel) {
 
 std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eigen::Index terms,
                                                HeightKernel kernel) {
-  if (samples.size() < 4 || !span_a_plane(samples.places)) return std::nullopt;
+  if (samples.size() < 4) return std::nullopt;
   HeightKriging kriging;
   kriging.kernel_ = kernel;
   kriging.places_ = samples.places;
@@ -129,6 +118,7 @@ std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eig
   kriging.qr_.setThreshold(kLeastDetermined);
   const Eigen::Index rank = kriging.qr_.rank();
   if (rank < fewest_terms(kernel) || rank >= samples.size()) return std::nullopt;
+  if (rank < terms && !span_a_plane(samples.places)) return std::nullopt;
   kriging.set_reflectors(rank);
   kriging.set_kernel(kernel_between(kernel, samples.places, kriging.scales_));
   kriging.heights_ = scales.asDiagonal() * samples.heights;
@@ -166,7 +156,11 @@ void HeightKriging::set_kernel(const Eigen::MatrixXd& kernel) {
   const Eigen::MatrixXd off =
       reflected - 0.5 * reflectors_ * (scaled_reflectors_.transpose() * reflected);
   reduced_ = kernel.bottomRightCorner(rest, rest);
-  subtract_both_ways(off.bottomRows(rest), reflectors_.bottomRows(rest), reduced_);
+  Eigen::MatrixXd left(rest, 2 * rank);
+  Eigen::MatrixXd right(rest, 2 * rank);
+  left << off.bottomRows(rest), reflectors_.bottomRows(rest);
+  right << reflectors_.bottomRows(rest), off.bottomRows(rest);
+  reduced_.triangularView<Eigen::Lower>() -= left * right.transpose();
 }
 
 Eigen::MatrixXd HeightKriging::off_polynomials(const Eigen::MatrixXd& scaled) const {

@@ -68,7 +68,8 @@ TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
     view.points.col(static_cast<Eigen::Index>(i)) = points[chosen];
   }
   view.points.colwise() -= view.points.rowwise().mean().eval();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(view.points * view.points.transpose());
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(view.points * view.points.transpose());
   view.points = axes.eigenvectors().rowwise().reverse().transpose() * view.points;
   const Eigen::Vector3d spread = axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   if (spread[1] > 0.0) view.thickness = spread[0] / spread[1];

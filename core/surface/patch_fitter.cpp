@@ -77,13 +77,13 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// How far a point is from a place, seen along `outward`, as wide patches ask: in space, noise
-/// would choose the points at the rim: on a bent surface those that stand out are nearer than those
-/// that lie low, and a patch of them lies too low by about the variance over the radius of
+/// Square of how far a point is from a place, seen along `outward`, as wide patches ask: in space,
+/// noise would choose the points at the rim: on a bent surface those that stand out are nearer than
+/// those that lie low, and a patch of them lies too low by about the variance over the radius of
 /// curvature.
-double beside(const Eigen::Vector3d& place, const Eigen::Vector3d& point,
-              const Eigen::Vector3d& outward) {
-  return outward.cross(point - place).norm();
+double square_beside(const Eigen::Vector3d& place, const Eigen::Vector3d& point,
+                     const Eigen::Vector3d& outward) {
+  return outward.cross(point - place).squaredNorm();
 }
 
 }  // namespace
@@ -136,6 +136,9 @@ void PatchFitter::drop_strays(Members& members) const {
   std::vector<double> heights;
   heights.reserve(members.all.size());
   for (const auto i : members.all) heights.push_back(members.outward.dot(points_[i].position));
+  if (heights.empty()) return;
+  const auto [least, highest] = std::minmax_element(heights.begin(), heights.end());
+  if (*highest - *least <= kStrayRise * members.radius) return;
   const double level = median(heights);
   std::vector<double> offsets;
   offsets.reserve(heights.size());
@@ -168,9 +171,9 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
                                              const Eigen::Vector3d& place, double width) const {
   const bool wider = width > surroundings.reach;
   const auto found = wider ? index_.around(place, kRoundBends * width) : surroundings.nearest;
-  const auto distance_of = [&](const OrientedPoint& point) {
-    return wider ? beside(place, point.position, surroundings.outward)
-                 : (point.position - place).norm();
+  const auto square_of = [&](const OrientedPoint& point) {
+    return wider ? square_beside(place, point.position, surroundings.outward)
+                 : (point.position - place).squaredNorm();
   };
   Members members;
   members.radius = std::max(width, surroundings.reach);
@@ -178,21 +181,22 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
   for (const auto& neighbour : found) {
     const OrientedPoint& point = points_[neighbour.index];
     if (point.normal.dot(surroundings.outward) < kBehind) continue;
-    if (wider && distance_of(point) > width) continue;
+    if (wider && square_of(point) > width * width) continue;
     members.all.push_back(neighbour.index);
     members.outward += point.normal;
   }
   members.outward.normalize();
+  members.front.reserve(members.all.size());
   drop_strays(members);
   drop_twins(members.all, kTwin * surroundings.spacing);
-  double farthest = 0.0;
+  double farthest = 0.0;  // its square
   for (const auto i : members.all) {
     if (points_[i].normal.dot(members.outward) < kFacing) continue;
     members.front.push_back(i);
-    farthest = std::max(farthest, distance_of(points_[i]));
+    farthest = std::max(farthest, square_of(points_[i]));
   }
   // Across lines, points lie beyond the reach of those along them, which all have to serve.
-  members.front_radius = std::min(farthest, members.radius);
+  members.front_radius = std::min(std::sqrt(farthest), members.radius);
   return members;
 }
 
