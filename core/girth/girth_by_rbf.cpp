@@ -149,16 +149,15 @@ bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
 /// The section as one even skin where it is that, else as its patches tell it: they see a narrow
 /// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
 /// looked is known of the patches alone.
-MeasuredSection measured(const PointCloud& cloud, const TapePlane& plane, const PlaneBand& band,
-                         const std::vector<Loop>& loops, const BlendedSurface& surface,
-                         const SectionEvidence& evidence) {
+MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::vector<Loop>& loops,
+                         const BlendedSurface& surface, const SectionEvidence& evidence) {
   const Contour& contour = loops.front().contour;
   const LengthDoubt doubt = doubt_of(contour, surface);
   const MeasuredSection patches{contour, contour.length() + doubt.waves,
                                 contour.tape_length() + doubt.waves, doubt.contact_u95,
                                 doubt.stretched_u95};
   if (loops.size() > 1) return patches;
-  auto smooth = smooth_section(cloud, plane, band, contour);
+  auto smooth = smooth_section(slabs, band, contour);
   if (!smooth || contradict(*smooth, patches)) return patches;
   if (has_notable_gap(band, evidence)) {
     smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
@@ -194,7 +193,8 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
-  auto band = band_at(cloud, plane, options.sigma_mm);
+  SlabSource slabs(cloud, plane);
+  auto band = band_at(slabs, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
   // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
@@ -214,7 +214,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
-  const auto section = measured(cloud, plane, *band, loops, surface, evidence);
+  const auto section = measured(slabs, *band, loops, surface, evidence);
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,

@@ -8,7 +8,6 @@
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
-#include "core/girth/plane_slab.h"
 #include "core/median.h"
 #include "core/surface/surface_normals.h"
 
@@ -228,13 +227,12 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
 
 }  // namespace
 
-Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
-                          std::optional<double> sigma_mm) {
+Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
+  const PointCloud& cloud = slabs.cloud();
   if (cloud.size() < kFewestPoints) {
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
                 "scan again");
   }
-  SlabSource slabs(cloud, plane);
   const auto found = probe(slabs);
   if (!found) return tl::make_unexpected(found.error());
   PlaneBand band = gather_enough(slabs, *found, 0.0);
@@ -257,7 +255,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
   band.own_sigma = own_sigma;
-  set_points(cloud, plane, band);
+  set_points(cloud, slabs.plane(), band);
   return band;
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/point_index.h"
-#include "core/girth/tape_plane.h"
+#include "core/girth/plane_slab.h"
 #include "core/result.h"
 #include "core/surface/noise_estimate.h"
 #include "core/surface/oriented_point.h"
@@ -39,10 +39,9 @@ struct PlaneBand {
 /// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
 /// they tell no more than fewer would, a part of the section.
 ///
-/// `cloud` has passed check_cloud(). Fails with kInsufficientData for too few points or none that
-/// form a surface, kInvalidInput for a plane that has none near it or all on one side. O(points of
-/// the cloud), and m log m for the m near the plane.
-Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
-                          std::optional<double> sigma_mm);
+/// The cloud of `slabs` has passed check_cloud(). Fails with kInsufficientData for too few points
+/// or none that form a surface, kInvalidInput for a plane that has none near it or all on one side.
+/// O(points of the cloud), and m log m for the m near the plane.
+Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm);
 
 }  // namespace instep

@@ -29,6 +29,9 @@ class SlabSource {
   /// O(n).
   SlabSource(const PointCloud& cloud, const TapePlane& plane);
 
+  const PointCloud& cloud() const { return cloud_; }
+  const TapePlane& plane() const { return plane_; }
+
   /// Size of the cloud as the plane sees it, so that it turns with the two: the diagonal of its box
   /// there. Of at least one point.
   double size() const { return size_; }

@@ -9,7 +9,6 @@
 #include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_turns.h"
 #include "core/girth/fair_line.h"
-#include "core/girth/plane_slab.h"
 #include "core/surface/ribbon_spline.h"
 
 namespace instep {
@@ -54,10 +53,10 @@ double half_width_of(const PlaneBand& band) {
   return std::min(kHalfWidth, reach * kMostPoints / static_cast<double>(band.points.size()));
 }
 
-std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& plane,
-                                   const PlaneBand& band, const FairLine& line) {
+std::vector<RibbonPoint> ribbon_of(SlabSource& slabs, const PlaneBand& band, const FairLine& line) {
+  const PointCloud& cloud = slabs.cloud();
   const double half_width = half_width_of(band);
-  PlaneSlab slab = slab_of(cloud, plane, half_width * band.unit_mm);
+  PlaneSlab slab = slabs.slab(half_width * band.unit_mm);
   if (band.copies_within > 0.0) {
     slab = without(near_copies(slab.places, band.copies_within * band.unit_mm), slab);
   }
@@ -126,14 +125,13 @@ double u95_of(const RibbonSpline& ribbon, const std::vector<double>& ways,
 
 }  // namespace
 
-std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const TapePlane& plane,
-                                              const PlaneBand& band, const Contour& contour) {
+std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand& band,
+                                              const Contour& contour) {
   if (!(band.sigma > kLeastNoise)) return std::nullopt;
   const auto line = FairLine::through(contour, kFairKnotsApart);
   if (!line) return std::nullopt;
   const auto knots = static_cast<int>(std::lround(line->length() / kKnotsApart));
-  const auto ribbon =
-      RibbonSpline::through(ribbon_of(cloud, plane, band, *line), line->length(), knots);
+  const auto ribbon = RibbonSpline::through(ribbon_of(slabs, band, *line), line->length(), knots);
   if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;
 
   std::vector<double> ways;

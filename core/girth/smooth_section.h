@@ -2,10 +2,9 @@
 
 #include <optional>
 
-#include "core/geometry/point_cloud.h"
 #include "core/girth/contour_trace.h"
 #include "core/girth/plane_band.h"
-#include "core/girth/tape_plane.h"
+#include "core/girth/plane_slab.h"
 
 namespace instep {
 
@@ -31,9 +30,9 @@ struct MeasuredSection {
 /// than a tape round it does, turns sharply somewhere (noise blunts a crease, but does not hide it)
 /// or scatters more round the spline than the noise, or if there is no noise to speak of.
 ///
-/// `contour` as traced in the band of that cloud and plane; the points of `cloud` need no normals.
-/// O(points of the cloud).
-std::optional<MeasuredSection> smooth_section(const PointCloud& cloud, const TapePlane& plane,
-                                              const PlaneBand& band, const Contour& contour);
+/// `contour` as traced in the band of these slabs; the points need no normals. O(points of the
+/// cloud).
+std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand& band,
+                                              const Contour& contour);
 
 }  // namespace instep

@@ -9,13 +9,12 @@ ClosedSplineBasis::ClosedSplineBasis(double length, Eigen::Index knots)
 
 ClosedSplineBasis::Spot ClosedSplineBasis::at(double way) const {
   const double per_length = static_cast<double>(knots_) / length_;
-  const double round = way / length_ - std::floor(way / length_);
-  const double place = round * static_cast<double>(knots_);
-  const double before = std::floor(place);
-  const double t = place - before;
+  const double turns = way / length_;
+  const double place = (turns - std::floor(turns)) * static_cast<double>(knots_);
+  Eigen::Index term = static_cast<Eigen::Index>(place);
+  const double t = place - static_cast<double>(term);
   const double rest = 1.0 - t;
   Spot spot;
-  Eigen::Index term = static_cast<Eigen::Index>(before);
   for (auto& number : spot.terms) {
     if (term >= knots_) term -= knots_;
     number = term++;

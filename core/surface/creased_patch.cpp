@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -26,7 +27,7 @@ constexpr std::size_t kPointsAtCrease = 6;
 constexpr std::size_t kCandidatesAtCrease = 48;
 
 /// Which of the two sheets each point lies on.
-using Sides = std::vector<bool>;
+using Sides = std::vector<std::uint8_t>;
 
 /// The plane of the points on one side.
 struct SheetPlane {
@@ -123,7 +124,7 @@ std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
     if (sheets.sides == before) return sheets;
   }
   const auto on_second =
-      static_cast<std::size_t>(std::count(sheets.sides.begin(), sheets.sides.end(), true));
+      static_cast<std::size_t>(std::count(sheets.sides.begin(), sheets.sides.end(), 1));
   if (std::min(on_second, points.size() - on_second) < kFewestOnASheet) return std::nullopt;
   return sheets;
 }

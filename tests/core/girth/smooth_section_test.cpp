@@ -125,9 +125,10 @@ TEST(SmoothSection, IsForNoisyPoints) {
   const auto plane = test::plane_at({0, 0, 1}, {1, 0, 1}, {0, 1, 1});
   const auto section = [&](double sigma_mm) {
     const auto cloud = test::cylinder(6000, sigma_mm);
-    const auto band = band_at(cloud, plane, std::nullopt);
+    SlabSource slabs(cloud, plane);
+    const auto band = band_at(slabs, std::nullopt);
     EXPECT_TRUE(band);
-    return smooth_section(cloud, plane, *band, circle_in(*band));
+    return smooth_section(slabs, *band, circle_in(*band));
   };
   EXPECT_TRUE(section(0.3));
   EXPECT_FALSE(section(0.0));
