@@ -69,8 +69,7 @@ std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& pla
     const auto foot = line.foot_of(place);
     const double reach = kReach + kReachInSigmas * band.sigma + kLean * std::abs(off);
     if (!(foot.distance <= reach)) continue;
-    const double sigma =
-        band.own_sigma ? cloud.sigma_mm[slab.indices[i]] / (band.unit_mm * band.sigma) : 1.0;
+    const double sigma = band.sigma_of(cloud, slab.indices[i]) / band.sigma;
     ribbon.push_back({foot.way, off / half_width, foot.height, 1.0 / (sigma * sigma)});
   }
   return ribbon;

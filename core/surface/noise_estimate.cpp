@@ -15,6 +15,11 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kNeighbourhoods = 24;
+/// What is told of the points is too little where so small a share of the neighbourhoods shows less
+/// than this times it. Of 600 drawn clouds whose noise is told rightly, and of fused ones of the
+/// simulated station and of a real camera, that share shows no more than 1.17 times the truth.
+constexpr double kFewNeighbourhoods = 0.25;
+constexpr double kPlainlyMore = 1.25;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 constexpr double kLeastRoughness = 1e-12;
@@ -130,24 +135,43 @@ double likely_roughness(const Neighbourhood& here, double variance, std::optiona
          here.radius;
 }
 
+/// By what to raise what is told, from how many times as much each neighbourhood shows.
+double scale_of_told(const std::vector<double>& excesses) {
+  return quantile(excesses, kFewNeighbourhoods) > kPlainlyMore ? median(excesses) : 1.0;
+}
+
+/// The middle one of what is told at the places.
+double usually_told(const std::vector<double>& told, const std::vector<std::size_t>& places) {
+  std::vector<double> there;
+  there.reserve(places.size());
+  for (const std::size_t place : places) there.push_back(told[place]);
+  return median(there.empty() ? told : std::move(there));
+}
+
 }  // namespace
 
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             const std::vector<std::size_t>& places, std::optional<double> sigma) {
+                             const std::vector<std::size_t>& places,
+                             const std::vector<double>& told) {
   std::vector<Neighbourhood> neighbourhoods;
   std::vector<double> variances;
+  std::vector<double> excesses;
   NoiseEstimate estimate;
   const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
   for (std::size_t i = stride / 2; i < places.size(); i += stride) {
     const Eigen::Vector3d& place = points[places[i]];
     auto neighbourhood = neighbourhood_in(flattest_view(points, index, place));
     if (!neighbourhood) continue;
-    if (!sigma) variances.push_back(own_variance(*neighbourhood));
+    variances.push_back(own_variance(*neighbourhood));
+    if (!told.empty()) excesses.push_back(std::sqrt(variances.back()) / told[places[i]]);
     neighbourhoods.push_back(std::move(*neighbourhood));
     estimate.roughness.push_back({place, 0.0});
   }
-  if (neighbourhoods.empty()) return {sigma.value_or(0.0), {}};
-  estimate.sigma = sigma ? *sigma : std::sqrt(median(std::move(variances)));
+  estimate.told_scale = scale_of_told(excesses);
+  if (!told.empty()) estimate.sigma = estimate.told_scale * usually_told(told, places);
+  if (neighbourhoods.empty()) return estimate;
+  estimate.shown = std::sqrt(median(std::move(variances)));
+  if (told.empty()) estimate.sigma = estimate.shown;
   const double variance = std::max(estimate.sigma * estimate.sigma, 1e-24);
   std::vector<double> free;
   for (const auto& neighbourhood : neighbourhoods) {
