@@ -68,7 +68,10 @@ struct Girth {
 /// the lengths and their intervals are read off one surface through far more points, laid along
 /// that contour (smooth_section()), unless the two contradict each other; elsewhere, and where a
 /// hole is reported, the intervals are LengthDoubt's. They take the noise of points to be
-/// independent: what is common to neighbours, such as a bent depth map, is not in them.
+/// independent: what is common to neighbours, such as a bent depth map, is not in them. Where
+/// nothing is told of the noise it may differ along the section, as where one side was seen at a
+/// grazing angle (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is
+/// not told apart.
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});

@@ -94,21 +94,14 @@ Result<Probe> probe(SlabSource& slabs) {
 PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
   PlaneSlab slab = slabs.slab(half_width * found.unit_mm);
   for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
-  PlaneBand band{found.unit_mm,
-                 found.middle_mm.head<2>(),
-                 {},
-                 PointIndex(std::move(slab.places)),
-                 std::move(slab.indices),
-                 {},
-                 0.0,
-                 0.0,
-                 0.0,
-                 0.0,
-                 0,
-                 false,
-                 1.0,
-                 0.0,
-                 {}};
+  PlaneBand band{.unit_mm = found.unit_mm,
+                 .middle_mm = found.middle_mm.head<2>(),
+                 .points = {},
+                 .index = PointIndex(std::move(slab.places)),
+                 .sources = std::move(slab.indices),
+                 .seen = {},
+                 .uneven = {},
+                 .roughness = {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
   return band;
 }
@@ -229,7 +222,8 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   const double least = 1e-9 * band.spacing;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double sigma = std::max(band.sigma_of(cloud, band.sources[i]), least);
+    const double sigma =
+        std::max(band.sigma_of(cloud, band.sources[i], band.index.points()[i]), least);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
   }
 }
@@ -238,7 +232,9 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
 
 /// What stands for skin that nobody saw is told of by who put it there: what points show is no word
 /// on it.
-double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source) const {
+double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source,
+                           const Eigen::Vector3d& place) const {
+  if (!uneven.empty()) return sigma_at(uneven, place);
   if (!own_sigma) return sigma;
   return (cloud.was_seen(source) ? told_scale : 1.0) * cloud.sigma_mm[source] / unit_mm;
 }
@@ -269,6 +265,7 @@ Result<PlaneBand> band_at(const PointCloud& cloud, const TapePlane& plane,
   band.sigma = noise.sigma;
   band.shown_sigma = noise.shown;
   band.told_scale = noise.told_scale;
+  band.uneven = std::move(noise.uneven);
   band.own_sigma = !sigma_mm && cloud.has_sigma();
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));

@@ -32,6 +32,7 @@ struct PlaneBand {
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
   double told_scale = 1.0;                ///< by which the noise that is told was raised
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
+  std::vector<LocalSigma> uneven;         ///< where noise differs from place to place; in the unit
   std::vector<LocalRoughness> roughness;  ///< in the unit
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {
@@ -39,15 +40,17 @@ struct PlaneBand {
   }
 
   /// Noise of any point of the cloud that the band was made of, near the plane or not, in the unit.
-  double sigma_of(const PointCloud& cloud, std::size_t source) const;
+  /// `place`: its own, as the band has it.
+  double sigma_of(const PointCloud& cloud, std::size_t source, const Eigen::Vector3d& place) const;
 };
 
 /// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
 /// they tell no more than fewer would, a part of the section.
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
-/// (core/surface/noise_estimate.h). Where they plainly show more than they are told to have, all of
-/// what is told of points that were seen is raised to that.
+/// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place.
+/// Where they plainly show more than they are told to have, all of what is told of points that were
+/// seen is raised to that.
 ///
 /// `cloud` has passed check_cloud(). Fails with kInsufficientData for too few points or none that
 /// form a surface, kInvalidInput for a plane that has none near it or all on one side. O(points of

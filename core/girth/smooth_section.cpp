@@ -69,7 +69,8 @@ std::vector<RibbonPoint> ribbon_of(const PointCloud& cloud, const TapePlane& pla
     const auto foot = line.foot_of(place);
     const double reach = kReach + kReachInSigmas * band.sigma + kLean * std::abs(off);
     if (!(foot.distance <= reach)) continue;
-    const double sigma = band.sigma_of(cloud, slab.indices[i]) / band.sigma;
+    const double sigma =
+        band.sigma_of(cloud, slab.indices[i], {place.x(), place.y(), off}) / band.sigma;
     ribbon.push_back({foot.way, off / half_width, foot.height, 1.0 / (sigma * sigma)});
   }
   return ribbon;

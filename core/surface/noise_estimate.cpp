@@ -23,6 +23,7 @@ constexpr double kPlainlyMore = 1.25;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 constexpr double kLeastRoughness = 1e-12;
+constexpr double kLeastVariance = 1e-24;
 /// Ratios of noise to shape that are tried, against the kernel's own size.
 constexpr double kLeastRatio = 1e-12;
 constexpr double kMostRatio = 1e3;
@@ -140,12 +141,40 @@ double scale_of_told(const std::vector<double>& excesses) {
   return quantile(excesses, kFewNeighbourhoods) > kPlainlyMore ? median(excesses) : 1.0;
 }
 
-/// The middle one of what is told at the places.
-double usually_told(const std::vector<double>& told, const std::vector<std::size_t>& places) {
-  std::vector<double> there;
-  there.reserve(places.size());
-  for (const std::size_t place : places) there.push_back(told[place]);
-  return median(there.empty() ? told : std::move(there));
+/// Each with its own noise, whatever is usual.
+std::vector<double> likely_roughnesses(const std::vector<Neighbourhood>& neighbourhoods,
+                                       const std::vector<double>& noise) {
+  std::vector<double> likely;
+  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
+    likely.push_back(likely_roughness(neighbourhoods[i], noise[i], std::nullopt));
+  }
+  return likely;
+}
+
+double misfit(const Neighbourhood& here, double variance, double roughness) {
+  return here.likelihood.misfit(variance / (here.radius * here.radius), roughness * here.radius);
+}
+
+/// `variances`: the likeliest ones; `roughnesses`: those that go with the `common` one.
+std::vector<NoiseWitness> witnesses_of(const std::vector<Neighbourhood>& neighbourhoods,
+                                       const std::vector<LocalRoughness>& places,
+                                       const std::vector<double>& variances, double common,
+                                       const std::vector<double>& roughnesses) {
+  std::vector<NoiseWitness> witnesses;
+  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
+    const auto& here = neighbourhoods[i];
+    const double own = std::max(variances[i], kLeastVariance);
+    const double gain = misfit(here, common, roughnesses[i]) -
+                        misfit(here, own, likely_roughness(here, own, std::nullopt));
+    witnesses.push_back({places[i].place, own, std::max(gain, 0.0)});
+  }
+  return witnesses;
+}
+
+double root_mean_square(const std::vector<LocalSigma>& sigmas) {
+  double squares = 0.0;
+  for (const auto& local : sigmas) squares += local.sigma * local.sigma;
+  return std::sqrt(squares / static_cast<double>(sigmas.size()));
 }
 
 }  // namespace
@@ -168,18 +197,26 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
     estimate.roughness.push_back({place, 0.0});
   }
   estimate.told_scale = scale_of_told(excesses);
-  if (!told.empty()) estimate.sigma = estimate.told_scale * usually_told(told, places);
+  if (!told.empty()) estimate.sigma = estimate.told_scale * median(told);
   if (neighbourhoods.empty()) return estimate;
-  estimate.shown = std::sqrt(median(std::move(variances)));
+  estimate.shown = std::sqrt(median(variances));
   if (told.empty()) estimate.sigma = estimate.shown;
-  const double variance = std::max(estimate.sigma * estimate.sigma, 1e-24);
-  std::vector<double> free;
-  for (const auto& neighbourhood : neighbourhoods) {
-    free.push_back(likely_roughness(neighbourhood, variance, std::nullopt));
+  std::vector<double> noise(neighbourhoods.size(),
+                            std::max(estimate.sigma * estimate.sigma, kLeastVariance));
+  auto roughness = likely_roughnesses(neighbourhoods, noise);
+  if (told.empty()) {
+    estimate.uneven = uneven_noise(
+        witnesses_of(neighbourhoods, estimate.roughness, variances, noise.front(), roughness),
+        noise.front());
   }
-  const double usual = std::max(median(std::move(free)), 1e-300);
+  if (!estimate.uneven.empty()) {
+    estimate.sigma = root_mean_square(estimate.uneven);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = std::pow(estimate.uneven[i].sigma, 2);
+    roughness = likely_roughnesses(neighbourhoods, noise);
+  }
+  const double usual = std::max(median(std::move(roughness)), 1e-300);
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
-    estimate.roughness[i].roughness = likely_roughness(neighbourhoods[i], variance, usual);
+    estimate.roughness[i].roughness = likely_roughness(neighbourhoods[i], noise[i], usual);
   }
   return estimate;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/surface/uneven_noise.h"
 
 namespace instep {
 
@@ -20,13 +21,17 @@ struct NoiseEstimate {
   double sigma = 0.0;       ///< standard deviation of a point along its normal: the one to use
   double shown = 0.0;       ///< the one that the points show, whatever is told of them
   double told_scale = 1.0;  ///< by which what was told has to be raised; 1 where it can be believed
+  std::vector<LocalSigma> uneven;  ///< where nothing is told and one sigma for all cannot be
   std::vector<LocalRoughness> roughness;
 };
 
 /// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
 /// are used), each taken as heights over its own tangent plane: restricted maximum likelihood with
 /// the kernel r^3, which tells white noise from wandering shape by its scale. The noise is the
-/// middle one over the neighbourhoods, so that creases and a few stray ones do not count.
+/// middle one over the neighbourhoods, so that creases and a few stray ones do not count. Where
+/// they plainly contradict one noise for all (uneven_noise()), each has its own, and the one to use
+/// for all is their root mean square. That needs `places` in the order in which they lie round the
+/// body.
 ///
 /// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
 /// points show less, for part of their noise may be common to neighbours; but where three quarters

@@ -63,6 +63,36 @@ TEST(NoiseEstimate, IsNotMisledByAFewStrays) {
   EXPECT_NEAR(estimate(points).sigma, sigma, 0.2 * sigma);
 }
 
+/// The places of a ring round the sphere, in their order.
+std::vector<std::size_t> ring_of(const Points& points) {
+  std::vector<std::size_t> ring;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::abs(points[i].z()) < 0.02) ring.push_back(i);
+  }
+  std::sort(ring.begin(), ring.end(), [&](std::size_t a, std::size_t b) {
+    return std::atan2(points[a].y(), points[a].x()) < std::atan2(points[b].y(), points[b].x());
+  });
+  return ring;
+}
+
+TEST(NoiseEstimate, TellsUnevenNoiseFromEven) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    const auto same = sphere(0.003, seed);
+    EXPECT_TRUE(estimate_noise(same, PointIndex(same), ring_of(same), {}).uneven.empty()) << seed;
+    auto points = test::positions_of(test::sphere_points(0.5, 4000, 0.0, seed));
+    test::RandomNumbers random(seed);
+    const auto sigma_of = [](const Vector3d& point) { return point.x() > 0.0 ? 0.006 : 0.0015; };
+    for (auto& point : points) point *= 1.0 + sigma_of(point) * random.normal() / 0.5;
+    const auto noise = estimate_noise(points, PointIndex(points), ring_of(points), {});
+    ASSERT_FALSE(noise.uneven.empty()) << seed;
+    for (const auto& local : noise.uneven) {
+      if (std::abs(local.place.x()) < 0.15) continue;  // reaches over the step
+      EXPECT_NEAR(std::log(local.sigma / sigma_of(local.place)), 0.0, 0.3) << seed;
+    }
+    EXPECT_NEAR(noise.sigma, std::hypot(0.006, 0.0015) / std::sqrt(2.0), 0.001);
+  }
+}
+
 TEST(NoiseEstimate, KeepsWhatIsToldThoughThePointsShowLess) {
   const auto noise = estimate(sphere(0.003, 6), std::vector<double>(4000, 0.007));
   EXPECT_DOUBLE_EQ(noise.sigma, 0.007);
