@@ -119,7 +119,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
   FootScan foot;
   // Files of triangles name a corner once for each face.
-  foot.cloud = cloud.subset(distinct_points(cloud.positions));
+  foot.cloud = cloud.subset(distinct_points(cloud));
   if (foot.cloud.size() < kFewestPoints) {
     return too_few(foot.cloud.size());
   }

@@ -16,7 +16,14 @@ namespace instep {
 /// What is known beforehand about a girth to be measured.
 struct GirthOptions {
   /// Noise of a point along its normal. Without it the cloud's own sigma is used, and without that
-  /// it is estimated from the points near the plane.
+  /// what the points near the plane show (core/surface/noise_estimate.h).
+  ///
+  /// girth_by_rbf() and girth_by_mesh() believe what is told, by this or by the cloud, unless the
+  /// points plainly scatter more: then they raise it to what the points show, and a warning says
+  /// so. A third of the true noise would make a girth millimetres too long. They do not lower it,
+  /// for noise that neighbours share does not show; too much of it widens the interval, and where
+  /// points are few for the body it smooths away what is skin, which a warning says from 1.2 % of
+  /// the section on.
   std::optional<double> sigma_mm;
 };
 
@@ -36,7 +43,7 @@ struct Girth {
 
   std::size_t points = 0;       ///< points of the whole cloud
   std::size_t band_points = 0;  ///< points near the plane that took part
-  double sigma_mm = 0.0;        ///< noise that was used
+  double sigma_mm = 0.0;        ///< noise that was used: of the usual point near the plane
   /// Longest stretch of the section without a seen point under it.
   double largest_gap_mm = 0.0;
   std::vector<std::string> warnings;
@@ -61,7 +68,10 @@ struct Girth {
 /// the lengths and their intervals are read off one surface through far more points, laid along
 /// that contour (smooth_section()), unless the two contradict each other; elsewhere, and where a
 /// hole is reported, the intervals are LengthDoubt's. They take the noise of points to be
-/// independent: what is common to neighbours, such as a bent depth map, is not in them.
+/// independent: what is common to neighbours, such as a bent depth map, is not in them. Where
+/// nothing is told of the noise it may differ along the section, as where one side was seen at a
+/// grazing angle (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is
+/// not told apart.
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});

@@ -182,8 +182,14 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   const auto points = static_cast<double>(band.points.size() + band.strays);
   warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
           "many points near the plane stand alone and were left out");
-  warn_if(band.sigma > kNotableNoise,
+  if (auto disbelief = disbelief_of_told_noise(band)) girth.warnings.push_back(*disbelief);
+  const bool scattered = band.shown_sigma > kNotableNoise;
+  warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
+  warn_if(
+      !scattered && band.sigma > kNotableNoise,
+      "so much noise is told of the points that what is skin may be smoothed away: they scatter "
+      "far less; leave --sigma-mm out, or give a smaller one");
   warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
 }
 

@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
-#include "core/median.h"
 #include "core/surface/surface_normals.h"
 
 namespace instep {
@@ -45,6 +45,8 @@ constexpr double kNormalCellInSigmas = 3.3;
 /// Of a cell, against the section: three of them in a row must not reach round the body.
 constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
+/// Of a section: the texture of skin or a scanner's rounding.
+constexpr double kHarmlessScatter = 3e-4;
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
@@ -91,19 +93,14 @@ Result<Probe> probe(SlabSource& slabs) {
 PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
   PlaneSlab slab = slabs.slab(half_width * found.unit_mm);
   for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
-  PlaneBand band{found.unit_mm,
-                 found.middle_mm.head<2>(),
-                 {},
-                 PointIndex(std::move(slab.places)),
-                 std::move(slab.indices),
-                 {},
-                 0.0,
-                 0.0,
-                 0.0,
-                 0,
-                 false,
-                 0.0,
-                 {}};
+  PlaneBand band{.unit_mm = found.unit_mm,
+                 .middle_mm = found.middle_mm.head<2>(),
+                 .points = {},
+                 .index = PointIndex(std::move(slab.places)),
+                 .sources = std::move(slab.indices),
+                 .seen = {},
+                 .uneven = {},
+                 .roughness = {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
   return band;
 }
@@ -172,18 +169,23 @@ std::vector<std::size_t> along_the_plane(const PointCloud& cloud, const PlaneBan
   return indices;
 }
 
-double usual_sigma(const PointCloud& cloud, const PlaneBand& band) {
-  std::vector<double> sigmas;
-  for (const std::size_t source : band.sources) sigmas.push_back(cloud.sigma_mm[source]);
-  return median(std::move(sigmas));
+/// What is told of the noise of each point, in the band's unit; nothing if nothing is.
+std::vector<double> told_sigmas(const PointCloud& cloud, const PlaneBand& band,
+                                std::optional<double> sigma_mm) {
+  if (sigma_mm) return std::vector<double>(band.sources.size(), *sigma_mm / band.unit_mm);
+  std::vector<double> told;
+  if (!cloud.has_sigma()) return told;
+  for (const std::size_t source : band.sources) {
+    told.push_back(cloud.sigma_mm[source] / band.unit_mm);
+  }
+  return told;
 }
 
 /// In the band's unit.
 NoiseEstimate noise_of(const PointCloud& cloud, const PlaneBand& band,
                        std::optional<double> sigma_mm) {
-  std::optional<double> sigma;
-  if (sigma_mm) sigma = *sigma_mm / band.unit_mm;
-  return estimate_noise(band.index.points(), band.index, along_the_plane(cloud, band), sigma);
+  return estimate_noise(band.index.points(), band.index, along_the_plane(cloud, band),
+                        told_sigmas(cloud, band, sigma_mm));
 }
 
 /// A direction of the cloud as the plane sees it.
@@ -219,13 +221,22 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   const double least = 1e-9 * band.spacing;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double sigma = std::max(
-        band.own_sigma ? cloud.sigma_mm[band.sources[i]] / band.unit_mm : band.sigma, least);
+    const double sigma =
+        std::max(band.sigma_of(cloud, band.sources[i], band.index.points()[i]), least);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
   }
 }
 
 }  // namespace
+
+/// What stands for skin that nobody saw is told of by who put it there: what points show is no word
+/// on it.
+double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source,
+                           const Eigen::Vector3d& place) const {
+  if (!uneven.empty()) return sigma_at(uneven, place);
+  if (!own_sigma) return sigma;
+  return (cloud.was_seen(source) ? told_scale : 1.0) * cloud.sigma_mm[source] / unit_mm;
+}
 
 Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   const PointCloud& cloud = slabs.cloud();
@@ -239,8 +250,6 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   drop_strays(band);
   if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return no_surface();
 
-  const bool own_sigma = !sigma_mm && cloud.has_sigma();
-  if (own_sigma) sigma_mm = usual_sigma(cloud, band);
   NoiseEstimate noise = noise_of(cloud, band, sigma_mm);
   if (grain_of(band.spacing, noise.sigma) > band.grain) {
     band = gather_enough(slabs, *found, noise.sigma);
@@ -252,11 +261,24 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
                 "give control points that cut the body");
   }
   band.sigma = noise.sigma;
+  band.shown_sigma = noise.shown;
+  band.told_scale = noise.told_scale;
+  band.uneven = std::move(noise.uneven);
+  band.own_sigma = !sigma_mm && cloud.has_sigma();
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
-  band.own_sigma = own_sigma;
   set_points(cloud, slabs.plane(), band);
   return band;
+}
+
+std::optional<std::string> disbelief_of_told_noise(const PlaneBand& band) {
+  if (band.told_scale <= 1.0 || band.shown_sigma <= kHarmlessScatter) return std::nullopt;
+  char figures[64];
+  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", band.unit_mm * band.shown_sigma,
+                band.told_scale);
+  return "the points scatter by " + std::string(figures) +
+         " the noise that was told of them, which was not believed: leave --sigma-mm out or give "
+         "this one, or see to the sensor and scan again with more frames";
 }
 
 }  // namespace instep

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/geometry/point_cloud.h"
@@ -25,23 +26,39 @@ struct PlaneBand {
   std::vector<bool> seen;                 ///< whether a camera saw them
   double spacing = 0.0;                   ///< between points, in the unit
   double grain = 0.0;                     ///< finest detail that they tell, in the unit
-  double sigma = 0.0;                     ///< noise of the points, in the unit
+  double sigma = 0.0;                     ///< noise of the points, in the unit: the usual one
+  double shown_sigma = 0.0;               ///< the one that they show, whatever is told of them
   std::size_t strays = 0;                 ///< points that stood alone and were left out
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
+  double told_scale = 1.0;                ///< by which the noise that is told was raised
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
+  std::vector<LocalSigma> uneven;         ///< where noise differs from place to place; in the unit
   std::vector<LocalRoughness> roughness;  ///< in the unit
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {
     return middle_mm + unit_mm * place;
   }
+
+  /// Noise of any point of the cloud that the band was made of, near the plane or not, in the unit.
+  /// `place`: its own, as the band has it.
+  double sigma_of(const PointCloud& cloud, std::size_t source, const Eigen::Vector3d& place) const;
 };
 
 /// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
 /// they tell no more than fewer would, a part of the section.
 ///
+/// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
+/// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place.
+/// Where they plainly show more than they are told to have, all of what is told of points that were
+/// seen is raised to that.
+///
 /// The cloud of `slabs` has passed check_cloud(). Fails with kInsufficientData for too few points
 /// or none that form a surface, kInvalidInput for a plane that has none near it or all on one side.
 /// O(points of the cloud), and m log m for the m near the plane.
 Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm);
+
+/// What is to be said where the noise that is told was not believed; nothing where it was, or where
+/// what the points show is too little to matter.
+std::optional<std::string> disbelief_of_told_noise(const PlaneBand& band);
 
 }  // namespace instep

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/distinct_points.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
@@ -99,14 +100,18 @@ std::vector<Found> in_order(const PlaneSlab& slab) {
 }
 
 /// Each place once.
-PlaneSlab ordered_slab(const PlaneSlab& found) {
+PlaneSlab ordered_slab(const PointCloud& cloud, const PlaneSlab& found) {
   const std::vector<Found> order = in_order(found);
   PlaneSlab slab;
   slab.indices.reserve(order.size());
   slab.places.reserve(order.size());
   for (const auto& [x, number] : order) {
     const Eigen::Vector3d& place = found.places[number];
-    if (!slab.places.empty() && slab.places.back() == place) continue;
+    if (!slab.places.empty() && slab.places.back() == place) {
+      std::size_t& counting = slab.indices.back();
+      if (counts_before(cloud, found.indices[number], counting)) counting = found.indices[number];
+      continue;
+    }
     slab.indices.push_back(found.indices[number]);
     slab.places.push_back(place);
   }
@@ -116,7 +121,7 @@ PlaneSlab ordered_slab(const PlaneSlab& found) {
 }  // namespace
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  return ordered_slab(unordered_slab(cloud, plane, half_width));
+  return ordered_slab(cloud, unordered_slab(cloud, plane, half_width));
 }
 
 PlaneSlab within(const PlaneSlab& slab, double half_width) {

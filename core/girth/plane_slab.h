@@ -9,8 +9,9 @@
 
 namespace instep {
 
-/// The points of a cloud on and beside a tape plane, each place once (the first of
-/// copies counts), in an order that the places alone decide, so that the cloud's does not matter.
+/// The points of a cloud on and beside a tape plane, each place once (of copies
+/// counts_before() tells which), in an order that the places alone decide, so that the cloud's does
+/// not matter.
 struct PlaneSlab {
   std::vector<std::size_t> indices;     ///< in the cloud
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it

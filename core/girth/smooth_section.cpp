@@ -69,7 +69,7 @@ std::vector<RibbonPoint> ribbon_of(SlabSource& slabs, const PlaneBand& band, con
     const double reach = kReach + kReachInSigmas * band.sigma + kLean * std::abs(off);
     if (!(foot.distance <= reach)) continue;
     const double sigma =
-        band.own_sigma ? cloud.sigma_mm[slab.indices[i]] / (band.unit_mm * band.sigma) : 1.0;
+        band.sigma_of(cloud, slab.indices[i], {place.x(), place.y(), off}) / band.sigma;
     ribbon.push_back({foot.way, off / half_width, foot.height, 1.0 / (sigma * sigma)});
   }
   return ribbon;

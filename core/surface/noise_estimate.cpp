@@ -19,9 +19,16 @@ constexpr std::size_t kNeighbourhoods = 24;
 /// Variances less than this part of the square of their radius are those of exact points.
 constexpr std::array<std::size_t, 3> kTurns = {1, 0, 2};
 constexpr double kExactVariance = 1e-10;
+/// What is told of the points is too little where so small a share of the neighbourhoods shows less
+/// than this times it. Of 679 drawn clouds whose noise is told rightly, and of those that fusion
+/// makes of frames of the noise it knows, simulated or recorded, that share shows less than 1.06
+/// times it; of five frames, or one, of three times that noise it shows 1.5 and 2 times as a rule.
+constexpr double kFewNeighbourhoods = 0.25;
+constexpr double kPlainlyMore = 1.25;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 constexpr double kLeastRoughness = 1e-12;
+constexpr double kLeastVariance = 1e-24;
 /// Ratios of noise to shape that are tried, against the kernel's own size.
 constexpr double kLeastRatio = 1e-12;
 constexpr double kMostRatio = 1e3;
@@ -139,38 +146,93 @@ double likely_roughness(const Neighbourhood& here, double variance, std::optiona
          here.radius;
 }
 
+/// By what to raise what is told, from how many times as much each neighbourhood shows.
+double scale_of_told(const std::vector<double>& excesses) {
+  return quantile(excesses, kFewNeighbourhoods) > kPlainlyMore ? median(excesses) : 1.0;
+}
+
+/// Each with its own noise, whatever is usual.
+std::vector<double> likely_roughnesses(const std::vector<Neighbourhood>& neighbourhoods,
+                                       const std::vector<double>& noise) {
+  std::vector<double> likely;
+  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
+    likely.push_back(likely_roughness(neighbourhoods[i], noise[i], std::nullopt));
+  }
+  return likely;
+}
+
+double misfit(const Neighbourhood& here, double variance, double roughness) {
+  return here.likelihood.misfit(variance / (here.radius * here.radius), roughness * here.radius);
+}
+
+/// `variances`: the likeliest ones; `roughnesses`: those that go with the `common` one.
+std::vector<NoiseWitness> witnesses_of(const std::vector<Neighbourhood>& neighbourhoods,
+                                       const std::vector<LocalRoughness>& places,
+                                       const std::vector<double>& variances, double common,
+                                       const std::vector<double>& roughnesses) {
+  std::vector<NoiseWitness> witnesses;
+  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
+    const auto& here = neighbourhoods[i];
+    const double own = std::max(variances[i], kLeastVariance);
+    const double gain = misfit(here, common, roughnesses[i]) -
+                        misfit(here, own, likely_roughness(here, own, std::nullopt));
+    witnesses.push_back({places[i].place, own, std::max(gain, 0.0)});
+  }
+  return witnesses;
+}
+
+double root_mean_square(const std::vector<LocalSigma>& sigmas) {
+  double squares = 0.0;
+  for (const auto& local : sigmas) squares += local.sigma * local.sigma;
+  return std::sqrt(squares / static_cast<double>(sigmas.size()));
+}
+
 }  // namespace
 
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             const std::vector<std::size_t>& places, std::optional<double> sigma) {
+                             const std::vector<std::size_t>& places,
+                             const std::vector<double>& told) {
   std::vector<Neighbourhood> neighbourhoods;
   std::vector<double> variances;
+  std::vector<double> excesses;
   NoiseEstimate estimate;
   const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
-  bool exact = !sigma;
+  bool exact = told.empty();
   for (const std::size_t turn : kTurns) {
     for (std::size_t i = stride / 2 + turn * stride; i < places.size();
          i += kTurns.size() * stride) {
       const Eigen::Vector3d& place = points[places[i]];
       auto neighbourhood = neighbourhood_in(flattest_view(points, index, place));
       if (!neighbourhood) continue;
-      if (!sigma) variances.push_back(own_variance(*neighbourhood));
+      variances.push_back(own_variance(*neighbourhood));
+      if (!told.empty()) excesses.push_back(std::sqrt(variances.back()) / told[places[i]]);
       exact = exact && is_exact(*neighbourhood, variances.back());
       neighbourhoods.push_back(std::move(*neighbourhood));
       estimate.roughness.push_back({place, 0.0});
     }
     if (exact && !neighbourhoods.empty()) break;
   }
-  if (neighbourhoods.empty()) return {sigma.value_or(0.0), {}};
-  estimate.sigma = sigma ? *sigma : std::sqrt(median(std::move(variances)));
-  const double variance = std::max(estimate.sigma * estimate.sigma, 1e-24);
-  std::vector<double> free;
-  for (const auto& neighbourhood : neighbourhoods) {
-    free.push_back(likely_roughness(neighbourhood, variance, std::nullopt));
+  estimate.told_scale = scale_of_told(excesses);
+  if (!told.empty()) estimate.sigma = estimate.told_scale * median(told);
+  if (neighbourhoods.empty()) return estimate;
+  estimate.shown = std::sqrt(median(variances));
+  if (told.empty()) estimate.sigma = estimate.shown;
+  std::vector<double> noise(neighbourhoods.size(),
+                            std::max(estimate.sigma * estimate.sigma, kLeastVariance));
+  auto roughness = likely_roughnesses(neighbourhoods, noise);
+  if (told.empty()) {
+    estimate.uneven = uneven_noise(
+        witnesses_of(neighbourhoods, estimate.roughness, variances, noise.front(), roughness),
+        noise.front());
   }
-  const double usual = std::max(median(std::move(free)), 1e-300);
+  if (!estimate.uneven.empty()) {
+    estimate.sigma = root_mean_square(estimate.uneven);
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = std::pow(estimate.uneven[i].sigma, 2);
+    roughness = likely_roughnesses(neighbourhoods, noise);
+  }
+  const double usual = std::max(median(std::move(roughness)), 1e-300);
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
-    estimate.roughness[i].roughness = likely_roughness(neighbourhoods[i], variance, usual);
+    estimate.roughness[i].roughness = likely_roughness(neighbourhoods[i], noise[i], usual);
   }
   return estimate;
 }

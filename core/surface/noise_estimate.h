@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/surface/uneven_noise.h"
 
 namespace instep {
 
@@ -18,17 +18,28 @@ struct LocalRoughness {
 
 /// How much of the unevenness of a cloud is noise and how much is shape.
 struct NoiseEstimate {
-  double sigma = 0.0;  ///< standard deviation of a point along its normal
+  double sigma = 0.0;       ///< standard deviation of a point along its normal: the one to use
+  double shown = 0.0;       ///< the one that the points show, whatever is told of them
+  double told_scale = 1.0;  ///< by which what was told has to be raised; 1 where it can be believed
+  std::vector<LocalSigma> uneven;  ///< where nothing is told and one sigma for all cannot be
   std::vector<LocalRoughness> roughness;
 };
 
 /// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
 /// are used), each taken as heights over its own tangent plane: restricted maximum likelihood with
 /// the kernel r^3, which tells white noise from wandering shape by its scale. The noise is the
-/// middle one over the neighbourhoods, so that creases and a few stray ones do not count. If
-/// `sigma` is known, only the roughness is estimated.
+/// middle one over the neighbourhoods, so that creases and a few stray ones do not count. Where
+/// they plainly contradict one noise for all (uneven_noise()), each has its own, and the one to use
+/// for all is their root mean square. That needs `places` in the order in which they lie round the
+/// body.
+///
+/// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
+/// points show less, for part of their noise may be common to neighbours; but where three quarters
+/// of the neighbourhoods show plainly more, all of it is raised to what the middle one of them
+/// shows.
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             const std::vector<std::size_t>& places, std::optional<double> sigma);
+                             const std::vector<std::size_t>& places,
+                             const std::vector<double>& told);
 
 /// The roughness at a place, from the nearest ones; a small positive number if there are none.
 double roughness_at(const std::vector<LocalRoughness>& known, const Eigen::Vector3d& place);

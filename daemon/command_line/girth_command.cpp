@@ -139,7 +139,8 @@ void add_girth_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   girth
       ->add_option("--sigma-mm", command->sigma_mm,
-                   "noise of a point along its normal, if the file does not say; else estimated")
+                   "noise of a point along its normal, in place of what the file says of it or the "
+                   "points show; if they plainly scatter more than this, it is not believed")
       ->check(check_sigma);
   girth->add_option("--format", command->format, "json (if stdout is no terminal) or text")
       ->check(CLI::IsMember({"json", "text"}));

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace instep {
 namespace {
 
@@ -18,7 +20,49 @@ TEST(DistinctPoints, KeepsWhatIsOnlyNear) {
 }
 
 TEST(DistinctPoints, OfNoPointsAreNone) {
-  EXPECT_TRUE(distinct_points({}).empty());
+  EXPECT_TRUE(distinct_points(std::vector<Eigen::Vector3d>{}).empty());
+  EXPECT_TRUE(distinct_points(PointCloud{}).empty());
+}
+
+/// Three copies of one place between two others, told of differently.
+PointCloud with_copies() {
+  PointCloud cloud;
+  cloud.positions = {{5, 0, 0}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {0, 0, 0}};
+  return cloud;
+}
+
+TEST(DistinctPoints, OfACloudOfWhichNothingIsToldAreTheFirst) {
+  EXPECT_EQ(distinct_points(with_copies()), (Indices{0, 1, 4}));
+}
+
+TEST(DistinctPoints, AreThoseOfTheLargestSigma) {
+  PointCloud cloud = with_copies();
+  cloud.sigma_mm = {1.0, 0.2, 0.7, 0.5, 1.0};
+  EXPECT_EQ(distinct_points(cloud), (Indices{0, 2, 4}));
+}
+
+TEST(DistinctPoints, AreThoseThatWereSeen) {
+  PointCloud cloud = with_copies();
+  cloud.sigma_mm = {1.0, 0.2, 0.7, 0.5, 1.0};
+  cloud.origins.assign(5, PointOrigin::kSeen);
+  cloud.origins[2] = PointOrigin::kPlatform;
+  EXPECT_EQ(distinct_points(cloud), (Indices{0, 3, 4}));
+}
+
+TEST(DistinctPoints, SayTheSameInAnyOrderOfTheCloud) {
+  PointCloud cloud = with_copies();
+  cloud.sigma_mm.assign(5, 0.3);
+  cloud.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0}};
+  Indices order = {0, 1, 2, 3, 4};
+  do {
+    const PointCloud turned = cloud.subset(order);
+    const PointCloud once = turned.subset(distinct_points(turned));
+    ASSERT_EQ(once.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (once.positions[i].x() != 1.0) continue;
+      EXPECT_EQ(once.normals[i], Eigen::Vector3d(0, 0, -1));
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ PlaneBand band_of(const OrientedPoints& points, double spacing, std::vector<bool
           .seen = std::move(seen),
           .spacing = spacing,
           .grain = kGrain,
+          .uneven = {},
           .roughness = {}};
 }
 

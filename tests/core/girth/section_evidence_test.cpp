@@ -46,6 +46,7 @@ SectionEvidence evidence_of(const std::vector<Place>& places) {
                  .index = PointIndex({}),
                  .sources = {},
                  .seen = {},
+                 .uneven = {},
                  .roughness = {}};
   for (const auto& place : places) {
     band.points.push_back({place.position, Vector3d::UnitX(), 0.0});

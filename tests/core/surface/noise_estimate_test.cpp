@@ -20,8 +20,8 @@ std::vector<std::size_t> every(std::size_t step, const Points& points) {
   return places;
 }
 
-NoiseEstimate estimate(const Points& points, std::optional<double> sigma = std::nullopt) {
-  return estimate_noise(points, PointIndex(points), every(points.size() / 40 + 1, points), sigma);
+NoiseEstimate estimate(const Points& points, const std::vector<double>& told = {}) {
+  return estimate_noise(points, PointIndex(points), every(points.size() / 40 + 1, points), told);
 }
 
 Points sphere(double sigma, std::uint64_t seed) {
@@ -63,16 +63,78 @@ TEST(NoiseEstimate, IsNotMisledByAFewStrays) {
   EXPECT_NEAR(estimate(points).sigma, sigma, 0.2 * sigma);
 }
 
-TEST(NoiseEstimate, KeepsASigmaThatIsKnown) {
-  const auto noise = estimate(sphere(0.003, 6), 0.007);
+/// The places of a ring round the sphere, in their order.
+std::vector<std::size_t> ring_of(const Points& points) {
+  std::vector<std::size_t> ring;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::abs(points[i].z()) < 0.02) ring.push_back(i);
+  }
+  std::sort(ring.begin(), ring.end(), [&](std::size_t a, std::size_t b) {
+    return std::atan2(points[a].y(), points[a].x()) < std::atan2(points[b].y(), points[b].x());
+  });
+  return ring;
+}
+
+TEST(NoiseEstimate, TellsUnevenNoiseFromEven) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    const auto same = sphere(0.003, seed);
+    EXPECT_TRUE(estimate_noise(same, PointIndex(same), ring_of(same), {}).uneven.empty()) << seed;
+    auto points = test::positions_of(test::sphere_points(0.5, 4000, 0.0, seed));
+    test::RandomNumbers random(seed);
+    const auto sigma_of = [](const Vector3d& point) { return point.x() > 0.0 ? 0.006 : 0.0015; };
+    for (auto& point : points) point *= 1.0 + sigma_of(point) * random.normal() / 0.5;
+    const auto noise = estimate_noise(points, PointIndex(points), ring_of(points), {});
+    ASSERT_FALSE(noise.uneven.empty()) << seed;
+    for (const auto& local : noise.uneven) {
+      if (std::abs(local.place.x()) < 0.15) continue;  // reaches over the step
+      EXPECT_NEAR(std::log(local.sigma / sigma_of(local.place)), 0.0, 0.3) << seed;
+    }
+    EXPECT_NEAR(noise.sigma, std::hypot(0.006, 0.0015) / std::sqrt(2.0), 0.001);
+  }
+}
+
+TEST(NoiseEstimate, KeepsWhatIsToldThoughThePointsShowLess) {
+  const auto noise = estimate(sphere(0.003, 6), std::vector<double>(4000, 0.007));
   EXPECT_DOUBLE_EQ(noise.sigma, 0.007);
+  EXPECT_EQ(noise.told_scale, 1.0);
+  EXPECT_NEAR(noise.shown, 0.003, 0.15 * 0.003);
   ASSERT_FALSE(noise.roughness.empty());
   for (const auto& known : noise.roughness) EXPECT_GT(known.roughness, 0.0);
 }
 
+TEST(NoiseEstimate, BelievesWhatIsToldRightly) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto noise = estimate(sphere(0.003, seed), std::vector<double>(4000, 0.003));
+    EXPECT_DOUBLE_EQ(noise.sigma, 0.003) << seed;
+    EXPECT_EQ(noise.told_scale, 1.0) << seed;
+  }
+}
+
+TEST(NoiseEstimate, RaisesWhatIsToldToWhatThePointsShow) {
+  for (const double part : {0.01, 0.1, 0.3, 0.6}) {
+    const auto noise = estimate(sphere(0.003, 8), std::vector<double>(4000, part * 0.003));
+    EXPECT_NEAR(noise.sigma, 0.003, 0.1 * 0.003) << part;
+    EXPECT_NEAR(noise.told_scale, 1.0 / part, 0.1 / part) << part;
+  }
+}
+
+/// Each neighbourhood is held against what is told of it, not of others.
+TEST(NoiseEstimate, TellsTooLittleFromUneven) {
+  auto points = test::positions_of(test::sphere_points(0.5, 4000, 0.0, 9));
+  test::RandomNumbers random(9);
+  std::vector<double> told;
+  for (auto& point : points) {
+    told.push_back(point.x() > 0.0 ? 0.006 : 0.001);
+    point *= 1.0 + told.back() * random.normal() / 0.5;
+  }
+  EXPECT_EQ(estimate(points, told).told_scale, 1.0);
+  for (double& sigma : told) sigma /= 3.0;
+  EXPECT_NEAR(estimate(points, told).told_scale, 3.0, 0.4);
+}
+
 TEST(NoiseEstimate, TellsTheRoughnessOfSomeFortyPlaces) {
   const auto points = sphere(0.003, 7);
-  const auto noise = estimate_noise(points, PointIndex(points), every(1, points), std::nullopt);
+  const auto noise = estimate_noise(points, PointIndex(points), every(1, points), {});
   EXPECT_GE(noise.roughness.size(), 20U);
   EXPECT_LE(noise.roughness.size(), 60U);
   for (const auto& known : noise.roughness) {
@@ -85,8 +147,9 @@ TEST(NoiseEstimate, TellsTheRoughnessOfSomeFortyPlaces) {
 TEST(NoiseEstimate, FindsWavesRougherThanAnEvenSphere) {
   auto waves = test::sphere_points(0.5, 4000, 0.001, 8);
   for (auto& point : waves) point.position *= 1.0 + 0.02 * std::sin(60.0 * point.position.z());
-  EXPECT_GT(middle_roughness(estimate(test::positions_of(waves), 0.001)),
-            5.0 * middle_roughness(estimate(sphere(0.001, 8), 0.001)));
+  const std::vector<double> even(4000, 0.001);
+  EXPECT_GT(middle_roughness(estimate(test::positions_of(waves), even)),
+            5.0 * middle_roughness(estimate(sphere(0.001, 8), even)));
 }
 
 TEST(NoiseEstimate, IsTheSameInAnyUnit) {
@@ -109,8 +172,8 @@ TEST(NoiseEstimate, OrderOfPointsDoesNotMatter) {
   Points turned(points.rbegin(), points.rend());
   std::vector<std::size_t> turned_places;
   for (const auto place : places) turned_places.push_back(points.size() - 1 - place);
-  const auto noise = estimate_noise(points, PointIndex(points), places, std::nullopt);
-  const auto other = estimate_noise(turned, PointIndex(turned), turned_places, std::nullopt);
+  const auto noise = estimate_noise(points, PointIndex(points), places, {});
+  const auto other = estimate_noise(turned, PointIndex(turned), turned_places, {});
   EXPECT_NEAR(other.sigma, noise.sigma, 1e-9);
 }
 
@@ -126,7 +189,7 @@ TEST(NoiseEstimate, IsFiniteForAnything) {
   twice.insert(twice.end(), twice.begin(), twice.begin() + 2000);
   for (const auto& points : {line, cloud, twice, Points(50, Vector3d(1, 2, 3)), Points{{0, 0, 0}},
                              Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}) {
-    const auto noise = estimate_noise(points, PointIndex(points), every(1, points), std::nullopt);
+    const auto noise = estimate_noise(points, PointIndex(points), every(1, points), {});
     EXPECT_TRUE(std::isfinite(noise.sigma));
     EXPECT_GE(noise.sigma, 0.0);
     for (const auto& known : noise.roughness) {

@@ -1,0 +1,103 @@
+#include "core/surface/uneven_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kPlaces = 24;
+constexpr double kCommon = 1e-4;  // a variance; the body is about one long
+/// Heights that each place knows of, so that its logarithm is known to one part in ten.
+constexpr int kHeights = 50;
+
+/// On a ring, each with the likeliest variance of heights whose sigma is `times` the common one.
+template <typename Times>
+std::vector<NoiseWitness> witnesses(const Times& times, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  std::vector<NoiseWitness> all;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kPlaces;
+    double squares = 0.0;
+    for (int k = 0; k < kHeights; ++k) squares += std::pow(random.normal(), 2);
+    const double ratio = std::pow(times(i), 2) * squares / kHeights;
+    // Twice the log likelihood of normal heights, at their own variance less at the common one.
+    const double gain = kHeights * (ratio - 1.0 - std::log(ratio));
+    const Eigen::Vector3d place(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0.0);
+    all.push_back({place, ratio * kCommon, gain});
+  }
+  return all;
+}
+
+double even(std::size_t) {
+  return 1.0;
+}
+
+TEST(UnevenNoise, IsNotSeenInEvenNoise) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    EXPECT_TRUE(uneven_noise(witnesses(even, seed), kCommon).empty()) << seed;
+  }
+}
+
+TEST(UnevenNoise, OfAHalfOrAThirdIsMetWithItsSteps) {
+  for (const std::size_t many : {kPlaces / 2, kPlaces / 3}) {
+    for (const double times : {2.0, 3.0, 5.0, 0.5, 0.2}) {
+      const auto truth = [&](std::size_t i) { return i < many ? times : 1.0; };
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const auto sigmas = uneven_noise(witnesses(truth, seed), kCommon);
+        ASSERT_EQ(sigmas.size(), kPlaces) << many << " " << times << " " << seed;
+        for (std::size_t i = 0; i < kPlaces; ++i) {
+          EXPECT_NEAR(std::log(sigmas[i].sigma / (0.01 * truth(i))), 0.0, 0.45)
+              << many << " " << times << " " << seed << " place " << i;
+        }
+      }
+    }
+  }
+}
+
+/// Creases, strays: few places that contradict beyond all measure.
+TEST(UnevenNoise, IsNotSeenInAFewOddPlaces) {
+  auto all = witnesses(even, 1);
+  for (const std::size_t odd : {2U, 3U, 11U, 12U, 13U, 20U}) {
+    all[odd].variance = 1e4 * kCommon;
+    all[odd].contradiction = 1e4;
+  }
+  EXPECT_TRUE(uneven_noise(all, kCommon).empty());
+}
+
+TEST(UnevenNoise, DoesNotBelieveAPlaceThatIsNotSure) {
+  const auto truth = [](std::size_t i) { return i < kPlaces / 2 ? 3.0 : 1.0; };
+  auto all = witnesses(truth, 1);
+  for (std::size_t i = 18; i < 24; ++i) {
+    all[i].variance = 0.0;
+    all[i].contradiction = 0.1;
+  }
+  const auto sigmas = uneven_noise(all, kCommon);
+  ASSERT_EQ(sigmas.size(), kPlaces);
+  for (std::size_t i = 18; i < 24; ++i) EXPECT_NEAR(sigmas[i].sigma, 0.01, 0.003);
+}
+
+TEST(UnevenNoise, IsNotLookedForInTheTextureOfExactPoints) {
+  const auto truth = [](std::size_t i) { return i < kPlaces / 2 ? 5.0 : 1.0; };
+  auto all = witnesses(truth, 1);
+  ASSERT_FALSE(uneven_noise(all, kCommon).empty());
+  for (auto& witness : all) witness.variance *= 1e-4;
+  EXPECT_TRUE(uneven_noise(all, 1e-4 * kCommon).empty());
+  EXPECT_TRUE(uneven_noise(all, 0.0).empty());
+  EXPECT_TRUE(uneven_noise({}, kCommon).empty());
+}
+
+TEST(UnevenNoise, IsReadBetweenPlacesAsTheNearestHaveIt) {
+  const std::vector<LocalSigma> known = {{{0, 0, 0}, 0.1}, {{1, 0, 0}, 0.4}};
+  EXPECT_NEAR(sigma_at(known, {0, 0, 0}), 0.1, 1e-9);
+  EXPECT_NEAR(sigma_at(known, {1, 0, 0}), 0.4, 1e-9);
+  EXPECT_NEAR(sigma_at(known, {0.5, 0.2, 0.1}), 0.2, 1e-9);
+  EXPECT_NEAR(sigma_at(known, {0.05, 0, 0}), 0.1, 0.001);
+}
+
+}  // namespace
+}  // namespace instep
