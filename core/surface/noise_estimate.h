@@ -23,10 +23,11 @@ struct NoiseEstimate {
 };
 
 /// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
-/// are used), each taken as heights over its own tangent plane: restricted maximum likelihood with
-/// the kernel r^3, which tells white noise from wandering shape by its scale. The noise is the
-/// middle one over the neighbourhoods, so that creases and a few stray ones do not count. If
-/// `sigma` is known, only the roughness is estimated.
+/// are used, or every third of those where these are all of exact points), each taken as heights
+/// over its own tangent plane: restricted maximum likelihood with the kernel r^3, which tells white
+/// noise from wandering shape by its scale. The noise is the middle one over the neighbourhoods, so
+/// that creases and a few stray ones do not count. If `sigma` is known, only the roughness is
+/// estimated.
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                              const std::vector<std::size_t>& places, std::optional<double> sigma);
 
