@@ -54,8 +54,12 @@ constexpr double kWider = 2.83;
 
 /// A neighbourhood's heights in units of its radius.
 struct Neighbourhood {
+  std::size_t point;  ///< at its middle
   double radius;
   KrigingLikelihood likelihood;
+  double variance;  ///< the noise that fits best if the roughness may be anything
+
+  bool is_exact() const { return variance <= kExactVariance * radius * radius; }
 };
 
 /// Heights over the tangent plane: columns are points, the third row is the height.
@@ -107,7 +111,14 @@ TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const Poin
   return best;
 }
 
-std::optional<Neighbourhood> neighbourhood_in(const TangentView& view) {
+double likeliest_variance(const KrigingLikelihood& likelihood) {
+  const double scale = likelihood.mean_diagonal();
+  return likelihood.likeliest_variance(kLeastRatio * scale, kMostRatio * scale, kRatioStep);
+}
+
+std::optional<Neighbourhood> neighbourhood_of(const std::vector<Eigen::Vector3d>& points,
+                                              const PointIndex& index, std::size_t point) {
+  const TangentView view = flattest_view(points, index, points[point]);
   const Eigen::Index count = view.points.cols();
   if (count < 2 * kTerms) return std::nullopt;
   const double radius = view.points.colwise().norm().maxCoeff();
@@ -117,18 +128,33 @@ std::optional<Neighbourhood> neighbourhood_in(const TangentView& view) {
                               Eigen::VectorXd::Ones(count)};
   const auto kriging = HeightKriging::of(samples, kTerms);
   if (!kriging) return std::nullopt;
-  return Neighbourhood{radius, KrigingLikelihood(*kriging)};
+  KrigingLikelihood likelihood(*kriging);
+  const double variance = radius * radius * likeliest_variance(likelihood);
+  return Neighbourhood{point, radius, std::move(likelihood), variance};
 }
 
-/// The noise variance that fits best if the roughness may be anything.
-double own_variance(const Neighbourhood& here) {
-  const double scale = here.likelihood.mean_diagonal();
-  return here.radius * here.radius *
-         here.likelihood.likeliest_variance(kLeastRatio * scale, kMostRatio * scale, kRatioStep);
-}
-
-bool is_exact(const Neighbourhood& here, double variance) {
-  return variance <= kExactVariance * here.radius * here.radius;
+/// Of some of the places, in their order.
+std::vector<Neighbourhood> neighbourhoods_of(const std::vector<Eigen::Vector3d>& points,
+                                             const PointIndex& index,
+                                             const std::vector<std::size_t>& places) {
+  const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
+  std::vector<std::optional<Neighbourhood>> looked((places.size() + stride / 2) / stride);
+  bool found = false;
+  bool exact = true;
+  for (const std::size_t turn : kTurns) {
+    for (std::size_t i = turn; i < looked.size(); i += kTurns.size()) {
+      looked[i] = neighbourhood_of(points, index, places[stride / 2 + i * stride]);
+      if (!looked[i]) continue;
+      found = true;
+      exact = exact && looked[i]->is_exact();
+    }
+    if (found && exact) break;
+  }
+  std::vector<Neighbourhood> neighbourhoods;
+  for (auto& one : looked) {
+    if (one) neighbourhoods.push_back(std::move(*one));
+  }
+  return neighbourhoods;
 }
 
 /// The roughness that fits best at a given noise; the likelihood is flat where noise hides the
@@ -165,18 +191,17 @@ double misfit(const Neighbourhood& here, double variance, double roughness) {
   return here.likelihood.misfit(variance / (here.radius * here.radius), roughness * here.radius);
 }
 
-/// `variances`: the likeliest ones; `roughnesses`: those that go with the `common` one.
-std::vector<NoiseWitness> witnesses_of(const std::vector<Neighbourhood>& neighbourhoods,
-                                       const std::vector<LocalRoughness>& places,
-                                       const std::vector<double>& variances, double common,
-                                       const std::vector<double>& roughnesses) {
+/// `roughnesses`: those that go with the `common` noise.
+std::vector<NoiseWitness> witnesses_of(const std::vector<Eigen::Vector3d>& points,
+                                       const std::vector<Neighbourhood>& neighbourhoods,
+                                       double common, const std::vector<double>& roughnesses) {
   std::vector<NoiseWitness> witnesses;
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
     const auto& here = neighbourhoods[i];
-    const double own = std::max(variances[i], kLeastVariance);
+    const double own = std::max(here.variance, kLeastVariance);
     const double gain = misfit(here, common, roughnesses[i]) -
                         misfit(here, own, likely_roughness(here, own, std::nullopt));
-    witnesses.push_back({places[i].place, own, std::max(gain, 0.0)});
+    witnesses.push_back({points[here.point], own, std::max(gain, 0.0)});
   }
   return witnesses;
 }
@@ -192,38 +217,25 @@ double root_mean_square(const std::vector<LocalSigma>& sigmas) {
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                              const std::vector<std::size_t>& places,
                              const std::vector<double>& told) {
-  std::vector<Neighbourhood> neighbourhoods;
+  const auto neighbourhoods = neighbourhoods_of(points, index, places);
   std::vector<double> variances;
   std::vector<double> excesses;
-  NoiseEstimate estimate;
-  const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
-  bool exact = told.empty();
-  for (const std::size_t turn : kTurns) {
-    for (std::size_t i = stride / 2 + turn * stride; i < places.size();
-         i += kTurns.size() * stride) {
-      const Eigen::Vector3d& place = points[places[i]];
-      auto neighbourhood = neighbourhood_in(flattest_view(points, index, place));
-      if (!neighbourhood) continue;
-      variances.push_back(own_variance(*neighbourhood));
-      if (!told.empty()) excesses.push_back(std::sqrt(variances.back()) / told[places[i]]);
-      exact = exact && is_exact(*neighbourhood, variances.back());
-      neighbourhoods.push_back(std::move(*neighbourhood));
-      estimate.roughness.push_back({place, 0.0});
-    }
-    if (exact && !neighbourhoods.empty()) break;
+  for (const auto& here : neighbourhoods) {
+    variances.push_back(here.variance);
+    if (!told.empty()) excesses.push_back(std::sqrt(here.variance) / told[here.point]);
   }
+  NoiseEstimate estimate;
   estimate.told_scale = scale_of_told(excesses);
   if (!told.empty()) estimate.sigma = estimate.told_scale * median(told);
   if (neighbourhoods.empty()) return estimate;
-  estimate.shown = std::sqrt(median(variances));
+  estimate.shown = std::sqrt(median(std::move(variances)));
   if (told.empty()) estimate.sigma = estimate.shown;
   std::vector<double> noise(neighbourhoods.size(),
                             std::max(estimate.sigma * estimate.sigma, kLeastVariance));
   auto roughness = likely_roughnesses(neighbourhoods, noise);
   if (told.empty()) {
-    estimate.uneven = uneven_noise(
-        witnesses_of(neighbourhoods, estimate.roughness, variances, noise.front(), roughness),
-        noise.front());
+    const double common = noise.front();
+    estimate.uneven = uneven_noise(witnesses_of(points, neighbourhoods, common, roughness), common);
   }
   if (!estimate.uneven.empty()) {
     estimate.sigma = root_mean_square(estimate.uneven);
@@ -232,7 +244,8 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
   }
   const double usual = std::max(median(std::move(roughness)), 1e-300);
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
-    estimate.roughness[i].roughness = likely_roughness(neighbourhoods[i], noise[i], usual);
+    estimate.roughness.push_back(
+        {points[neighbourhoods[i].point], likely_roughness(neighbourhoods[i], noise[i], usual)});
   }
   return estimate;
 }

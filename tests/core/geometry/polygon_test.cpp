@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -55,6 +56,22 @@ TEST(ConvexHull, ContainsAllRandomPoints) {
       const Vector2d offset = point - hull[i];
       EXPECT_GE(edge.x() * offset.y() - edge.y() * offset.x(), -1e-12);
     }
+  }
+}
+
+TEST(ConvexHull, OfALineIsThatOfItsPointsInAnyOrder) {
+  // A lobed line runs to and fro a few times, one with many lobes often.
+  for (const int lobes : {3, 60}) {
+    std::vector<Vector2d> points;
+    for (int i = 0; i < 1000; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 1000;
+      const double radius = 40 + 6 * std::cos(lobes * angle + 0.1);
+      points.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    }
+    const auto hull = convex_hull(points);
+    EXPECT_LT(perimeter(hull), 2 * std::numbers::pi * 46);
+    std::shuffle(points.begin(), points.end(), std::mt19937(3));
+    EXPECT_EQ(convex_hull(points), hull) << lobes;
   }
 }
 
