@@ -138,12 +138,13 @@ std::vector<Neighbourhood> neighbourhoods_of(const std::vector<Eigen::Vector3d>&
                                              const PointIndex& index,
                                              const std::vector<std::size_t>& places) {
   const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
-  std::vector<std::optional<Neighbourhood>> looked((places.size() + stride / 2) / stride);
+  const std::size_t first = stride / 2;
+  std::vector<std::optional<Neighbourhood>> looked((places.size() - first + stride - 1) / stride);
   bool found = false;
   bool exact = true;
   for (const std::size_t turn : kTurns) {
     for (std::size_t i = turn; i < looked.size(); i += kTurns.size()) {
-      looked[i] = neighbourhood_of(points, index, places[stride / 2 + i * stride]);
+      looked[i] = neighbourhood_of(points, index, places[first + i * stride]);
       if (!looked[i]) continue;
       found = true;
       exact = exact && looked[i]->is_exact();
