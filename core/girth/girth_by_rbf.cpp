@@ -183,6 +183,9 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   const auto points = static_cast<double>(band.points.size() + band.strays);
   warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
           "many points near the plane stand alone and were left out");
+  warn_if(band.normals_dropped,
+          "the normals that came with the points contradict each other or point inwards, and were "
+          "not used");
   warn_if(band.sigma > kNotableNoise,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
   warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");

@@ -28,6 +28,7 @@ struct PlaneBand {
   double sigma = 0.0;                     ///< noise of the points, in the unit
   std::size_t strays = 0;                 ///< points that stood alone and were left out
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
+  bool normals_dropped = false;           ///< those that were told contradict each other
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
   std::vector<LocalRoughness> roughness;  ///< in the unit
 

@@ -15,7 +15,9 @@ namespace {
 
 /// Sheets whose planes turn less (radians) are not worth a closer look.
 constexpr double kLeastTurn = 0.6;
+constexpr double kLeastToldTurn = 0.4;
 constexpr std::size_t kFewestOnASheet = 6;
+constexpr std::size_t kFewestOnAToldSheet = 4;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
 /// which they are.
@@ -99,6 +101,36 @@ struct TwoSheets {
     return std::acos(std::clamp(planes[0].normal.dot(planes[1].normal), -1.0, 1.0));
   }
 };
+
+/// Gives each point to the sheet that faces as its told normal does, until nothing changes.
+std::optional<TwoSheets> told_sheets(const std::vector<OrientedPoint>& points) {
+  TwoSheets sheets;
+  sheets.sides = split_by_normals(points);
+  for (int round = 0; round < kRounds; ++round) {
+    sheets.planes = {};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      SheetPlane& plane = sheets.planes[sheets.sides[i]];
+      plane.middle += points[i].position;
+      plane.normal += points[i].normal;
+      ++plane.count;
+    }
+    auto& [first, second] = sheets.planes;
+    if (std::min(first.count, second.count) < kFewestOnAToldSheet) return std::nullopt;
+    for (SheetPlane& plane : sheets.planes) {
+      plane.middle /= static_cast<double>(plane.count);
+      plane.normal.normalize();
+    }
+    if (sheets.turn() < kLeastToldTurn) return std::nullopt;
+    const Sides before = sheets.sides;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sheets.sides[i] = (second.normal - first.normal).dot(points[i].normal) > 0.0;
+    }
+    if (sheets.sides != before) continue;
+    sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
+    return sheets;
+  }
+  return std::nullopt;
+}
 
 /// Gives each point to the sheet that bounds the body there, until nothing changes. Nothing as soon
 /// as the sheets hardly turn, as those of a smooth bend do from the first.
@@ -195,7 +227,7 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
                                               const Eigen::Vector3d& centre, double radius,
                                               double roughness) {
   if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
-  const auto sheets = two_sheets(points);
+  const auto sheets = all_tell_normals(points) ? told_sheets(points) : two_sheets(points);
   if (!sheets) return std::nullopt;
   std::array<std::vector<OrientedPoint>, 2> parts;
   std::array<std::vector<std::size_t>, 2> members;
