@@ -65,7 +65,10 @@ struct Girth {
 /// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
 /// than a tenth of it to each side. Strays and loops that far fewer points make are left out; of
 /// several loops the one round the largest area counts, and the others are named in a warning. A
-/// crease such as a last's featherline stays sharp. Where the points are noisy and the skin even,
+/// crease such as a last's featherline stays sharp. Normals that come with exact points too far
+/// apart to tell the skin between them count with their slopes, where they agree with the points as
+/// right ones do; others only tell inside from outside, and those that do not even do that are
+/// dropped with a warning (trust_in()). Where the points are noisy and the skin even,
 /// the lengths and their intervals are read off one surface through far more points, laid along
 /// that contour (smooth_section()), unless the two contradict each other; elsewhere, and where a
 /// hole is reported, the intervals are LengthDoubt's. They take the noise of points to be

@@ -182,6 +182,9 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   const auto points = static_cast<double>(band.points.size() + band.strays);
   warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
           "many points near the plane stand alone and were left out");
+  warn_if(band.normals_dropped,
+          "the normals that came with the points contradict each other or point inwards, and were "
+          "not used");
   if (auto disbelief = disbelief_of_told_noise(band)) girth.warnings.push_back(*disbelief);
   const bool scattered = band.shown_sigma > kNotableNoise;
   warn_if(scattered,

@@ -49,6 +49,7 @@ struct Sums {
   std::vector<double> stretched;
   double contact_wandering = 0.0;  ///< variance
   double stretched_wandering = 0.0;
+  double rounding = 0.0;     ///< variance
   double noise_waves = 0.0;  ///< length
   double unseen_waves = 0.0;
   double likely_waves = 0.0;  ///< of the unseen ones, those that the points hint at
@@ -159,6 +160,19 @@ double coherent_variance(const Stretch& stretch, const std::vector<double>& shar
   return sum * sum * stretch.sheet.owner->variance;
 }
 
+/// Of a length over the creases that the contour crosses: those of which both sheets have a
+/// stretch.
+double rounding_variance(const std::vector<Stretch>& stretches) {
+  double variance = 0.0;
+  for (auto here = stretches.begin(); here != stretches.end(); ++here) {
+    const auto* owner = here->sheet.owner;
+    const bool crossed = std::any_of(stretches.begin(), here,
+                                     [&](const Stretch& one) { return one.sheet.owner == owner; });
+    if (crossed) variance += owner->rounding * owner->rounding;
+  }
+  return variance;
+}
+
 double half_width(const std::vector<double>& influence, double wandering, const Sums& sums,
                   const std::vector<OrientedPoint>& points, double length) {
   double noise = 0.0;
@@ -166,8 +180,8 @@ double half_width(const std::vector<double>& influence, double wandering, const 
     noise += influence[i] * influence[i] * points[i].variance;
   }
   const double unseen = kUnseenWaves * sums.unseen_waves;
-  const double variance = noise + kWandering * kWandering * wandering + unseen * unseen +
-                          sums.noise_waves * sums.noise_waves;
+  const double variance = noise + kWandering * kWandering * wandering + sums.rounding +
+                          unseen * unseen + sums.noise_waves * sums.noise_waves;
   return kDeviations * std::sqrt(variance) + kLeast * length;
 }
 
@@ -178,7 +192,9 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
   Sums sums;
   sums.contact.assign(points.size(), 0.0);
   sums.stretched.assign(points.size(), 0.0);
-  for (const auto& stretch : stretches_of(contour, surface)) {
+  const auto stretches = stretches_of(contour, surface);
+  sums.rounding = rounding_variance(stretches);
+  for (const auto& stretch : stretches) {
     if (stretch.sheet.patch == nullptr) {
       sums.contact_wandering += coherent_variance(stretch, stretch.contact);
       sums.stretched_wandering += coherent_variance(stretch, stretch.stretched);

@@ -9,6 +9,7 @@
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
+#include "core/surface/normal_trust.h"
 #include "core/surface/surface_normals.h"
 
 namespace instep {
@@ -47,6 +48,9 @@ constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
 /// Of a section: the texture of skin or a scanner's rounding.
 constexpr double kHarmlessScatter = 3e-4;
+/// Noise up to this part of the section leaves told normals something to say of the skin between
+/// points.
+constexpr double kExactSigma = 3e-7;
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
@@ -193,21 +197,26 @@ Eigen::Vector3d turned(const Eigen::Vector3d& direction, const TapePlane& plane)
   return {plane.u().dot(direction), plane.v().dot(direction), plane.normal().dot(direction)};
 }
 
-std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const TapePlane& plane,
-                                             const PlaneBand& band) {
+/// Those that came with the points; none if none did.
+std::vector<Eigen::Vector3d> told_normals(const PointCloud& cloud, const TapePlane& plane,
+                                          const PlaneBand& band) {
   std::vector<Eigen::Vector3d> normals;
-  if (cloud.has_normals()) {
-    for (const std::size_t source : band.sources) {
-      normals.push_back(turned(cloud.normals[source], plane));
-    }
-    return normals;
+  if (!cloud.has_normals()) return normals;
+  for (const std::size_t source : band.sources) {
+    normals.push_back(turned(cloud.normals[source], plane));
   }
+  return normals;
+}
+
+/// Those that the points show.
+std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePlane& plane,
+                                           const PlaneBand& band) {
   const double side =
       std::min(std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma),
                kLargestNormalCell);
   CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
-  normals = cells.of_points();
+  std::vector<Eigen::Vector3d> normals = cells.of_points();
   if (cloud.view_directions.empty()) return normals;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const auto view = turned(cloud.view_directions[band.sources[i]], plane);
@@ -217,13 +226,18 @@ std::vector<Eigen::Vector3d> outward_normals(const PointCloud& cloud, const Tape
 }
 
 void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band) {
-  const auto normals = outward_normals(cloud, plane, band);
+  auto normals = told_normals(cloud, plane, band);
+  const auto trust = normals.empty() ? NormalTrust::kNone : trust_in(normals, band.index);
+  band.normals_dropped = !normals.empty() && trust == NormalTrust::kNone;
+  if (trust == NormalTrust::kNone) normals = shown_normals(cloud, plane, band);
   const double least = 1e-9 * band.spacing;
+  const bool told =
+      trust == NormalTrust::kSlopes && band.sigma <= kExactSigma && band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double sigma =
         std::max(band.sigma_of(cloud, band.sources[i], band.index.points()[i]), least);
-    band.points.push_back({band.index.points()[i], normals[i], sigma * sigma});
+    band.points.push_back({band.index.points()[i], normals[i], sigma * sigma, told});
   }
 }
 

@@ -31,6 +31,7 @@ struct PlaneBand {
   std::size_t strays = 0;                 ///< points that stood alone and were left out
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
   double told_scale = 1.0;                ///< by which the noise that is told was raised
+  bool normals_dropped = false;           ///< those that were told contradict each other
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
   std::vector<LocalSigma> uneven;         ///< where noise differs from place to place; in the unit
   std::vector<LocalRoughness> roughness;  ///< in the unit

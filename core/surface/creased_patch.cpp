@@ -19,7 +19,9 @@ namespace {
 constexpr double kLeastTurn = 0.6;
 /// And where quadratics through them turn less: nearly as the sheets do, at a fraction of the work.
 constexpr double kLeastTurnOfQuadratics = 0.55;
+constexpr double kLeastToldTurn = 0.4;
 constexpr std::size_t kFewestOnASheet = 6;
+constexpr std::size_t kFewestOnAToldSheet = 4;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
 /// which they are.
@@ -103,6 +105,36 @@ struct TwoSheets {
     return std::acos(std::clamp(planes[0].normal.dot(planes[1].normal), -1.0, 1.0));
   }
 };
+
+/// Gives each point to the sheet that faces as its told normal does, until nothing changes.
+std::optional<TwoSheets> told_sheets(const std::vector<OrientedPoint>& points) {
+  TwoSheets sheets;
+  sheets.sides = split_by_normals(points);
+  for (int round = 0; round < kRounds; ++round) {
+    sheets.planes = {};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      SheetPlane& plane = sheets.planes[sheets.sides[i]];
+      plane.middle += points[i].position;
+      plane.normal += points[i].normal;
+      ++plane.count;
+    }
+    auto& [first, second] = sheets.planes;
+    if (std::min(first.count, second.count) < kFewestOnAToldSheet) return std::nullopt;
+    for (SheetPlane& plane : sheets.planes) {
+      plane.middle /= static_cast<double>(plane.count);
+      plane.normal.normalize();
+    }
+    if (sheets.turn() < kLeastToldTurn) return std::nullopt;
+    const Sides before = sheets.sides;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sheets.sides[i] = (second.normal - first.normal).dot(points[i].normal) > 0.0;
+    }
+    if (sheets.sides != before) continue;
+    sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
+    return sheets;
+  }
+  return std::nullopt;
+}
 
 /// Gives each point to the sheet that bounds the body there, until nothing changes. Nothing as soon
 /// as the sheets hardly turn, as those of a smooth bend do from the first.
@@ -233,7 +265,8 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
                                               const Eigen::Vector3d& centre, double radius,
                                               double roughness) {
   if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
-  const auto sheets = two_sheets(points);
+  const bool told = all_tell_normals(points);
+  const auto sheets = told ? told_sheets(points) : two_sheets(points);
   if (!sheets) return std::nullopt;
   std::array<std::vector<OrientedPoint>, 2> parts;
   std::array<std::vector<std::size_t>, 2> members;
@@ -242,10 +275,12 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
     members[sheets->sides[i]].push_back(i);
   }
   const auto& [one, other] = sheets->planes;
-  const Crease rough =
-      crease_between(points, *sheets, QuadraticSheet(parts[0], one.normal, centre, radius),
-                     QuadraticSheet(parts[1], other.normal, centre, radius));
-  if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
+  if (!told) {
+    const Crease rough =
+        crease_between(points, *sheets, QuadraticSheet(parts[0], one.normal, centre, radius),
+                       QuadraticSheet(parts[1], other.normal, centre, radius));
+    if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
+  }
   auto first = HeightPatch::fit(parts[0], centre, one.normal, radius, roughness);
   if (!first) return std::nullopt;
   auto second = HeightPatch::fit(parts[1], centre, other.normal, radius, roughness);

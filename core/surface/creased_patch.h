@@ -13,12 +13,13 @@ namespace instep {
 /// Two height patches that meet in a crease, such as the featherline of a last: the body is what
 /// lies under both (a convex crease) or under either. A single smooth patch would ring there or
 /// cut the edge off. After the sharp features of multi-level partition of unity implicits (Ohtake
-/// and others 2003), with the points told apart by the patches themselves.
+/// and others 2003), with the points told apart by the patches themselves, or by their told
+/// normals.
 class CreasedPatch {
  public:
-  /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six that
-  /// meet in an angle, or if quadratics through the two plainly meet in none, as where one smooth
-  /// surface was cut in two. Two fits and some passes over the points.
+  /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six (four
+  /// with told normals) that meet in an angle, or if quadratics through the two plainly meet in
+  /// none, as where one smooth surface was cut in two. Two fits and some passes over the points.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
                                          double roughness);

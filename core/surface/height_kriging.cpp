@@ -12,54 +12,6 @@ constexpr double kLeastDetermined = 1e-3;
 /// say in how rough the surface is.
 constexpr double kLargestScale = 1e3;
 
-/// Of squared distances, by `factor`.
-template <class Squares, class Factor, class Values>
-void set_kernel(HeightKernel kernel, const Squares& squared, const Factor& factor,
-                Values&& values) {
-  switch (kernel) {
-    case HeightKernel::kCubic:
-      values = factor * squared * squared.sqrt();
-      break;
-    case HeightKernel::kQuintic:
-      values = -factor * squared.square() * squared.sqrt();
-      break;
-    case HeightKernel::kSeptic:
-      values = factor * squared.cube() * squared.sqrt();
-      break;
-  }
-}
-
-/// Of each of `samples`, a row, with each of `places`.
-Eigen::MatrixXd kernels_between(HeightKernel kernel, const Eigen::Matrix2Xd& samples,
-                                const Eigen::Matrix2Xd& places) {
-  const Eigen::ArrayXd x = samples.row(0);
-  const Eigen::ArrayXd y = samples.row(1);
-  Eigen::ArrayXd squared(samples.cols());
-  Eigen::MatrixXd kernels(samples.cols(), places.cols());
-  for (Eigen::Index i = 0; i < places.cols(); ++i) {
-    squared = (x - places(0, i)).square() + (y - places(1, i)).square();
-    set_kernel(kernel, squared, 1.0, kernels.col(i).array());
-  }
-  return kernels;
-}
-
-/// Its lower triangle; both sides scaled.
-Eigen::MatrixXd kernel_between(HeightKernel kernel, const Eigen::Matrix2Xd& places,
-                               const Eigen::ArrayXd& scales) {
-  const Eigen::Index count = places.cols();
-  const Eigen::ArrayXd x = places.row(0);
-  const Eigen::ArrayXd y = places.row(1);
-  Eigen::MatrixXd matrix(count, count);
-  Eigen::ArrayXd squared(count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const Eigen::Index rest = count - j;
-    squared.tail(rest) = (x.tail(rest) - x[j]).square() + (y.tail(rest) - y[j]).square();
-    set_kernel(kernel, squared.tail(rest), scales[j] * scales.tail(rest),
-               matrix.col(j).tail(rest).array());
-  }
-  return matrix;
-}
-
 /// Diagonal of the inverse of what was decomposed, by the columns of the inverse of the factor:
 /// each begins as far down as it stands to the right.
 Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
@@ -80,6 +32,38 @@ Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
   return diagonal;
 }
 
+Eigen::VectorXd readings_of(const HeightSamples& samples) {
+  Eigen::VectorXd readings(samples.size() + samples.slopes.size());
+  readings << samples.heights, samples.slopes.transpose().reshaped();
+  return readings;
+}
+
+Eigen::MatrixXd polynomial_block(const HeightSamples& samples, Eigen::Index terms) {
+  if (!samples.has_slopes()) return monomials(samples.places, terms);
+  Eigen::MatrixXd block(3 * samples.size(), terms);
+  block << monomials(samples.places, terms), monomial_slopes(samples.places, terms);
+  return block;
+}
+
+/// The lower triangle, both sides scaled.
+Eigen::MatrixXd kernel_of(const HeightSamples& samples, HeightKernel kernel,
+                          const Eigen::ArrayXd& scales, double slope_ratio) {
+  if (!samples.has_slopes()) return kernel_between(kernel, samples.places, scales);
+  Eigen::MatrixXd matrix = sloped_kernel_between(kernel, samples.places, scales);
+  matrix.diagonal().tail(samples.slopes.size()).array() += slope_ratio;
+  return matrix;
+}
+
+/// Of the readings. Slopes have a variance of their own.
+Eigen::ArrayXd scales_of(const HeightSamples& samples) {
+  Eigen::ArrayXd scales = Eigen::ArrayXd::Ones(samples.size() + samples.slopes.size());
+  const double most = samples.variances.maxCoeff();
+  if (most > 0.0) {
+    scales.head(samples.size()) = (most / samples.variances.array()).sqrt().min(kLargestScale);
+  }
+  return scales;
+}
+
 /// A quadratic along one line has as many terms as a plane.
 bool span_a_plane(const Eigen::Matrix2Xd& places) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(monomials(places, 3));
@@ -89,47 +73,36 @@ bool span_a_plane(const Eigen::Matrix2Xd& places) {
 
 }  // namespace
 
-Eigen::Index fewest_terms(HeightKernel kernel) {
-  switch (kernel) {
-    case HeightKernel::kCubic:
-      break;
-    case HeightKernel::kQuintic:
-      return Quadratic::RowsAtCompileTime;
-    case HeightKernel::kSeptic:
-      return Polynomial::RowsAtCompileTime;
-  }
-  return 3;
-}
-
 std::optional<HeightKriging> HeightKriging::of(const HeightSamples& samples, Eigen::Index terms,
-                                               HeightKernel kernel) {
+                                               HeightKernel kernel, double slope_ratio) {
   if (samples.size() < 4) return std::nullopt;
   HeightKriging kriging;
   kriging.kernel_ = kernel;
   kriging.places_ = samples.places;
-  const double most = samples.variances.maxCoeff();
-  kriging.level_ = most;
-  kriging.scales_ = Eigen::ArrayXd::Ones(samples.size());
-  if (most > 0.0) {
-    kriging.scales_ = (most / samples.variances.array()).sqrt().min(kLargestScale);
-  }
+  kriging.level_ = samples.variances.maxCoeff();
+  kriging.scales_ = scales_of(samples);
   const Eigen::VectorXd scales = kriging.scales_;
-  kriging.qr_.compute(scales.asDiagonal() * monomials(samples.places, terms));
+  kriging.qr_.compute(scales.asDiagonal() * polynomial_block(samples, terms));
   kriging.qr_.setThreshold(kLeastDetermined);
   const Eigen::Index rank = kriging.qr_.rank();
-  if (rank < fewest_terms(kernel) || rank >= samples.size()) return std::nullopt;
+  if (rank < fewest_terms(kernel) || rank >= scales.size()) return std::nullopt;
   if (rank < terms && !span_a_plane(samples.places)) return std::nullopt;
   kriging.set_reflectors(rank);
-  kriging.set_kernel(kernel_between(kernel, samples.places, kriging.scales_));
-  kriging.heights_ = scales.asDiagonal() * samples.heights;
+  kriging.set_kernel(kernel_of(samples, kernel, kriging.scales_, slope_ratio));
+  kriging.heights_ = scales.asDiagonal() * readings_of(samples);
   kriging.free_heights_ = kriging.off_polynomials(kriging.heights_);
   return kriging;
+}
+
+Eigen::MatrixXd HeightKriging::kernels_round(const Eigen::Matrix2Xd& places) const {
+  return has_slopes() ? sloped_kernels_at(kernel_, places_, places)
+                      : kernels_at(kernel_, places_, places);
 }
 
 /// The reflections of the decomposition as one block, I - V T V' (Schreiber and Van Loan 1989): its
 /// first columns span the polynomials, the others all that is off them.
 void HeightKriging::set_reflectors(Eigen::Index rank) {
-  const Eigen::Index count = places_.cols();
+  const Eigen::Index count = scales_.size();
   reflectors_ = qr_.matrixQR().leftCols(rank).triangularView<Eigen::StrictlyLower>();
   reflectors_.diagonal().setOnes();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(rank, rank);
@@ -213,7 +186,7 @@ Polynomial HeightKriging::polynomial(const Solution& solution) const {
 }
 
 double HeightKriging::left_out(const Solution& solution) const {
-  const Eigen::Index count = places_.cols();
+  const Eigen::Index count = scales_.size();
   const Eigen::Index rest = free();
   // The diagonal of the inverse, reflected from both sides.
   Eigen::MatrixXd solved = Eigen::MatrixXd::Zero(count, basis_.cols());
@@ -239,7 +212,7 @@ HeightKriging::Sums HeightKriging::sums(const Solution& solution, const Eigen::M
                                     .triangularView<Eigen::Upper>()
                                     .transpose()
                                     .solve(sought.topRows(rank));
-  const Eigen::MatrixXd across = kernels_between(kernel_, places_, places).lazyProduct(shares);
+  const Eigen::MatrixXd across = kernels_round(places).lazyProduct(shares);
   const Eigen::MatrixXd crossed = on_basis_.lazyProduct(along);
   const Eigen::MatrixXd off = off_polynomials(scales_.matrix().asDiagonal() * across - crossed);
   Eigen::MatrixXd solved(off.rows(), off.cols());
@@ -258,7 +231,7 @@ HeightKriging::Sums HeightKriging::sums(const Solution& solution, const Eigen::M
   const Eigen::ArrayXd own = of_columns(solved, off - solution.ratio * solved) +
                              of_columns(crossed, 2.0 * scaled - on_polynomials);
   const Eigen::ArrayXd between =
-      of_columns(kernels_between(kernel_, places, places).lazyProduct(shares), shares);
+      of_columns(kernels_at(kernel_, places, places).lazyProduct(shares), shares);
   sums.wandering = (between - 2.0 * of_columns(across, sums.influence) + own).max(0.0);
   return sums;
 }

@@ -5,17 +5,10 @@
 #include <Eigen/QR>
 #include <optional>
 
+#include "core/surface/height_kernel.h"
 #include "core/surface/height_samples.h"
 
 namespace instep {
-
-/// The basis function of each sample. The paper's r^3 bends as creased, uneven surfaces do; r^5
-/// (with its sign turned) and r^7 as smooth and smoother ones do. They are conditionally positive
-/// definite of order 2, 3 and 4: a plane, a quadratic or a cubic polynomial has to go with them.
-enum class HeightKernel { kCubic, kQuintic, kSeptic };
-
-/// Terms of the polynomial without which the kernel's system is not positive definite: 3, 6 or 10.
-Eigen::Index fewest_terms(HeightKernel kernel);
 
 /// The paper's system (eqs. 6 and 7, phi = r^3, r^5 or r^7, a smoothing for each point) for heights
 /// over a plane, with a polynomial; read as kriging: once the polynomial is taken out, heights
@@ -25,20 +18,26 @@ Eigen::Index fewest_terms(HeightKernel kernel);
 /// many rows smaller as there are terms: reflections turn the kernel there, and Cholesky's method
 /// does the rest. Unequal variances are made equal first, by weighing each sample, so that all
 /// depends on one number, the ratio of noise to roughness.
+///
+/// Samples may have slopes too. They count as samples of their own: all vectors of readings hold
+/// the heights first, then the slopes along x, then those along y.
 class HeightKriging {
  public:
   /// Nothing if the samples do not determine the polynomial (fewer than four, all on one line; for
   /// r^5 and r^7 all of fewest_terms()). `terms`: 3, 6 or 10, fewest_terms() at least. The
-  /// variances count only against each other. O(n^2).
+  /// variances count only against each other. `slope_ratio`: of a slope's variance to the
+  /// roughness, over that of solve(); wandering() counts it in. O(n^2) for n readings.
   static std::optional<HeightKriging> of(const HeightSamples& samples, Eigen::Index terms,
-                                         HeightKernel kernel = HeightKernel::kCubic);
+                                         HeightKernel kernel = HeightKernel::kCubic,
+                                         double slope_ratio = 0.0);
 
   HeightKernel kernel() const { return kernel_; }
 
   /// Variance of a sample of weight one: the least certain one's.
   double level() const { return level_; }
-  /// Samples that the polynomial leaves over.
-  Eigen::Index free() const { return places_.cols() - terms(); }
+  Eigen::Index samples() const { return places_.cols(); }
+  /// Readings that the polynomial leaves over.
+  Eigen::Index free() const { return scales_.size() - terms(); }
   /// Of the polynomial, as many as the samples determine.
   Eigen::Index terms() const { return basis_.cols(); }
   /// The kernel on the null space of the polynomials, free() rows in an orthonormal basis of it:
@@ -68,14 +67,14 @@ class HeightKriging {
   Eigen::VectorXd weights(const Solution& solution) const;
   Polynomial polynomial(const Solution& solution) const;
 
-  /// How far each sample is off what the others predict, against what is expected of that for a
+  /// How far each reading is off what the others predict, against what is expected of that for a
   /// roughness of one: mean square (leave-one-out). Like the roughness itself where that is the
   /// same at all scales; less where the surface is smoother than the kernel takes it to be. O(n^3).
   double left_out(const Solution& solution) const;
 
   /// What sums of the solution's heights rest on.
   struct Sums {
-    Eigen::MatrixXd influence;  ///< by how much each sample's height moves each sum: a column
+    Eigen::MatrixXd influence;  ///< by how much each reading moves each sum: a column
     /// Variance of each sum round the true one if there were no noise, for a roughness of one.
     Eigen::ArrayXd wandering;
   };
@@ -86,6 +85,9 @@ class HeightKriging {
  private:
   HeightKriging() = default;
 
+  bool has_slopes() const { return scales_.size() > places_.cols(); }
+  /// Of each reading, a row, with the height at each of `places`.
+  Eigen::MatrixXd kernels_round(const Eigen::Matrix2Xd& places) const;
   void set_reflectors(Eigen::Index rank);
   void set_kernel(const Eigen::MatrixXd& kernel);
   /// The part off the polynomials in the basis of reduced(), and back.
@@ -94,7 +96,7 @@ class HeightKriging {
 
   HeightKernel kernel_ = HeightKernel::kCubic;
   Eigen::Matrix2Xd places_;
-  Eigen::ArrayXd scales_;
+  Eigen::ArrayXd scales_;  ///< of the readings
   double level_ = 0.0;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;
   Eigen::MatrixXd reflectors_;         ///< V of set_reflectors()

@@ -36,11 +36,18 @@ struct SmootherKernel {
 };
 constexpr SmootherKernel kSmootherKernels[] = {{HeightKernel::kQuintic, 6.0},
                                                {HeightKernel::kSeptic, 30.0}};
+/// The variances of told slopes that are tried, against the roughness: normals may be as exact as
+/// the points, or made from these by whoever sent them, or smoothed over creases.
+constexpr double kExactSlopes = 1e-6;
+constexpr double kWildSlopes = 1e6;
+constexpr double kSlopeStep = 10.0;
+/// Stands for no distance at all where it is divided by.
+constexpr double kLeastSquared = 1e-300;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
-bool are_exact(const HeightKriging& kriging) {
-  return !(kriging.level() > kExactVariance);
+bool are_exact(double most_variance) {
+  return !(most_variance > kExactVariance);
 }
 
 Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
@@ -91,12 +98,24 @@ std::optional<Fit> exact_fit(std::optional<HeightKriging> kriging, double usual)
   return Fit{std::move(*kriging), std::move(*solution), misfit, usual, wander};
 }
 
+/// With as exact slopes as are likeliest, where they are told.
+std::optional<Fit> exact_fit(const HeightSamples& samples, Eigen::Index terms, HeightKernel kernel,
+                             double usual) {
+  if (!samples.has_slopes()) return exact_fit(HeightKriging::of(samples, terms, kernel), usual);
+  std::optional<Fit> best;
+  for (double ratio = kExactSlopes; ratio <= kWildSlopes; ratio *= kSlopeStep) {
+    auto fit = exact_fit(HeightKriging::of(samples, terms, kernel, ratio), usual);
+    if (best && !(fit && fit->misfit < best->misfit)) break;
+    best = std::move(fit);
+  }
+  return best;
+}
+
 /// By r^3 unless smoother kernels are plainly likelier, one after the other.
-std::optional<Fit> likeliest_exact_fit(const HeightSamples& samples, HeightKriging cubic,
-                                       double usual) {
-  auto fit = exact_fit(std::move(cubic), usual);
+std::optional<Fit> likeliest_exact_fit(const HeightSamples& samples, double usual) {
+  auto fit = exact_fit(samples, Quadratic::RowsAtCompileTime, HeightKernel::kCubic, usual);
   for (const auto& [kernel, least_gain] : kSmootherKernels) {
-    auto smoother = exact_fit(HeightKriging::of(samples, fewest_terms(kernel), kernel), usual);
+    auto smoother = exact_fit(samples, fewest_terms(kernel), kernel, usual);
     if (!smoother || (fit && !(smoother->misfit + least_gain < fit->misfit))) break;
     fit = std::move(smoother);
   }
@@ -115,40 +134,15 @@ std::optional<Fit> noisy_fit(HeightKriging kriging, double usual) {
 
 /// Points so many that they were averaged lie so close that all kernels say the same.
 std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, double usual) {
-  const bool few = points < kFewestForQuadratic;
-  auto kriging = HeightKriging::of(samples, few ? 3 : Quadratic::RowsAtCompileTime);
-  if (!kriging) return std::nullopt;
-  auto fit = !are_exact(*kriging) ? noisy_fit(std::move(*kriging), usual)
-             : few || points > kMostHeightSamples
-                 ? exact_fit(std::move(kriging), usual)
-                 : likeliest_exact_fit(samples, std::move(*kriging), usual);
-  return fit && std::isfinite(fit->misfit) ? std::move(fit) : std::nullopt;
-}
-
-/// A height over the plane and its slopes.
-struct Rise {
-  double height;
-  double along;
-  double across;
-};
-
-Rise rise_of(const Polynomial& c, double x, double y) {
-  return {c[0] + x * (c[1] + x * (c[3] + x * c[6]) + y * (c[4] + x * c[7])) +
-              y * (c[2] + y * (c[5] + x * c[8] + y * c[9])),
-          c[1] + x * (2.0 * c[3] + 3.0 * x * c[6]) + y * (c[4] + 2.0 * x * c[7] + y * c[8]),
-          c[2] + y * (2.0 * c[5] + 3.0 * y * c[9]) + x * (c[4] + 2.0 * y * c[8] + x * c[7])};
-}
-
-double power_of(HeightKernel kernel) {
-  switch (kernel) {
-    case HeightKernel::kCubic:
-      break;
-    case HeightKernel::kQuintic:
-      return 5.0;
-    case HeightKernel::kSeptic:
-      return 7.0;
+  const bool few = points < kFewestForQuadratic && !samples.has_slopes();
+  const bool exact = are_exact(samples.variances.maxCoeff());
+  std::optional<Fit> fit;
+  if (exact && !few && points <= kMostHeightSamples) {
+    fit = likeliest_exact_fit(samples, usual);
+  } else if (auto kriging = HeightKriging::of(samples, few ? 3 : Quadratic::RowsAtCompileTime)) {
+    fit = exact ? exact_fit(std::move(kriging), usual) : noisy_fit(std::move(*kriging), usual);
   }
-  return 3.0;
+  return fit && std::isfinite(fit->misfit) ? std::move(fit) : std::nullopt;
 }
 
 }  // namespace
@@ -171,6 +165,7 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
     patch.cells_ = std::move(averages.cells);
     patch.shares_ = std::move(averages.shares);
   }
+  if (!are_exact(samples.variances.maxCoeff())) samples.slopes.resize(2, 0);
   auto fit = fit_to(samples, points.size(), std::max(roughness * radius, 1e-12));
   if (!fit) return std::nullopt;
   patch.misfit_ = fit->misfit;
@@ -187,14 +182,19 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
 
 /// In whole groups: what fills up the last one has no weight.
 void HeightPatch::set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights) {
-  const Eigen::Index count = weights.size();
+  const Eigen::Index count = places.cols();
   const Eigen::Index whole = (count + kGroup - 1) / kGroup * kGroup;
-  x_.setZero(whole);
-  y_.setZero(whole);
-  weights_.setZero(whole);
-  x_.head(count) = places.row(0);
-  y_.head(count) = places.row(1);
-  weights_.head(count) = weights;
+  const auto filled_up = [&](const auto& values) {
+    Column column = Column::Zero(whole);
+    column.head(count) = values;
+    return column;
+  };
+  x_ = filled_up(places.row(0).transpose().array());
+  y_ = filled_up(places.row(1).transpose().array());
+  weights_ = filled_up(weights.head(count).array());
+  if (weights.size() == count) return;
+  along_weights_ = filled_up(weights.segment(count, count).array());
+  across_weights_ = filled_up(weights.tail(count).array());
 }
 
 HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& positions,
@@ -205,7 +205,8 @@ HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& position
     places.col(i) = axes_.topRows<2>() * arm / radius_;
   }
   HeightKriging::Sums of_samples = kriging_->sums(solution_, places, shares);
-  Sums sums{std::move(of_samples.influence), radius_ * radius_ * wander_ * of_samples.wandering};
+  Sums sums{of_samples.influence.topRows(kriging_->samples()),
+            radius_ * radius_ * wander_ * of_samples.wandering};
   if (cells_.empty()) return sums;
   Eigen::MatrixXd of_points(shares_.size(), shares.cols());
   for (Eigen::Index i = 0; i < shares_.size(); ++i) {
@@ -216,7 +217,7 @@ HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& position
 }
 
 bool HeightPatch::is_exact() const {
-  return are_exact(*kriging_);
+  return are_exact(kriging_->level());
 }
 
 bool HeightPatch::is_smooth() const {
@@ -226,6 +227,13 @@ bool HeightPatch::is_smooth() const {
 double HeightPatch::fine_bending() const {
   if (!is_exact() || !(wander_ > 0.0)) return 1.0;
   return kriging_->left_out(solution_) / wander_;
+}
+
+HeightPatch::Rise HeightPatch::rise_of(const Polynomial& c, double x, double y) {
+  return {c[0] + x * (c[1] + x * (c[3] + x * c[6]) + y * (c[4] + x * c[7])) +
+              y * (c[2] + y * (c[5] + x * c[8] + y * c[9])),
+          c[1] + x * (2.0 * c[3] + 3.0 * x * c[6]) + y * (c[4] + 2.0 * x * c[7] + y * c[8]),
+          c[2] + y * (2.0 * c[5] + 3.0 * y * c[9]) + x * (c[4] + 2.0 * y * c[8] + x * c[7])};
 }
 
 FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
@@ -247,11 +255,35 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
     slopes_x += weighted * along;
     slopes_y += weighted * across;
   }
-  const Rise smooth = rise_of(polynomial_, x, y);
   const double power = power_of(kernel);
-  const Eigen::Vector3d gradient(-smooth.along - power * slopes_x.sum(),
-                                 -smooth.across - power * slopes_y.sum(), 1.0);
-  return {radius_ * (local.z() - smooth.height - kernels.sum()), axes_.transpose() * gradient};
+  Rise rise = rise_of(polynomial_, x, y);
+  rise.height += kernels.sum();
+  rise.along += power * slopes_x.sum();
+  rise.across += power * slopes_y.sum();
+  if (along_weights_.size() > 0) add_slopes(x, y, rise);
+  const Eigen::Vector3d gradient(-rise.along, -rise.across, 1.0);
+  return {radius_ * (local.z() - rise.height), axes_.transpose() * gradient};
+}
+
+/// The kernels of the samples' slopes: the derivatives of those of their heights.
+void HeightPatch::add_slopes(double x, double y, Rise& rise) const {
+  const double power = power_of(kriging_->kernel());
+  for (Eigen::Index i = 0; i < x_.size(); i += kGroup) {
+    const Group along = x - x_.segment<kGroup>(i);
+    const Group across = y - y_.segment<kGroup>(i);
+    const Group squared = (along.square() + across.square()).max(kLeastSquared);
+    const auto weights_along = along_weights_.segment<kGroup>(i);
+    const auto weights_across = across_weights_.segment<kGroup>(i);
+    const Group weighted = weights_along * along + weights_across * across;
+    Group bend = power / squared.sqrt();
+    if (kriging_->kernel() == HeightKernel::kQuintic) bend *= -squared;
+    if (kriging_->kernel() == HeightKernel::kSeptic) bend *= squared.square();
+    const Group slope = bend * squared;
+    bend *= (power - 2.0) * weighted;
+    rise.height -= (slope * weighted).sum();
+    rise.along -= (slope * weights_along + bend * along).sum();
+    rise.across -= (slope * weights_across + bend * across).sum();
+  }
 }
 
 }  // namespace instep

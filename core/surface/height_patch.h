@@ -17,7 +17,8 @@ namespace instep {
 /// point; r^5, and after it r^7 with a cubic polynomial, where exact points are likelier by it)
 /// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane: as
 /// heights, points need no others put off the surface (eq. 5) and no normals but for the side, and
-/// the system (HeightKriging), centred and in unit scale, is half as large. The roughness is the
+/// the system (HeightKriging), centred and in unit scale, is half as large. Told normals of exact
+/// points count as slopes, as exact as is likeliest for them. The roughness is the
 /// likeliest one (restricted maximum likelihood) given the points and a prior; a point's smoothing
 /// is its variance against four times that, since a length is asked for in the end, over which
 /// noise averages out but flattened bends add up.
@@ -27,7 +28,7 @@ class HeightPatch {
   /// of the neighbourhood round `centre`. `roughness` > 0: likely value, to within a factor of ten
   /// or so. More points than kMostHeightSamples are averaged over cells. Nothing if the points do
   /// not determine a surface (fewer than four, all on one line) or tell nothing of its likelihood.
-  /// O(min(points, 64)^3 + points).
+  /// O(min(points, 64)^3 + points), 27 times that with told normals.
   static std::optional<HeightPatch> fit(const std::vector<OrientedPoint>& points,
                                         const Eigen::Vector3d& centre,
                                         const Eigen::Vector3d& outward, double radius,
@@ -73,8 +74,17 @@ class HeightPatch {
   using Group = Eigen::Array<double, kGroup, 1>;
   static_assert(kMostHeightSamples % kGroup == 0);
 
+  /// A height over the plane and its slopes.
+  struct Rise {
+    double height;
+    double along;
+    double across;
+  };
+
   HeightPatch() = default;
 
+  static Rise rise_of(const Polynomial& c, double x, double y);
+  void add_slopes(double x, double y, Rise& rise) const;
   void set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights);
 
   Eigen::Vector3d centre_;
@@ -85,6 +95,8 @@ class HeightPatch {
   Column x_;  ///< of the samples
   Column y_;
   Column weights_;
+  Column along_weights_;  ///< of the slopes; empty where none are told
+  Column across_weights_;
   std::vector<Eigen::Index> cells_;  ///< the sample that each point went into; empty for itself
   Eigen::VectorXd shares_;
   double wander_ = 0.0;  ///< roughness in unit scale

@@ -8,6 +8,8 @@ namespace instep {
 namespace {
 
 constexpr int kCellsAcross = 7;
+/// Cosine to the plane's direction below which a told normal is taken as one of that steepness.
+constexpr double kSteepest = 0.25;
 /// Stands for no variance at all where variances are divided by.
 constexpr double kLeastVariance = 1e-18;
 
@@ -25,18 +27,25 @@ std::size_t cell_at(const Eigen::Vector2d& place) {
   return step(place.x()) * kCellsAcross + step(place.y());
 }
 
+Eigen::Vector2d slope_of(const Eigen::Vector3d& normal) {
+  return -normal.head<2>() / std::max(normal.z(), kSteepest);
+}
+
 }  // namespace
 
 HeightSamples samples_over(const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
                            const Eigen::Vector3d& centre, double radius) {
   const auto count = static_cast<Eigen::Index>(points.size());
   HeightSamples samples{Eigen::Matrix2Xd(2, count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
+  if (points.size() <= kMostHeightSamples && all_tell_normals(points))
+    samples.slopes.resize(2, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const OrientedPoint& point = points[static_cast<std::size_t>(i)];
     const Eigen::Vector3d local = axes * (point.position - centre) / radius;
     samples.places.col(i) = local.head<2>();
     samples.heights[i] = local.z();
     samples.variances[i] = point.variance / (radius * radius);
+    if (samples.has_slopes()) samples.slopes.col(i) = slope_of(axes * point.normal);
   }
   return samples;
 }
@@ -60,6 +69,31 @@ Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms) {
     values.col(9) = y * y * y;
   }
   return values;
+}
+
+Eigen::MatrixXd monomial_slopes(const Eigen::Matrix2Xd& places, Eigen::Index terms) {
+  const Eigen::ArrayXd x = places.row(0).transpose();
+  const Eigen::ArrayXd y = places.row(1).transpose();
+  Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * places.cols(), terms);
+  auto along = slopes.topRows(places.cols());
+  auto across = slopes.bottomRows(places.cols());
+  along.col(1).setOnes();
+  across.col(2).setOnes();
+  if (terms >= Quadratic::RowsAtCompileTime) {
+    along.col(3) = 2.0 * x;
+    along.col(4) = y;
+    across.col(4) = x;
+    across.col(5) = 2.0 * y;
+  }
+  if (terms == Polynomial::RowsAtCompileTime) {
+    along.col(6) = 3.0 * x * x;
+    along.col(7) = 2.0 * x * y;
+    across.col(7) = x * x;
+    along.col(8) = y * y;
+    across.col(8) = 2.0 * x * y;
+    across.col(9) = 3.0 * y * y;
+  }
+  return slopes;
 }
 
 Quadratic least_squares(const HeightSamples& samples) {

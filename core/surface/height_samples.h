@@ -16,11 +16,15 @@ struct HeightSamples {
   Eigen::Matrix2Xd places;    ///< on the plane
   Eigen::VectorXd heights;    ///< over it
   Eigen::VectorXd variances;  ///< of the heights
+  Eigen::Matrix2Xd slopes{};  ///< of the surface there; no columns where they are not known
 
   Eigen::Index size() const { return heights.size(); }
+  bool has_slopes() const { return slopes.cols() > 0; }
 };
 
-/// `axes`: rows are two directions on the plane and the one over it. `radius` > 0.
+/// `axes`: rows are two directions on the plane and the one over it. `radius` > 0. With slopes if
+/// all normals are told and the points are few enough not to be averaged; steep ones are flattened,
+/// as no height over the plane could follow them.
 HeightSamples samples_over(const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
                            const Eigen::Vector3d& centre, double radius);
 
@@ -32,6 +36,9 @@ using Polynomial = Eigen::Matrix<double, 10, 1>;
 
 /// The first `terms` (3, 6 or 10) of those monomials, one place a row.
 Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms);
+
+/// Their slopes along x at all places, then along y.
+Eigen::MatrixXd monomial_slopes(const Eigen::Matrix2Xd& places, Eigen::Index terms);
 
 /// The quadratic that fits best. At least six samples.
 Quadratic least_squares(const HeightSamples& samples);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <vector>
 
 namespace instep {
 
@@ -16,6 +18,12 @@ struct OrientedPoint {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
   double variance = 0.0;
+  bool normal_told = false;  ///< it says more of the surface than the points round it do
 };
+
+inline bool all_tell_normals(const std::vector<OrientedPoint>& points) {
+  return std::all_of(points.begin(), points.end(),
+                     [](const OrientedPoint& point) { return point.normal_told; });
+}
 
 }  // namespace instep

@@ -12,11 +12,9 @@
 namespace instep {
 namespace {
 
-/// Points of a patch: enough to fit a surface, few enough to solve quickly.
-constexpr std::size_t kPatchPoints = 60;
-/// Of exact points, so many of them are asked first for a crease: the further ones tell no more of
-/// it, but may lie round a second one or on the other side of a thin part.
-constexpr std::size_t kNearerPoints = 30;
+/// Of exact points, half of them are asked first for a crease: the further ones tell no more of it,
+/// but may lie round a second one or on the other side of a thin part.
+constexpr std::size_t kNearerPart = 2;
 /// Variances less than this part of the square of their reach are those of exact points.
 constexpr double kExactVariance = 1e-10;
 /// Lines further apart than so many spacings are told from a chance gap.
@@ -35,7 +33,6 @@ constexpr double kFacing = 0.5;
 constexpr double kBehind = -0.3;
 /// With more than this part of the points on the other side, the patch is one in space.
 constexpr double kThin = 0.1;
-constexpr std::size_t kPointsInSpace = 80;
 /// How far its surface may be off: the variance half-way between points, against roughness times
 /// the cube of their spacing, and how many points share in averaging noise.
 constexpr double kWanderingInSpace = 0.1;
@@ -65,11 +62,16 @@ constexpr int kMostAttempts = 5;
 constexpr double kTooWide = 1.5;
 /// Or wider, if the points determine no surface yet.
 constexpr double kWidening = 1.6;
-/// A crease turns at least this much (radians), and is so much likelier than one smooth sheet.
-constexpr double kLeastTurn = 0.9;
+/// A crease is so much likelier than one smooth sheet.
 constexpr double kLeastGain = 8.0;
-/// Its place is a guess where the points of a sheet are further from it, in spacings.
-constexpr double kWidestCreaseGap = 1.4;
+/// An edge may be round where no points lie: part of what a length over it would lose by that.
+constexpr double kRounding = 0.2;
+
+/// Told normals show smaller turns, lead sheets further, and do for some more points.
+constexpr PatchRule kByPoints = {
+    .points = 60, .points_in_space = 80, .least_turn = 0.9, .widest_gap = 1.4};
+constexpr PatchRule kByToldNormals = {
+    .points = 40, .points_in_space = 40, .least_turn = 0.4, .widest_gap = 3.0};
 
 Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -90,7 +92,14 @@ double square_beside(const Eigen::Vector3d& place, const Eigen::Vector3d& point,
 
 PatchFitter::PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
                          std::vector<LocalRoughness> roughness)
-    : points_(std::move(points)), index_(std::move(index)), roughness_(std::move(roughness)) {}
+    : points_(std::move(points)),
+      index_(std::move(index)),
+      roughness_(std::move(roughness)),
+      rule_(all_tell_normals(points_) ? kByToldNormals : kByPoints) {}
+
+std::size_t PatchFitter::nearer_points() const {
+  return rule_.points / kNearerPart;
+}
 
 /// Over which distance noise and roughness weigh the same.
 double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
@@ -100,9 +109,9 @@ double PatchFitter::Surroundings::bandwidth(double of_roughness) const {
 /// The nearest points; more of them in a hole, until they lie on all sides, so that the surface
 /// spans it and is not put forth from one side.
 PatchFitter::Neighbours PatchFitter::nearest_all_round(const Eigen::Vector3d& place) const {
-  auto first = index_.nearest(place, kPatchPoints);
+  auto first = index_.nearest(place, rule_.points);
   auto nearest = first;
-  for (std::size_t count = kMoreInAHole * kPatchPoints / 2;; count = kMoreInAHole * count / 2) {
+  for (std::size_t count = kMoreInAHole * rule_.points / 2;; count = kMoreInAHole * count / 2) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
     middle /= static_cast<double>(nearest.size());
@@ -154,7 +163,7 @@ void PatchFitter::drop_strays(Members& members) const {
 /// Leaves out points that nearly repeat another: the slope between the two would be one of
 /// rounding.
 void PatchFitter::drop_twins(std::vector<std::size_t>& members, double nearest) const {
-  if (members.size() > kPointsInSpace) return;
+  if (members.size() > rule_.points_in_space) return;
   std::size_t kept = 0;
   for (const auto member : members) {
     const auto is_twin = [&](std::size_t other) {
@@ -204,7 +213,8 @@ PatchFitter::Members PatchFitter::members_of(const Surroundings& surroundings,
 PatchFitter::Members PatchFitter::nearer_of(const Members& members,
                                             const Eigen::Vector3d& place) const {
   Members nearer;
-  nearer.all.assign(members.all.begin(), members.all.begin() + kNearerPoints);
+  nearer.all.assign(members.all.begin(),
+                    members.all.begin() + static_cast<std::ptrdiff_t>(nearer_points()));
   for (const auto i : nearer.all) nearer.outward += points_[i].normal;
   nearer.outward.normalize();
   nearer.radius = (points_[nearer.all.back()].position - place).norm();
@@ -242,10 +252,11 @@ bool PatchFitter::is_thin(const Neighbours& nearest) const {
 
 std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surroundings,
                                                       const Eigen::Vector3d& place) const {
-  const bool wider = surroundings.nearest.size() > kPointsInSpace;
-  const auto nearest = wider ? surroundings.nearest : index_.nearest(place, kPointsInSpace);
+  const std::size_t most = rule_.points_in_space;
+  const bool wider = surroundings.nearest.size() > most;
+  const auto nearest = wider ? surroundings.nearest : index_.nearest(place, most);
   // Of many, an even sample by their distance.
-  const std::size_t stride = (nearest.size() + kPointsInSpace - 1) / kPointsInSpace;
+  const std::size_t stride = (nearest.size() + most - 1) / most;
   std::vector<std::size_t> members;
   for (std::size_t i = 0; i < nearest.size(); i += stride) members.push_back(nearest[i].index);
   drop_twins(members, kTwin * surroundings.spacing);
@@ -260,6 +271,15 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   return SurfacePatch{place, place, radius, std::move(*field), std::move(members), variance};
 }
 
+/// By how much a length over an edge would be shorter if the edge were as round as its gaps allow,
+/// an arc that meets both sheets at their last points, and how likely that is: where they come as
+/// near as their spacing lets them, it is sharp.
+double rounding_of(const CreasedPatch& creased, double spacing) {
+  const double half = 0.5 * creased.turn();
+  const double lost = 2.0 * creased.gap() * (1.0 - half / std::tan(half));
+  return kRounding * std::min(creased.gap() / spacing, 1.0) * lost;
+}
+
 /// Where the points tell a crease better than one smooth sheet.
 std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroundings,
                                                      const Eigen::Vector3d& place,
@@ -272,23 +292,25 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   if (bent < kFewestBent || static_cast<double>(bent) < least_bent) return std::nullopt;
   const auto points = points_at(members.all);
   auto creased = CreasedPatch::fit(points, place, members.radius, roughness);
-  if (!creased || creased->turn() <= kLeastTurn) return std::nullopt;
-  if (creased->gap() >= kWidestCreaseGap * surroundings.spacing) return std::nullopt;
+  if (!creased || creased->turn() <= rule_.least_turn) return std::nullopt;
+  if (creased->gap() >= rule_.widest_gap * surroundings.spacing) return std::nullopt;
   const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
   if (smooth && creased->misfit() + kLeastGain >= smooth->misfit()) return std::nullopt;
+  const double rounding = rounding_of(*creased, surroundings.spacing);
   return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all,
-                      0.0};
+                      0.0,   rounding};
 }
 
 /// A crease that the nearer points of a thin part tell, if they all lie on one side of it: a field
 /// in space would round it.
 std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& surroundings,
                                                             const Eigen::Vector3d& place) const {
-  if (!surroundings.exact || surroundings.nearest.size() <= kNearerPoints) return std::nullopt;
+  if (!surroundings.exact || surroundings.nearest.size() <= nearer_points()) return std::nullopt;
   const auto nearest = surroundings.nearest.begin();
-  if (is_thin({nearest, nearest + kNearerPoints})) return std::nullopt;
+  if (is_thin({nearest, nearest + static_cast<std::ptrdiff_t>(nearer_points())}))
+    return std::nullopt;
   const Members members = members_of(surroundings, place, surroundings.reach);
-  if (members.all.size() <= kNearerPoints) return std::nullopt;
+  if (members.all.size() <= nearer_points()) return std::nullopt;
   return fit_creased(surroundings, place, nearer_of(members, place), surroundings.roughness);
 }
 
@@ -339,7 +361,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     // Noise hides a roughness whose bandwidth is wider than the patch.
     const double likely = std::max(here.roughness, here.noise_area / std::pow(members.radius, 5));
     const bool nearest_only = members.radius <= here.reach;
-    if (here.exact && nearest_only && members.all.size() > kNearerPoints) {
+    if (here.exact && nearest_only && members.all.size() > nearer_points()) {
       if (auto creased = fit_creased(here, place, nearer_of(members, place), likely))
         return creased;
     }
@@ -352,7 +374,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
       continue;
     }
-    if (smooth->is_smooth() && nearest_only && here.nearest.size() <= kPatchPoints) {
+    if (smooth->is_smooth() && nearest_only && here.nearest.size() <= rule_.points) {
       if (auto across = fit_across_lines(here, place, likely)) return across;
     }
     const double fitting = kBandwidths * here.bandwidth(smooth->roughness());

@@ -23,6 +23,7 @@ struct SurfacePatch {
   std::variant<HeightPatch, CreasedPatch, HermitePatch> field;
   std::vector<std::size_t> members;  ///< the points it was fitted to
   double variance = 0.0;             ///< of the surface round the true one, for a patch in space
+  double rounding = 0.0;  ///< likely error (standard deviation) of a length over its crease
 
   FieldValue at(const Eigen::Vector3d& place) const;
 
@@ -38,6 +39,14 @@ struct SurfacePatch {
     std::size_t member(std::size_t i) const { return owner->members[chosen ? (*chosen)[i] : i]; }
   };
   Sheet sheet_at(const Eigen::Vector3d& place) const;
+};
+
+/// How a patch is made of points.
+struct PatchRule {
+  std::size_t points;  ///< of a patch: enough to fit a surface, few enough to solve quickly
+  std::size_t points_in_space;  ///< of one that shows both sides of a thin part
+  double least_turn;            ///< of a crease, in radians
+  double widest_gap;            ///< further from all points, in spacings, its place is a guess
 };
 
 /// Chooses what piece of surface the points round a place make, and fits it: as wide as its
@@ -83,6 +92,7 @@ class PatchFitter {
     double front_radius = 0.0;
   };
 
+  std::size_t nearer_points() const;
   Neighbours nearest_all_round(const Eigen::Vector3d& place) const;
   Eigen::Vector3d outward_of(const Neighbours& nearest) const;
   Surroundings surroundings_of(const Eigen::Vector3d& place) const;
@@ -107,6 +117,7 @@ class PatchFitter {
   std::vector<OrientedPoint> points_;
   PointIndex index_;
   std::vector<LocalRoughness> roughness_;
+  PatchRule rule_;
 };
 
 }  // namespace instep

@@ -116,6 +116,109 @@ TEST(CreasedPatch, IsPositiveOutsideTheBodyOnly) {
   }
 }
 
+/// Two sheets that bend round y from an edge on, each as its normals say: circles, of which the
+/// body is what lies in both.
+struct BentRoof {
+  double turn;
+  double right;  ///< curvature of either sheet
+  double left;
+
+  double curvature(double side) const { return side > 0.0 ? right : left; }
+  double pitch(double side, double reach) const { return 0.5 * turn + curvature(side) * reach; }
+  Vector3d normal(double side, double reach) const {
+    return {side * std::sin(pitch(side, reach)), 0.0, std::cos(pitch(side, reach))};
+  }
+  /// At `reach` along the sheet.
+  Vector3d at(double side, double reach, double y) const {
+    const Vector3d chord = normal(side, reach) - normal(side, 0.0);
+    return Vector3d(chord.x(), 0.0, chord.z()) / curvature(side) + Vector3d(0.0, y, 0.0);
+  }
+  double distance(const Vector3d& place) const {
+    const auto over = [&](double side) {
+      const Vector3d arm = place + normal(side, 0.0) / curvature(side);
+      return std::hypot(arm.x(), arm.z()) - 1.0 / curvature(side);
+    };
+    return std::max(over(1.0), over(-1.0));
+  }
+  /// At random, from next to the edge on, with their normals told; those on the right come first.
+  OrientedPoints points(std::size_t on_the_right, std::size_t on_the_left,
+                        std::uint64_t seed) const {
+    test::RandomNumbers random(seed);
+    OrientedPoints points;
+    while (points.size() < on_the_right + on_the_left) {
+      const double side = points.size() < on_the_right ? 1.0 : -1.0;
+      const double reach = random.uniform(0.002, 0.9);
+      points.push_back(
+          {at(side, reach, random.uniform(-0.8, 0.8)), normal(side, reach), 0.0, true});
+    }
+    return points;
+  }
+};
+
+const BentRoof kBentRoofs[] = {{25.0 * kDegree, 0.3, 0.3}, {25.0 * kDegree, 0.5, 0.1},
+                               {40.0 * kDegree, 0.6, 0.4}, {60.0 * kDegree, 0.7, 0.2},
+                               {90.0 * kDegree, 0.5, 0.5}, {110.0 * kDegree, 0.1, 0.3}};
+
+TEST(CreasedPatch, ToldNormalsTellItsSheetsWhereTheseBend) {
+  for (const auto& roof : kBentRoofs) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const auto patch = fit(roof.points(14, 14, seed));
+      ASSERT_TRUE(patch) << roof.turn / kDegree << " seed " << seed;
+      EXPECT_NEAR(patch->turn(), roof.turn, 1.0 * kDegree) << seed;
+      for (const double side : {1.0, -1.0}) {
+        auto members = patch->sheet_at(roof.at(side, 0.5, 0.0)).members;
+        std::sort(members.begin(), members.end());
+        ASSERT_EQ(members.size(), 14U) << roof.turn / kDegree << " seed " << seed;
+        for (std::size_t i = 0; i < 14; ++i) {
+          EXPECT_EQ(members[i], side > 0.0 ? i : 14 + i);
+        }
+        for (const double reach : {0.02, 0.2, 0.5}) {
+          EXPECT_NEAR(patch->at(roof.at(side, reach, 0.1)).value, 0.0, 2e-3)
+              << roof.turn / kDegree << " seed " << seed;
+        }
+      }
+    }
+  }
+}
+
+TEST(CreasedPatch, ToldNormalsTellTheBodyFromTheOutside) {
+  test::RandomNumbers random(3);
+  for (const auto& roof : kBentRoofs) {
+    const auto patch = fit(roof.points(20, 20, 4));
+    ASSERT_TRUE(patch);
+    for (int i = 0; i < 300; ++i) {
+      const Vector3d place(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5),
+                           random.uniform(-0.5, 0.3));
+      if (std::abs(roof.distance(place)) < 5e-3) continue;
+      EXPECT_EQ(patch->at(place).value > 0.0, roof.distance(place) > 0.0)
+          << place.transpose() << " turn " << roof.turn / kDegree;
+    }
+  }
+}
+
+/// As few as four on one of them; without their normals, less than six tell no sheet and so small a
+/// turn no crease.
+TEST(CreasedPatch, ToldNormalsTellSmallSheetsAndSmallTurns) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    auto few = BentRoof{70.0 * kDegree, 0.2, 0.2}.points(20, 4, seed);
+    auto slight = BentRoof{25.0 * kDegree, 0.05, 0.05}.points(20, 20, seed);
+    EXPECT_TRUE(fit(few)) << seed;
+    EXPECT_TRUE(fit(slight)) << seed;
+    slight.front().normal_told = false;  // all of them have to be
+    EXPECT_FALSE(fit(slight)) << seed;
+    EXPECT_FALSE(fit(BentRoof{70.0 * kDegree, 0.2, 0.2}.points(20, 3, seed))) << seed;
+  }
+}
+
+/// Cylinders: one hardly turns over the patch, the other is cut in two that meet evenly.
+TEST(CreasedPatch, ToldNormalsTellNoCreaseWhereTheyTurnSlowly) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    EXPECT_FALSE(fit(BentRoof{0.0, 0.3, 0.3}.points(20, 20, seed))) << seed;
+    const auto cut = fit(BentRoof{0.0, 1.0, 1.0}.points(20, 20, seed));
+    EXPECT_LT(cut ? cut->turn() : 0.0, 3.0 * kDegree) << seed;
+  }
+}
+
 TEST(CreasedPatch, GapIsTheEdgesDistanceFromTheSheetThatComesLessNear) {
   const Roof roof{90.0 * kDegree};
   const auto both = fit(roof_points(roof, 0.05, 0.05, 60, 0.0, 6));

@@ -56,6 +56,52 @@ TEST(HeightSamples, AreThePointsInThePatchsOwnCoordinates) {
   }
 }
 
+std::vector<OrientedPoint> told_plane(const Vector3d& normal, std::size_t count) {
+  auto points = test::disc_points({1, 2, 3}, normal, 2.0, count, 0.0, 4);
+  for (auto& point : points) point.normal_told = true;
+  return points;
+}
+
+const Eigen::Matrix3d kAskew =
+    Eigen::AngleAxisd(0.8, Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
+
+/// From one place of a plane to another, its height rises by the slope times the way.
+TEST(HeightSamples, SlopesAreThoseOfTheSurfaceThatNormalsTell) {
+  const Vector3d normal =
+      kAskew.transpose() * Vector3d(0.3, -0.5, 0.9).normalized();  // seen from the patch
+  const auto samples = samples_over(told_plane(normal, 20), kAskew, {1, 2, 3}, 2.0);
+  ASSERT_TRUE(samples.has_slopes());
+  for (Eigen::Index i = 1; i < samples.size(); ++i) {
+    const Eigen::Vector2d way = samples.places.col(i) - samples.places.col(0);
+    EXPECT_NEAR(samples.slopes.col(i).dot(way), samples.heights[i] - samples.heights[0], 1e-12);
+  }
+}
+
+TEST(HeightSamples, HaveSlopesIfAllNormalsAreToldAndThePointsAreFew) {
+  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const auto have_slopes = [&](const std::vector<OrientedPoint>& points) {
+    return samples_over(points, axes, Vector3d::Zero(), 1.0).has_slopes();
+  };
+  EXPECT_TRUE(have_slopes(told_plane(Vector3d::UnitZ(), 64)));
+  EXPECT_FALSE(have_slopes(told_plane(Vector3d::UnitZ(), 65)));
+  auto points = told_plane(Vector3d::UnitZ(), 20);
+  points[13].normal_told = false;
+  EXPECT_FALSE(have_slopes(points));
+}
+
+/// A normal along the plane or away from it has no slope over it, and must not count for much.
+TEST(HeightSamples, SteepSlopesAreFlattened) {
+  for (const double height : {0.2, 0.01, 0.0, -0.7, -1.0}) {
+    auto points = told_plane(Vector3d::UnitZ(), 10);
+    points[3].normal = Vector3d(std::sqrt(1.0 - height * height), 0.0, height);
+    const auto slope = samples_over(points, Eigen::Matrix3d::Identity(), Vector3d::Zero(), 1.0)
+                           .slopes.col(3)
+                           .eval();
+    EXPECT_LE(slope.norm(), 4.0) << height;
+    EXPECT_LE(slope.x(), 0.0) << height;
+  }
+}
+
 TEST(HeightSamples, MonomialsAreThoseOfTheCubicTheQuadraticOrThePlane) {
   const auto samples = random_samples(20, 2);
   const auto six = monomials(samples.places, 6);

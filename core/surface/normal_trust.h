@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/geometry/point_index.h"
+
+namespace instep {
+
+/// What normals that came with points are good for.
+enum class NormalTrust {
+  kNone,    ///< no normals out of a body: set at random, flipped here and there, all alike, inwards
+  kSide,    ///< they tell inside from outside, as those fitted to noisy points or smoothed do
+  kSlopes,  ///< they tell how the surface runs on from each exact point
+};
+
+/// Judged of normals round a closed section by some hundreds of neighbours: normals of which too
+/// few face as their neighbour does, which all face one way, or which point inwards (their flux
+/// through the section is its area, twice), tell nothing. They tell slopes where the chord between
+/// neighbours on one sheet is square to the mean of their normals, as on any smooth surface up to
+/// the third order of its length: by much less than the normals turn from one to the other. Noise
+/// of a degree is borne; normals averaged over a crease are not, nor are noisy points.
+///
+/// `normals`: unit length, one for each of the points of `index`, which differ all; the section
+/// lies in the plane of x and y. O(log points).
+NormalTrust trust_in(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index);
+
+}  // namespace instep
