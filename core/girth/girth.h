@@ -19,12 +19,12 @@ struct GirthOptions {
   /// what the points near the plane show (core/surface/noise_estimate.h).
   ///
   /// girth_by_rbf() and girth_by_mesh() believe what is told, by this or by the cloud, unless the
-  /// points plainly scatter more: then they raise it to what the points show, and a warning says
-  /// so. A third of the true noise would make a girth millimetres too long. They do not lower it,
-  /// for noise that neighbours share does not show; too much of it at most widens the interval, but
-  /// where points are few for the body smooths away what is skin (twice the true 0.5 mm over 1,500
-  /// points of a foot: three intervals in five hold), which a warning says from 1.2 % of the
-  /// section on.
+  /// points plainly scatter more: then they raise it to what the points show, widen the interval,
+  /// up to twice, and a warning says so. A third of the true noise would make a girth millimetres
+  /// too long. They do not lower it, for noise that neighbours share does not show; too much of it
+  /// at most widens the interval, but where points are few for the body smooths away what is skin
+  /// (twice the true 0.5 mm over 1,500 points of a foot: three intervals in five hold), which a
+  /// warning says from 1.2 % of the section on.
   std::optional<double> sigma_mm;
 };
 
@@ -65,17 +65,21 @@ struct Girth {
 /// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
 /// than a tenth of it to each side. Strays and loops that far fewer points make are left out; of
 /// several loops the one round the largest area counts, and the others are named in a warning. A
-/// crease such as a last's featherline stays sharp. Normals that come with exact points too far
-/// apart to tell the skin between them count with their slopes, where they agree with the points as
-/// right ones do; others only tell inside from outside, and those that do not even do that are
-/// dropped with a warning (trust_in()). Where the points are noisy and the skin even,
-/// the lengths and their intervals are read off one surface through far more points, laid along
-/// that contour (smooth_section()), unless the two contradict each other; elsewhere, and where a
-/// hole is reported, the intervals are LengthDoubt's. They take the noise of points to be
-/// independent: what is common to neighbours, such as a bent depth map, is not in them. Where
-/// nothing is told of the noise it may differ along the section, as where one side was seen at a
-/// grazing angle (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is
-/// not told apart.
+/// crease such as a last's featherline stays sharp.
+///
+/// Normals that come with exact points too far apart to tell the skin between them count with their
+/// slopes, where they agree with the points as right ones do; others only tell inside from outside,
+/// and those that do not even do that are dropped with a warning (trust_in()). Where nothing is
+/// told of the noise it may differ along the section, as where one side was seen at a grazing angle
+/// (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is not told
+/// apart.
+///
+/// Where the points are noisy and the skin even, the lengths and their intervals are read off one
+/// surface through far more points, laid along that contour (smooth_section()), unless the two
+/// contradict each other; elsewhere, and where a hole is reported, the intervals are LengthDoubt's.
+/// They take the noise of points to be independent: what is common to neighbours, such as a bent
+/// depth map, is not in them.
+///
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});

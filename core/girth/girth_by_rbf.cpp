@@ -34,6 +34,8 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
+/// Intervals are wider by as much as the noise is more than was told, up to this.
+constexpr double kMostDistrust = 2.0;
 /// A share of the points near the plane, off all loops, that is worth a warning.
 constexpr double kNotableUnexplained = 0.02;
 /// Noise beyond what depth cameras have, against the section.
@@ -223,7 +225,10 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan the body all round");
   }
 
-  const auto section = measured(slabs, *band, loops, surface, evidence);
+  auto section = measured(slabs, *band, loops, surface, evidence);
+  // Noise that is not what was told of it is hardly independent from point to point either.
+  section.contact_u95 *= std::min(band->told_scale, kMostDistrust);
+  section.stretched_u95 *= std::min(band->told_scale, kMostDistrust);
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,

@@ -48,6 +48,8 @@ TEST(ToldNoise, IsNotBelievedWherePointsPlainlyScatterMore) {
         EXPECT_NEAR(girth.stretched_mm, truth, 0.6) << count << " " << part;
         EXPECT_NEAR(girth.stretched_mm, not_told->stretched_mm, 0.1) << count << " " << part;
         EXPECT_NEAR(girth.sigma_mm, 0.5, 0.06) << count << " " << part;
+        EXPECT_GT(*girth.stretched_u95_mm, 1.3 * *not_told->stretched_u95_mm)
+            << count << " " << part;
         EXPECT_TRUE(says(girth, kDisbelief)) << count << " " << part;
       }
     }
