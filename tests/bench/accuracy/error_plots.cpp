@@ -56,16 +56,15 @@ std::vector<Subject> on_feet(const std::vector<test::CaseBody>& feet, double poi
   return subjects;
 }
 
-std::vector<Subject> on_lasts(double points) {
+std::vector<Subject> on_lasts(double points, bool normals_told) {
   std::vector<Subject> subjects;
   std::map<std::string, PointCloud> clouds;
   for (const auto& section : test::known_sections("lasts")) {
     auto& cloud = clouds[section.file];
     if (cloud.empty()) {
-      cloud = noisy_bare(
-          test::chosen(test::read_shape(test::trial_data() / "lasts" / section.file).cloud,
-                       static_cast<std::size_t>(points), test::Pattern::kRandom, 1),
-          0.0, 0);
+      cloud = test::chosen(test::read_shape(test::trial_data() / "lasts" / section.file).cloud,
+                           static_cast<std::size_t>(points), test::Pattern::kRandom, 1);
+      if (!normals_told) cloud.normals.clear();
     }
     subjects.push_back({cloud, section.plane, section.stretched_mm});
   }
@@ -102,6 +101,15 @@ std::vector<PlotLine> error_lines(const std::vector<double>& places, const Subje
   return lines;
 }
 
+PlotLine with_told_normals(const std::vector<double>& places) {
+  PlotLine line{.name = "rbf, with normals", .points = {}, .dashed = false};
+  for (const double place : places) {
+    const auto sizes = error_sizes(girth_methods().front().girth, on_lasts(place, true));
+    line.points.emplace_back(place, sizes[sizes.size() / 2]);
+  }
+  return line;
+}
+
 LinePlot error_plot(const std::string& title, const std::string& note, const PlotAxis& x,
                     const std::vector<double>& places, const Subjects& subjects) {
   LinePlot plot;
@@ -131,10 +139,12 @@ void write_error_plots(const std::filesystem::path& folder) {
                        [&](double at) { return on_feet(feet, 16000, at); }),
             folder / "error_over_noise.svg");
   if (!std::filesystem::exists(test::trial_data())) return;
-  write_svg(error_plot("Creased and uneven: shoe lasts",
-                       "median of 9 girths of production lasts, exact points without normals",
-                       points, {500, 1000, 2000, 4000, 8000, 14240}, on_lasts),
-            folder / "error_over_density_on_lasts.svg");
+  const std::vector<double> densities = {500, 1000, 2000, 4000, 8000, 14240};
+  auto lasts = error_plot("Creased and uneven: shoe lasts",
+                          "median of 9 girths of production lasts, exact points without normals",
+                          points, densities, [](double at) { return on_lasts(at, false); });
+  lasts.lines.push_back(with_told_normals(densities));
+  write_svg(lasts, folder / "error_over_density_on_lasts.svg");
 }
 
 }  // namespace instep::bench

@@ -34,8 +34,9 @@ text { font-family: "DejaVu Sans", Verdana, sans-serif; font-size: 13px; fill: #
 .dots { fill: none; stroke-linecap: round; }
 .dashed { stroke-dasharray: 6 5; stroke-width: 1.8; }
 .c0 { stroke: #2f81f7; } .c1 { stroke: #db6d28; } .c2 { stroke: #2da44e; } .c3 { stroke: #a371f7; }
-.c4 { stroke: #2f81f7; }
+.c4 { stroke: #2f81f7; } .c5 { stroke: #d29922; }
 .n0, .n4 { fill: #2f81f7; } .n1 { fill: #db6d28; } .n2 { fill: #2da44e; } .n3 { fill: #a371f7; }
+.n5 { fill: #d29922; }
 </style>
 )";
 
