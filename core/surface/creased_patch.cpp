@@ -21,7 +21,6 @@ constexpr double kLeastTurn = 0.6;
 constexpr double kLeastTurnOfQuadratics = 0.55;
 constexpr double kLeastToldTurn = 0.4;
 constexpr std::size_t kFewestOnASheet = 6;
-constexpr std::size_t kFewestOnAToldSheet = 4;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
 /// which they are.
@@ -119,7 +118,7 @@ std::optional<TwoSheets> told_sheets(const std::vector<OrientedPoint>& points) {
       ++plane.count;
     }
     auto& [first, second] = sheets.planes;
-    if (std::min(first.count, second.count) < kFewestOnAToldSheet) return std::nullopt;
+    if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
     for (SheetPlane& plane : sheets.planes) {
       plane.middle /= static_cast<double>(plane.count);
       plane.normal.normalize();

@@ -17,8 +17,8 @@ namespace instep {
 /// normals.
 class CreasedPatch {
  public:
-  /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six (four
-  /// with told normals) that meet in an angle, or if quadratics through the two plainly meet in
+  /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six that
+  /// meet in an angle, or if quadratics through the two plainly meet in
   /// none, as where one smooth surface was cut in two. Two fits and some passes over the points.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
