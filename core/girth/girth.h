@@ -67,8 +67,9 @@ struct Girth {
 /// several loops the one round the largest area counts, and the others are named in a warning. A
 /// crease such as a last's featherline stays sharp. Normals that come with exact points too far
 /// apart to tell the skin between them count with their slopes, where they agree with the points as
-/// right ones do; others only tell inside from outside, and those that do not even do that are
-/// dropped with a warning (trust_in()). Where the points are noisy and the skin even,
+/// right ones do; others only tell inside from outside, and those that do not even do that, and
+/// those with which the section does not close though without them it does, are dropped with a
+/// warning (trust_in()). Where the points are noisy and the skin even,
 /// the lengths and their intervals are read off one surface through far more points, laid along
 /// that contour (smooth_section()), unless the two contradict each other; elsewhere, and where a
 /// hole is reported, the intervals are LengthDoubt's. They take the noise of points to be
