@@ -69,8 +69,9 @@ struct Girth {
 ///
 /// Normals that come with exact points too far apart to tell the skin between them count with their
 /// slopes, where they agree with the points as right ones do; others only tell inside from outside,
-/// and those that do not even do that are dropped with a warning (trust_in()). Where nothing is
-/// told of the noise it may differ along the section, as where one side was seen at a grazing angle
+/// and those that do not even do that, or with which the section does not close though without them
+/// it does, are dropped with a warning (trust_in()). Where nothing is told of the noise it may
+/// differ along the section, as where one side was seen at a grazing angle
 /// (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is not told
 /// apart.
 ///

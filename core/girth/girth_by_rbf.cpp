@@ -198,6 +198,19 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
 }
 
+/// For normals that let no section close, as those of which one stretch points inwards.
+Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
+                                    const GirthOptions& options) {
+  cloud.normals.clear();
+  auto girth = girth_by_rbf(cloud, plane, options);
+  if (girth) {
+    girth->warnings.emplace_back(
+        "the section closes only without the normals that came with the points, which were not "
+        "used");
+  }
+  return girth;
+}
+
 }  // namespace
 
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
@@ -211,6 +224,9 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
   auto loops = trace_all(*band, surface);
   if (loops.empty()) {
+    if (cloud.has_normals() && !band->normals_dropped) {
+      if (auto girth = girth_without_normals(cloud, plane, options)) return girth;
+    }
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
                 "scan the body all round, or move the plane");
   }

@@ -127,6 +127,13 @@ TEST(ToldNormals, ThatPointInwardsAreNotUsedAndThatIsSaid) {
                 [](const Vector3d& normal, test::RandomNumbers&) { return Vector3d(-normal); });
 }
 
+/// They agree among each other, but no section closes over where they turn over.
+TEST(ToldNormals, OfWhichOneStretchPointsInwardsAreNotUsedAndThatIsSaid) {
+  expect_unused("one stretch", [](const Vector3d& normal, test::RandomNumbers&) {
+    return Vector3d(normal.x() > 0.8 ? -normal : normal);
+  });
+}
+
 TEST(ToldNormals, ThatAreAllAlikeAreNotUsedAndThatIsSaid) {
   expect_unused("up", [](const Vector3d&, test::RandomNumbers&) { return Vector3d(0, 0, 1); });
   expect_unused("aside", [](const Vector3d&, test::RandomNumbers&) { return Vector3d(1, 0, 0); });

@@ -125,6 +125,32 @@ TEST(NormalTrust, NormalsAveragedOverACreaseTellTheSideOnly) {
   }
 }
 
+TEST(NormalTrust, NormalsOfWhichOneInTwentyIsFarOffTellTheSideOnly) {
+  for (const auto& body : all_bodies()) {
+    test::RandomNumbers random(9);
+    Normals normals = body.normals;
+    for (auto& normal : normals) {
+      if (random.uniform() > 0.05) continue;
+      const Vector3d aside = normal.cross(random_direction(random)).normalized();
+      normal = (normal + 0.8 * aside).normalized();
+    }
+    EXPECT_EQ(body.trust(normals), NormalTrust::kSide) << body.name;
+  }
+}
+
+TEST(NormalTrust, NormalsAtRandomOnATenthOfTheSectionTellNothing) {
+  for (const auto& body : all_bodies()) {
+    test::RandomNumbers random(10);
+    Normals normals = body.normals;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const Vector3d& place = body.index.points()[i];
+      if (std::abs(std::atan2(place.y(), place.x())) > 0.1 * std::numbers::pi) continue;
+      normals[i] = random_direction(random);
+    }
+    EXPECT_EQ(body.trust(normals), NormalTrust::kNone) << body.name;
+  }
+}
+
 TEST(NormalTrust, NormalsAtRandomTellNothing) {
   for (const auto& body : all_bodies()) {
     test::RandomNumbers random(5);
