@@ -135,7 +135,7 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
           std::max(kHoleInSpacings * spacing, kNotableHole * girth.stretched_mm)) {
     girth.warnings.emplace_back(kBridgedWarning);
   }
-  if (auto disbelief = disbelief_of_told_noise(*band)) girth.warnings.push_back(*disbelief);
+  for (auto& disbelief : disbelief_of(*band)) girth.warnings.push_back(std::move(disbelief));
   if (band->sigma > kHarmlessNoise * band->grain) {
     girth.warnings.push_back(
         "a mesh follows the noise of its points, so both lengths are too long");

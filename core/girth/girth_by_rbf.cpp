@@ -184,10 +184,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   const auto points = static_cast<double>(band.points.size() + band.strays);
   warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
           "many points near the plane stand alone and were left out");
-  warn_if(band.normals_dropped,
-          "the normals that came with the points contradict each other or point inwards, and were "
-          "not used");
-  if (auto disbelief = disbelief_of_told_noise(band)) girth.warnings.push_back(*disbelief);
+  for (auto& disbelief : disbelief_of(band)) girth.warnings.push_back(std::move(disbelief));
   const bool scattered = band.shown_sigma > kNotableNoise;
   warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
@@ -206,7 +203,7 @@ Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
   if (girth) {
     girth->warnings.emplace_back(
         "the section closes only without the normals that came with the points, which were not "
-        "used");
+        "used: have them made anew, or leave them out of the file");
   }
   return girth;
 }

@@ -285,14 +285,23 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   return band;
 }
 
-std::optional<std::string> disbelief_of_told_noise(const PlaneBand& band) {
-  if (band.told_scale <= 1.0 || band.shown_sigma <= kHarmlessScatter) return std::nullopt;
-  char figures[64];
-  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", band.unit_mm * band.shown_sigma,
-                band.told_scale);
-  return "the points scatter by " + std::string(figures) +
-         " the noise that was told of them, which was not believed: leave --sigma-mm out or give "
-         "this one, or see to the sensor and scan again with more frames";
+std::vector<std::string> disbelief_of(const PlaneBand& band) {
+  std::vector<std::string> said;
+  if (band.told_scale > 1.0 && band.shown_sigma > kHarmlessScatter) {
+    char figures[64];
+    std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", band.unit_mm * band.shown_sigma,
+                  band.told_scale);
+    said.push_back(
+        "the points scatter by " + std::string(figures) +
+        " the noise that was told of them, which was not believed: leave --sigma-mm out or give "
+        "this one, or see to the sensor and scan again with more frames");
+  }
+  if (band.normals_dropped) {
+    said.emplace_back(
+        "the normals that came with the points contradict each other or point inwards, and were "
+        "not used: have them made anew, or leave them out of the file");
+  }
+  return said;
 }
 
 }  // namespace instep

@@ -58,8 +58,8 @@ struct PlaneBand {
 /// O(points of the cloud), and m log m for the m near the plane.
 Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm);
 
-/// What is to be said where the noise that is told was not believed; nothing where it was, or where
-/// what the points show is too little to matter.
-std::optional<std::string> disbelief_of_told_noise(const PlaneBand& band);
+/// What is to be said where what came with the points was not believed: noise that they contradict,
+/// unless what they show is too little to matter, and normals that contradict each other.
+std::vector<std::string> disbelief_of(const PlaneBand& band);
 
 }  // namespace instep

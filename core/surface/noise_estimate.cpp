@@ -10,6 +10,7 @@
 #include "core/median.h"
 #include "core/surface/height_kriging.h"
 #include "core/surface/kriging_likelihood.h"
+#include "core/surface/local_mean.h"
 
 namespace instep {
 namespace {
@@ -252,14 +253,10 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
 }
 
 double roughness_at(const std::vector<LocalRoughness>& known, const Eigen::Vector3d& place) {
-  double weights = 0.0;
-  double sum = 0.0;
-  for (const auto& local : known) {
-    const double weight = 1.0 / (std::pow((local.place - place).squaredNorm(), 2) + 1e-30);
-    weights += weight;
-    sum += weight * std::log(std::max(local.roughness, kLeastRoughness));
-  }
-  return weights > 0.0 ? std::exp(sum / weights) : kLeastRoughness;
+  if (known.empty()) return kLeastRoughness;
+  return std::exp(local_log_mean(known, place, [](const LocalRoughness& local) {
+    return std::log(std::max(local.roughness, kLeastRoughness));
+  }));
 }
 
 }  // namespace instep

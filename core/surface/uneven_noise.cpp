@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/surface/local_mean.h"
 
 namespace instep {
 namespace {
@@ -90,15 +91,8 @@ std::vector<LocalSigma> uneven_noise(const std::vector<NoiseWitness>& witnesses,
 }
 
 double sigma_at(const std::vector<LocalSigma>& known, const Eigen::Vector3d& place) {
-  double weights = 0.0;
-  double sum = 0.0;
-  for (const auto& local : known) {
-    const double squared = (local.place - place).squaredNorm();
-    const double weight = 1.0 / (squared * squared + 1e-30);
-    weights += weight;
-    sum += weight * std::log(local.sigma);
-  }
-  return std::exp(sum / weights);
+  return std::exp(
+      local_log_mean(known, place, [](const LocalSigma& local) { return std::log(local.sigma); }));
 }
 
 }  // namespace instep
