@@ -1,0 +1,187 @@
+#include "core/foot/measure_definitions.h"
+
+#include <limits>
+#include <optional>
+
+#include "core/foot/foot_lengths.h"
+#include "core/foot/foot_tapes.h"
+#include "core/foot/rough_tape.h"
+
+namespace instep {
+namespace {
+
+// Over drawn feet (tests/bench/feet) heights are out by half a millimetre with the floor that they
+// are counted from, which the scatter of the redraws does not show; at the toes by more, since a
+// floor that leans by a third of a degree has no contact there to tell it.
+constexpr double kFloorDoubtMm = 0.5;
+constexpr double kFloorDoubtAtToesMm = 0.9;
+
+std::string words_of(AxisRule axis) {
+  return std::string(description(axis)) + " (" + std::string(name_of(axis, kAxisRules)) + ")";
+}
+
+/// By how much the ball's tape leans where it is shortest. The length is stationary there, so that
+/// the tapes of redraws may lean alike.
+double shortest_lean_deg(const FootScan& foot) {
+  constexpr double kMostDeg = 20.0;
+  constexpr double kStepDeg = 1.0;
+  double best = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (double lean = -kMostDeg; lean <= kMostDeg; lean += kStepDeg) {
+    const auto tape = leaning_ball_tape(foot.landmarks, lean);
+    const auto length = tape ? rough_tape(foot.cloud.positions, *tape) : std::nullopt;
+    if (!length || *length >= least) continue;
+    least = *length;
+    best = lean;
+  }
+  return best;
+}
+
+GirthDefinition ball_definition(const FootScan& foot) {
+  GirthDefinition definition{
+      "ball_girth",
+      ball_tape,
+      {"metatarsale_tibiale", "metatarsale_fibulare"},
+      "stretched tape in the upright plane over metatarsale tibiale and fibulare",
+      0.4};
+  if (foot.rules.ball_girth == BallGirthRule::kShortest) {
+    definition.tape = [lean = shortest_lean_deg(foot)](const Landmarks& landmarks) {
+      return leaning_ball_tape(landmarks, lean);
+    };
+    definition.words =
+        "stretched tape over metatarsale tibiale and fibulare, leaning by as much, up to 20 "
+        "degrees, as makes it shortest";
+  }
+  return definition;
+}
+
+GirthDefinition instep_definition(const FootScan& foot) {
+  if (foot.rules.instep_girth == InstepGirthRule::kUpright) {
+    return {"instep_girth",
+            upright_instep_tape,
+            {"instep_point"},
+            "stretched tape in the upright plane square to the axis at 0.50 of the foot's length"};
+  }
+  return {"instep_girth",
+          instep_tape,
+          {"instep_point", "lateral_midfoot", "medial_arch"},
+          "stretched tape over the instep point at 0.50 of the foot's length, by the lateral "
+          "midfoot and the point of the medial arch that makes it shortest"};
+}
+
+}  // namespace
+
+std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
+  return {
+      {"foot_length",
+       foot_length,
+       {},
+       "from the pternion to the foremost toe, parallel to the axis " + words_of(rules.axis)},
+      {"foot_breadth",
+       foot_breadth,
+       {"metatarsale_tibiale", "metatarsale_fibulare"},
+       "from metatarsale tibiale to metatarsale fibulare, in floor projection"},
+      {"foot_breadth_horizontal",
+       foot_breadth_horizontal,
+       {},
+       "extent of the outline up to 25 mm over the floor, at right angles to the axis, in "
+       "0.50-0.85 "
+       "of the foot's length"},
+      {"heel_breadth",
+       heel_breadth,
+       {},
+       std::string(
+           "extent of the outline up to 25 mm over the floor, at right angles to the axis, ") +
+           description(rules.heel_breadth)},
+      {"ball_length",
+       ball_length,
+       {"metatarsale_tibiale"},
+       "from the pternion to metatarsale tibiale, parallel to the axis",
+       LengthDefinition::Kind::kLength,
+       0.0,
+       0.6},
+      {"outside_ball_length",
+       outside_ball_length,
+       {"metatarsale_fibulare"},
+       "from the pternion to metatarsale fibulare, parallel to the axis",
+       LengthDefinition::Kind::kLength,
+       0.0,
+       0.4},
+      {"instep_height",
+       instep_height,
+       {},
+       "height over the floor of the foot's back at 0.50 of its length",
+       LengthDefinition::Kind::kLength,
+       kFloorDoubtMm},
+      {"ball_height",
+       ball_height,
+       {"metatarsale_tibiale", "metatarsale_fibulare"},
+       "greatest height over the floor of the upright section over metatarsale tibiale and "
+       "fibulare",
+       LengthDefinition::Kind::kLength,
+       kFloorDoubtMm},
+      {"arch_height",
+       arch_height,
+       {},
+       "greatest height over the floor of the underside a quarter of the breadth from the medial "
+       "border, in 0.35-0.60 of the foot's length",
+       LengthDefinition::Kind::kLength,
+       kFloorDoubtMm},
+      {"toe1_height",
+       toe1_height,
+       {},
+       "height over the floor of the first toe 15 mm behind its tip",
+       LengthDefinition::Kind::kLength,
+       kFloorDoubtAtToesMm},
+      {"toe1_angle",
+       toe1_angle,
+       {"metatarsale_tibiale"},
+       "between the line from the heel's medial point to metatarsale tibiale and the line from "
+       "there to where a ruler touches the first toe; positive towards the other toes",
+       LengthDefinition::Kind::kAngle},
+      {"toe5_angle",
+       toe5_angle,
+       {"metatarsale_fibulare"},
+       "between the line from the heel's lateral point to metatarsale fibulare and the line from "
+       "there to where a ruler touches the little toe; positive towards the other toes",
+       LengthDefinition::Kind::kAngle},
+  };
+}
+
+std::vector<GirthDefinition> girth_definitions(const FootScan& foot) {
+  return {
+      ball_definition(foot),
+      {"waist_girth",
+       waist_tape,
+       {"metatarsale_tibiale", "metatarsale_fibulare", "instep_point", "lateral_midfoot",
+        "medial_arch"},
+       "stretched tape in the plane midway between the upright one over metatarsale tibiale and "
+       "fibulare and the one over instep point, lateral midfoot and medial arch"},
+      instep_definition(foot),
+      {"short_heel_girth",
+       short_heel_tape,
+       {"heel_point", "junction"},
+       "stretched tape round the heel point and over the junction of foot and leg, square to the "
+       "side view",
+       0.4},
+      {"long_heel_girth",
+       long_heel_tape,
+       {"heel_point", "instep_point"},
+       "stretched tape round the heel point and over the instep point, square to the side view"},
+      {"ankle_girth",
+       ankle_tape,
+       {"medial_malleolus"},
+       "stretched tape in the level plane over the medial malleolus",
+       0.5},
+  };
+}
+
+bool is_of_feet_only(const std::string& id) {
+  for (const char* one : {"heel_breadth", "arch_height", "toe1_height", "toe1_angle", "toe5_angle",
+                          "short_heel_girth", "ankle_girth"}) {
+    if (id == one) return true;
+  }
+  return false;
+}
+
+}  // namespace instep
