@@ -123,9 +123,8 @@ bool leaves_points_unexplained(const PlaneBand& band, const std::vector<Loop>& l
   const auto unexplained =
       std::count_if(band.points.begin(), band.points.end(), [&](const OrientedPoint& point) {
         if (std::abs(point.position.z()) > near) return false;
-        return std::none_of(loops.begin(), loops.end(), [&](const Loop& loop) {
-          return loop.index.foot_of(point.position.head<2>()).distance <= near;
-        });
+        return std::none_of(loops.begin(), loops.end(),
+                            [&](const Loop& loop) { return may_run_to(loop.index, point, near); });
       });
   return static_cast<double>(unexplained) > most;
 }

@@ -7,6 +7,23 @@
 #include "core/girth/section_gaps.h"
 
 namespace instep {
+namespace {
+
+/// Skin that leans more is no steeper for this: a normal is told too badly to say so.
+constexpr double kMostLean = 3.0;
+
+double run_aside(const OrientedPoint& point) {
+  const double upright = point.normal.head<2>().norm();
+  const double leaning = std::abs(point.normal.z());
+  const double lean = leaning < kMostLean * upright ? leaning / upright : kMostLean;
+  return lean * std::abs(point.position.z());
+}
+
+}  // namespace
+
+bool may_run_to(const ContourIndex& contour, const OrientedPoint& point, double near) {
+  return contour.foot_of(point.position.head<2>()).distance <= near + run_aside(point);
+}
 
 SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near) {
   std::size_t beside = 0;
@@ -17,7 +34,7 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
     if (std::abs(position.z()) > near) continue;
     const auto foot = contour.foot_of(position.head<2>());
     if (foot.distance > near) {
-      ++beside;
+      if (foot.distance > near + run_aside(band.points[i])) ++beside;
       continue;
     }
     ways.push_back(foot.way);

@@ -10,12 +10,16 @@ namespace instep {
 /// What the points near the tape plane say of a contour on it. Lengths in the band's unit.
 struct SectionEvidence {
   std::size_t points = 0;  ///< near the contour
-  std::size_t beside = 0;  ///< as near to the plane, but not to the contour
+  std::size_t beside = 0;  ///< as near to the plane, but on no skin that runs to the contour
   double gap = 0.0;        ///< longest stretch of the contour without one
   double seen_gap = 0.0;   ///< longest stretch without one that a camera saw
 };
 
 /// Points within `near` of the plane and of the contour count.
 SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near);
+
+/// Whether a point may be of the skin that is cut in the contour: within `near` of it, or further
+/// by as much as skin that faces as the point does runs aside on its way to the plane.
+bool may_run_to(const ContourIndex& contour, const OrientedPoint& point, double near);
 
 }  // namespace instep

@@ -38,6 +38,7 @@ double way(double degrees) {
 struct Place {
   Vector3d position;
   bool seen = true;
+  Vector3d outward = Vector3d::UnitX();
 };
 
 SectionEvidence evidence_of(const std::vector<Place>& places) {
@@ -49,10 +50,16 @@ SectionEvidence evidence_of(const std::vector<Place>& places) {
                  .uneven = {},
                  .roughness = {}};
   for (const auto& place : places) {
-    band.points.push_back({place.position, Vector3d::UnitX(), 0.0});
+    band.points.push_back({place.position, place.outward, 0.0});
     band.seen.push_back(place.seen);
   }
   return evidence_for(band, ContourIndex(circle()), kNear);
+}
+
+/// Of skin that leans inwards going up, by that many degrees from upright.
+Vector3d leaning(double degrees) {
+  const double lean = degrees * std::numbers::pi / 180.0;
+  return {std::cos(lean), 0.0, std::sin(lean)};
 }
 
 TEST(SectionEvidence, IsNothingWithoutPoints) {
@@ -77,6 +84,21 @@ TEST(SectionEvidence, CountsPointsNearTheContourAndThoseBesideIt) {
                                      {at(110, 2.0 * kRadius, 1.1 * kNear)}});
   EXPECT_EQ(evidence.points, 5U);
   EXPECT_EQ(evidence.beside, 3U);
+}
+
+TEST(SectionEvidence, LeaningSkinRunsAsideOnItsWayToThePlane) {
+  const double up = 0.8 * kNear;
+  EXPECT_EQ(evidence_of({{at(10, kRadius - 1.7 * kNear, up), true, leaning(45)},
+                         {at(20, kRadius - 2.5 * kNear, up), true, leaning(63.4)},
+                         {at(30, kRadius + 3.3 * kNear, -up), true, leaning(80)}})
+                .beside,
+            0U);
+  EXPECT_EQ(evidence_of({{at(10, kRadius - 1.9 * kNear, up), true, leaning(45)},
+                         {at(20, kRadius - 1.1 * kNear, up), true, leaning(0)},
+                         {at(30, kRadius + 3.5 * kNear, -up), true, leaning(80)},
+                         {at(40, kRadius - 1.1 * kNear, 0.0), true, leaning(45)}})
+                .beside,
+            4U);
 }
 
 TEST(SectionEvidence, MeasuresTheLongestWayBetweenPoints) {
