@@ -4,6 +4,8 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "daemon/report/json_number.h"
+
 namespace instep {
 namespace {
 
@@ -122,7 +124,7 @@ json to_json(const StationStatus& status) {
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},
           {"stage", status.stage},
-          {"done", status.done},
+          {"done", json(json_number(status.done))},
           {"cameras", cameras},
           {"outputs", outputs},
           {"scans", status.scans},

@@ -50,6 +50,12 @@ TEST(Protocol, CarriesErrorsWhole) {
   EXPECT_FALSE(answer_outcome(nlohmann::json::parse("[]")));
 }
 
+TEST(Protocol, TellsHowMuchIsDoneToAThousandth) {
+  StationStatus status;
+  status.done = 0.3 + 0.6;
+  EXPECT_NE(to_json(status).dump().find("\"done\":0.9,"), std::string::npos);
+}
+
 TEST(Protocol, SurvivesTextThatIsNoUnicode) {
   const Error error{ErrorCode::kIo, Remedy::kOperator,
                     "a\xff"
