@@ -74,7 +74,7 @@ std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double 
   text += svg::label(middle + Vector2d(0.0, 80.0), "section-number",
                      interval_text(panel.measure->value_mm, panel.measure->u95_mm));
   return text + svg::label(middle + Vector2d(0.0, 110.0), "section-note",
-                           fmt::format("along the skin {:.1f}", girth.contact_mm));
+                           "along the skin " + tenths(girth.contact_mm));
 }
 
 }  // namespace

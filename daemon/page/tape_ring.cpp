@@ -117,7 +117,7 @@ std::string ring_names(const std::vector<TapeRing>& rings, const FootView& view,
     text += svg::polyline({name + Vector2d(0.0, kBelowName), {name.x(), baseline + kElbow}, top},
                           "leader");
     text += svg::label(name - Vector2d(0.0, kLineHeight), "tape-name", short_name(*ring->measure));
-    text += svg::label(name, "tape-number", fmt::format("{:.1f}", ring->measure->value_mm));
+    text += svg::label(name, "tape-number", tenths(ring->measure->value_mm));
   }
   return text;
 }

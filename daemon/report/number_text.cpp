@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace instep {
 
+std::string tenths(double value) {
+  return fmt::format("{:.1f}", std::round(1000.0 * value) / 1000.0);
+}
+
 std::string interval_text(double value, const std::optional<double>& u95) {
-  return u95 ? fmt::format("{:.1f} ± {:.1f}", value, *u95) : fmt::format("{:.1f}", value);
+  return u95 ? fmt::format("{} ± {}", tenths(value), tenths(*u95)) : tenths(value);
 }
 
 std::string measure_text(const Measure& measure) {

@@ -7,6 +7,10 @@
 
 namespace instep {
 
+/// "251.3": the tenths of a figure as a result keeps it, in thousandths, so that whatever shows it
+/// rounds alike.
+std::string tenths(double value);
+
 /// "251.3", or "251.3 +- 0.2" with a true plus-minus sign where there is an interval.
 std::string interval_text(double value, const std::optional<double>& u95);
 

@@ -81,7 +81,7 @@ std::string panel_svg(const DrawnSection& panel, double left, double base_line) 
   text += svg::label({middle, base_line + 52.0}, "heading", as_words(panel.measure->id));
   text += svg::label({middle, base_line + 82.0}, "number", measure_text(*panel.measure));
   text += svg::label({middle, base_line + 102.0}, "middle",
-                     fmt::format("along the skin {:.1f} mm", girth.contact_mm));
+                     fmt::format("along the skin {} mm", tenths(girth.contact_mm)));
   return text;
 }
 

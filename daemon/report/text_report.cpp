@@ -13,7 +13,7 @@ namespace instep {
 namespace {
 
 std::string interval_column(const std::optional<double>& u95) {
-  return u95 ? fmt::format("± {:.1f}", *u95) : std::string();
+  return u95 ? "± " + tenths(*u95) : std::string();
 }
 
 std::size_t widest_name(const MeasureSet& measures) {
@@ -42,9 +42,9 @@ std::string foot_text(const FootScan& foot, const MeasureSet& measures, const Sh
   text += "\n\n";
   const std::size_t width = widest_name(measures);
   for (const auto& measure : measures.measures) {
-    std::string line =
-        fmt::format("  {:<{}}  {:>7.1f} {}  {:<7}", as_words(measure.id), width, measure.value(),
-                    measure.value_deg ? "° " : "mm", interval_column(measure.u95()));
+    std::string line = fmt::format("  {:<{}}  {:>7} {}  {:<7}", as_words(measure.id), width,
+                                   tenths(measure.value()), measure.value_deg ? "° " : "mm",
+                                   interval_column(measure.u95()));
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   }
@@ -64,7 +64,7 @@ std::string girth_text(const std::string& method, const Girth& girth) {
                                  interval_text(girth.contact_mm, girth.contact_u95_mm));
   text += fmt::format("method       {}, {} of {} points, noise {:.2f} mm\n", method,
                       girth.band_points, girth.points, girth.sigma_mm);
-  text += fmt::format("largest gap  {:.1f} mm\n", girth.largest_gap_mm);
+  text += fmt::format("largest gap  {} mm\n", tenths(girth.largest_gap_mm));
   for (const auto& warning : girth.warnings) text += fmt::format("! {}\n", warning);
   return text;
 }

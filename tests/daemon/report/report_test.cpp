@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "daemon/report/csv_report.h"
+#include "daemon/report/number_text.h"
 #include "daemon/report/pair_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/sections_svg.h"
@@ -78,6 +79,13 @@ ScanRecord small_record() {
   record.foot = small_foot();
   record.measures = small_set();
   return record;
+}
+
+TEST(Report, TenthsAreThoseOfTheThousandthsThatAreKept) {
+  EXPECT_EQ(tenths(284.2504), tenths(284.25));
+  EXPECT_EQ(tenths(0.6497), tenths(0.65));
+  EXPECT_EQ(tenths(251.349), "251.3");
+  EXPECT_EQ(interval_text(100.0, 0.6497), "100.0 ± " + tenths(0.65));
 }
 
 TEST(ResultJson, HoldsWhatAGirthIs) {
