@@ -58,8 +58,10 @@ BlendedSurface::BlendedSurface(PatchFitter fitter) : fitter_(std::move(fitter)) 
 
 BlendedSurface::Zone::Zone(const SurfacePatch& patch) : centre(patch.centre), middle(patch.middle) {
   const auto* smooth = std::get_if<HeightPatch>(&patch.field);
-  const bool crowded = smooth && smooth->is_exact() && patch.members.size() > kMostHeightSamples;
-  const double near = smooth ? kNearEnough : kNearEnoughAtEdges;
+  const bool plain = std::holds_alternative<QuinticPatch>(patch.field);
+  const bool crowded =
+      plain || (smooth && smooth->is_exact() && patch.members.size() > kMostHeightSamples);
+  const double near = smooth || plain ? kNearEnough : kNearEnoughAtEdges;
   const double square = patch.radius * patch.radius;
   almost_there = kAlmostThere * kAlmostThere * square;
   near_enough = near * near * square;

@@ -367,6 +367,12 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     }
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
     const auto points = points_at(members.front);
+    if (here.exact && points.size() > kMostHeightSamples) {
+      if (auto plain = QuinticPatch::fit(points, place, members.outward, members.front_radius)) {
+        return SurfacePatch{place,  middle_of(points), members.front_radius,
+                            *plain, members.front,     plain->variance()};
+      }
+    }
     auto smooth = HeightPatch::fit(points, place, members.outward, members.front_radius, likely);
     if (!smooth) {
       // Points on a line, such as one row of a scan, ask for more.

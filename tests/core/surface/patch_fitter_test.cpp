@@ -364,6 +364,18 @@ TEST(PatchFitter, ReachesAcrossTheColumnsOfASmoothSurface) {
   EXPECT_NEAR(patch->at(between).value, 0.0, 7.5e-5 * kRadius);
 }
 
+TEST(PatchFitter, MakesOnePolynomialOfAnExactCrowdOnASmoothSurface) {
+  const Vector3d top(0.0, 0.0, 0.5);
+  for (const double sigma : {0.0, 1e-3}) {
+    const auto points = test::cap_points(top.z(), 0.15, 3000, sigma, 9);
+    const auto patch = fitter_of(points).fit(top);
+    ASSERT_TRUE(patch);
+    EXPECT_EQ(std::holds_alternative<QuinticPatch>(patch->field), sigma == 0.0);
+    EXPECT_NEAR(patch->at(top).value, 0.0, sigma == 0.0 ? 1e-7 : 1e-3);
+    EXPECT_LT(std::sqrt(patch->variance), 1e-6);
+  }
+}
+
 TEST(PatchFitter, LeavesOutWhatFacesTheOtherWay) {
   auto points = plane_points(0.0);
   for (std::size_t i = 0; i < 4; ++i) {
