@@ -19,12 +19,12 @@ struct GirthOptions {
   /// what the points near the plane show (core/surface/noise_estimate.h).
   ///
   /// girth_by_rbf() and girth_by_mesh() believe what is told, by this or by the cloud, unless the
-  /// points plainly scatter more: then they raise it to what the points show, widen the interval,
-  /// up to twice, and a warning says so. A third of the true noise would make a girth millimetres
-  /// too long. They do not lower it, for noise that neighbours share does not show; too much of it
-  /// at most widens the interval, but where points are few for the body smooths away what is skin
-  /// (twice the true 0.5 mm over 1,500 points of a foot: three intervals in five hold), which a
-  /// warning says from 1.2 % of the section on.
+  /// points plainly scatter more, all of them or those of a part of the section: then they raise it
+  /// to what these show, widen the interval, up to twice, and a warning says so. A third of the
+  /// true noise would make a girth millimetres too long. They do not lower it, for noise that
+  /// neighbours share does not show; too much of it at most widens the interval, but where points
+  /// are few for the body smooths away what is skin (twice the true 0.5 mm over 1,500 points of a
+  /// foot: three intervals in five hold), which a warning says from 1.2 % of the section on.
   std::optional<double> sigma_mm;
 };
 

@@ -188,7 +188,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
   warn_if(
-      !scattered && band.sigma > kNotableNoise,
+      !scattered && band.told_scale == 1.0 && band.sigma > kNotableNoise,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
   warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");

@@ -247,9 +247,9 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
 /// on it.
 double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source,
                            const Eigen::Vector3d& place) const {
-  if (!uneven.empty()) return sigma_at(uneven, place);
-  if (!own_sigma) return sigma;
-  return (cloud.was_seen(source) ? told_scale : 1.0) * cloud.sigma_mm[source] / unit_mm;
+  const double times = uneven.empty() ? 1.0 : times_at(uneven, place);
+  if (!own_sigma) return times * sigma;
+  return (cloud.was_seen(source) ? told_scale * times : 1.0) * cloud.sigma_mm[source] / unit_mm;
 }
 
 Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
@@ -285,17 +285,28 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   return band;
 }
 
+namespace {
+
+/// Where it differs from place to place, what it is where it is most.
+std::string disbelief_of_noise(const PlaneBand& band) {
+  double times = 1.0;
+  for (const auto& local : band.uneven) times = std::max(times, local.times);
+  char figures[64];
+  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", times * band.unit_mm * band.sigma,
+                times * band.told_scale);
+  const bool in_places = !band.uneven.empty();
+  return std::string(in_places ? "in places " : "") + "the points scatter by " + figures +
+         " the noise that was told of them, which was not believed: leave --sigma-mm out" +
+         (in_places ? "" : " or give this one") +
+         ", or see to the sensor and scan again with more frames";
+}
+
+}  // namespace
+
 std::vector<std::string> disbelief_of(const PlaneBand& band) {
   std::vector<std::string> said;
-  if (band.told_scale > 1.0 && band.shown_sigma > kHarmlessScatter) {
-    char figures[64];
-    std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", band.unit_mm * band.shown_sigma,
-                  band.told_scale);
-    said.push_back(
-        "the points scatter by " + std::string(figures) +
-        " the noise that was told of them, which was not believed: leave --sigma-mm out or give "
-        "this one, or see to the sensor and scan again with more frames");
-  }
+  if (band.told_scale > 1.0 && band.sigma > kHarmlessScatter)
+    said.push_back(disbelief_of_noise(band));
   if (band.normals_dropped) {
     said.emplace_back(
         "the normals that came with the points contradict each other or point inwards, and were "

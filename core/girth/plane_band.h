@@ -30,10 +30,10 @@ struct PlaneBand {
   double shown_sigma = 0.0;               ///< the one that they show, whatever is told of them
   std::size_t strays = 0;                 ///< points that stood alone and were left out
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
-  double told_scale = 1.0;                ///< by which the noise that is told was raised
+  double told_scale = 1.0;                ///< by which the noise that is told was raised, as a rule
   bool normals_dropped = false;           ///< those that were told contradict each other
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
-  std::vector<LocalSigma> uneven;         ///< where noise differs from place to place; in the unit
+  std::vector<LocalNoise> uneven;         ///< where noise differs, untold, from place to place
   std::vector<LocalRoughness> roughness;  ///< in the unit
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {
@@ -50,8 +50,8 @@ struct PlaneBand {
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
 /// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place.
-/// Where they plainly show more than they are told to have, all of what is told of points that were
-/// seen is raised to that.
+/// Where they plainly show more than they are told to have, what is told of points that were seen
+/// is raised to that, everywhere or in those places that do.
 ///
 /// The cloud of `slabs` has passed check_cloud(). Fails with kInsufficientData for too few points
 /// or none that form a surface, kInvalidInput for a plane that has none near it or all on one side.

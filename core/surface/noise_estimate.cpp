@@ -193,25 +193,46 @@ double misfit(const Neighbourhood& here, double variance, double roughness) {
   return here.likelihood.misfit(variance / (here.radius * here.radius), roughness * here.radius);
 }
 
-/// `roughnesses`: those that go with the `common` noise.
+/// `expected`: the noise of each (a variance); `roughnesses`: those that go with it. Of those that
+/// show less it is not asked how plainly where only more counts.
 std::vector<NoiseWitness> witnesses_of(const std::vector<Eigen::Vector3d>& points,
                                        const std::vector<Neighbourhood>& neighbourhoods,
-                                       double common, const std::vector<double>& roughnesses) {
+                                       const std::vector<double>& expected,
+                                       const std::vector<double>& roughnesses, bool only_more) {
   std::vector<NoiseWitness> witnesses;
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
     const auto& here = neighbourhoods[i];
     const double own = std::max(here.variance, kLeastVariance);
-    const double gain = misfit(here, common, roughnesses[i]) -
-                        misfit(here, own, likely_roughness(here, own, std::nullopt));
-    witnesses.push_back({points[here.point], own, std::max(gain, 0.0)});
+    NoiseWitness witness{points[here.point], expected[i], own, 0.0};
+    if (own > expected[i] || !only_more) {
+      const double gain = misfit(here, expected[i], roughnesses[i]) -
+                          misfit(here, own, likely_roughness(here, own, std::nullopt));
+      witness.contradiction = std::max(gain, 0.0);
+    }
+    witnesses.push_back(witness);
   }
   return witnesses;
 }
 
-double root_mean_square(const std::vector<LocalSigma>& sigmas) {
-  double squares = 0.0;
-  for (const auto& local : sigmas) squares += local.sigma * local.sigma;
-  return std::sqrt(squares / static_cast<double>(sigmas.size()));
+/// What is expected of each, in variances.
+std::vector<double> expected_noise(const std::vector<Neighbourhood>& neighbourhoods,
+                                   const std::vector<double>& told, const NoiseEstimate& estimate) {
+  std::vector<double> variances;
+  for (const auto& here : neighbourhoods) {
+    const double sigma = told.empty() ? estimate.sigma : estimate.told_scale * told[here.point];
+    variances.push_back(std::max(sigma * sigma, kLeastVariance));
+  }
+  return variances;
+}
+
+/// From what each place has against what is expected, the usual noise and what it has against that.
+/// Returns how many times the expected one the usual one is.
+double set_uneven(std::vector<LocalNoise> known, NoiseEstimate& estimate) {
+  const double usual = usual_times(known);
+  for (auto& local : known) local.times /= usual;
+  estimate.sigma *= usual;
+  estimate.uneven = std::move(known);
+  return usual;
 }
 
 }  // namespace
@@ -232,17 +253,16 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
   if (neighbourhoods.empty()) return estimate;
   estimate.shown = std::sqrt(median(std::move(variances)));
   if (told.empty()) estimate.sigma = estimate.shown;
-  std::vector<double> noise(neighbourhoods.size(),
-                            std::max(estimate.sigma * estimate.sigma, kLeastVariance));
+  auto noise = expected_noise(neighbourhoods, told, estimate);
   auto roughness = likely_roughnesses(neighbourhoods, noise);
-  if (told.empty()) {
-    const double common = noise.front();
-    estimate.uneven = uneven_noise(witnesses_of(points, neighbourhoods, common, roughness), common);
-  }
-  if (!estimate.uneven.empty()) {
-    estimate.sigma = root_mean_square(estimate.uneven);
-    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = std::pow(estimate.uneven[i].sigma, 2);
+  auto witnesses = witnesses_of(points, neighbourhoods, noise, roughness, !told.empty());
+  auto uneven =
+      told.empty() ? uneven_noise(std::move(witnesses)) : noise_beyond_told(std::move(witnesses));
+  if (!uneven.empty()) {
+    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] *= std::pow(uneven[i].times, 2);
     roughness = likely_roughnesses(neighbourhoods, noise);
+    const double usual = set_uneven(std::move(uneven), estimate);
+    if (!told.empty()) estimate.told_scale *= usual;
   }
   const double usual = std::max(median(std::move(roughness)), 1e-300);
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {

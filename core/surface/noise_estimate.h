@@ -21,7 +21,8 @@ struct NoiseEstimate {
   double sigma = 0.0;       ///< standard deviation of a point along its normal: the one to use
   double shown = 0.0;       ///< the one that the points show, whatever is told of them
   double told_scale = 1.0;  ///< by which what was told has to be raised; 1 where it can be believed
-  std::vector<LocalSigma> uneven;  ///< where nothing is told and one sigma for all cannot be
+  /// Against that, or where nothing is told against `sigma`, where one for all cannot be.
+  std::vector<LocalNoise> uneven;
   std::vector<LocalRoughness> roughness;
 };
 
@@ -36,7 +37,8 @@ struct NoiseEstimate {
 /// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
 /// points show less, for part of their noise may be common to neighbours; but where three quarters
 /// of the neighbourhoods show plainly more, all of it is raised to what the middle one of them
-/// shows.
+/// shows, and where beside each other a few still do, theirs is raised further
+/// (noise_beyond_told()).
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                              const std::vector<std::size_t>& places,
                              const std::vector<double>& told);

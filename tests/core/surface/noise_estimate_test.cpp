@@ -87,7 +87,7 @@ TEST(NoiseEstimate, TellsUnevenNoiseFromEven) {
     ASSERT_FALSE(noise.uneven.empty()) << seed;
     for (const auto& local : noise.uneven) {
       if (std::abs(local.place.x()) < 0.15) continue;  // reaches over the step
-      EXPECT_NEAR(std::log(local.sigma / sigma_of(local.place)), 0.0, 0.3) << seed;
+      EXPECT_NEAR(std::log(noise.sigma * local.times / sigma_of(local.place)), 0.0, 0.3) << seed;
     }
     EXPECT_NEAR(noise.sigma, std::hypot(0.006, 0.0015) / std::sqrt(2.0), 0.001);
   }
@@ -130,6 +130,21 @@ TEST(NoiseEstimate, TellsTooLittleFromUneven) {
   EXPECT_EQ(estimate(points, told).told_scale, 1.0);
   for (double& sigma : told) sigma /= 3.0;
   EXPECT_NEAR(estimate(points, told).told_scale, 3.0, 0.4);
+}
+
+TEST(NoiseEstimate, RaisesWhatIsToldWhereThePointsShowMore) {
+  auto points = test::positions_of(test::sphere_points(0.5, 4000, 0.0, 10));
+  test::RandomNumbers random(10);
+  const auto times_of = [](const Eigen::Vector3d& place) { return place.x() > 0.2 ? 4.0 : 1.0; };
+  for (auto& point : points) point *= 1.0 + 0.001 * times_of(point) * random.normal() / 0.5;
+  const std::vector<double> told(points.size(), 0.001);
+  const auto noise = estimate_noise(points, PointIndex(points), ring_of(points), told);
+  ASSERT_FALSE(noise.uneven.empty());
+  EXPECT_NEAR(noise.told_scale, noise.sigma / 0.001, 1e-9);
+  for (const auto& local : noise.uneven) {
+    if (std::abs(local.place.x() - 0.2) < 0.15) continue;  // reaches over the step
+    EXPECT_NEAR(std::log(noise.told_scale * local.times / times_of(local.place)), 0.0, 0.3);
+  }
 }
 
 TEST(NoiseEstimate, TellsTheRoughnessOfSomeFortyPlaces) {

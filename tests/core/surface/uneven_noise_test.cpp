@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,7 +29,7 @@ std::vector<NoiseWitness> witnesses(const Times& times, std::uint64_t seed) {
     // Twice the log likelihood of normal heights, at their own variance less at the common one.
     const double gain = kHeights * (ratio - 1.0 - std::log(ratio));
     const Eigen::Vector3d place(0.4 * std::cos(angle), 0.4 * std::sin(angle), 0.0);
-    all.push_back({place, ratio * kCommon, gain});
+    all.push_back({place, kCommon, ratio * kCommon, gain});
   }
   return all;
 }
@@ -39,7 +40,7 @@ double even(std::size_t) {
 
 TEST(UnevenNoise, IsNotSeenInEvenNoise) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    EXPECT_TRUE(uneven_noise(witnesses(even, seed), kCommon).empty()) << seed;
+    EXPECT_TRUE(uneven_noise(witnesses(even, seed)).empty()) << seed;
   }
 }
 
@@ -48,10 +49,10 @@ TEST(UnevenNoise, OfAHalfOrAThirdIsMetWithItsSteps) {
     for (const double times : {2.0, 3.0, 5.0, 0.5, 0.2}) {
       const auto truth = [&](std::size_t i) { return i < many ? times : 1.0; };
       for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const auto sigmas = uneven_noise(witnesses(truth, seed), kCommon);
-        ASSERT_EQ(sigmas.size(), kPlaces) << many << " " << times << " " << seed;
+        const auto known = uneven_noise(witnesses(truth, seed));
+        ASSERT_EQ(known.size(), kPlaces) << many << " " << times << " " << seed;
         for (std::size_t i = 0; i < kPlaces; ++i) {
-          EXPECT_NEAR(std::log(sigmas[i].sigma / (0.01 * truth(i))), 0.0, 0.45)
+          EXPECT_NEAR(std::log(known[i].times / truth(i)), 0.0, 0.45)
               << many << " " << times << " " << seed << " place " << i;
         }
       }
@@ -66,7 +67,7 @@ TEST(UnevenNoise, IsNotSeenInAFewOddPlaces) {
     all[odd].variance = 1e4 * kCommon;
     all[odd].contradiction = 1e4;
   }
-  EXPECT_TRUE(uneven_noise(all, kCommon).empty());
+  EXPECT_TRUE(uneven_noise(all).empty());
 }
 
 TEST(UnevenNoise, DoesNotBelieveAPlaceThatIsNotSure) {
@@ -76,27 +77,68 @@ TEST(UnevenNoise, DoesNotBelieveAPlaceThatIsNotSure) {
     all[i].variance = 0.0;
     all[i].contradiction = 0.1;
   }
-  const auto sigmas = uneven_noise(all, kCommon);
-  ASSERT_EQ(sigmas.size(), kPlaces);
-  for (std::size_t i = 18; i < 24; ++i) EXPECT_NEAR(sigmas[i].sigma, 0.01, 0.003);
+  const auto known = uneven_noise(all);
+  ASSERT_EQ(known.size(), kPlaces);
+  for (std::size_t i = 18; i < 24; ++i) EXPECT_NEAR(known[i].times, 1.0, 0.3);
 }
 
 TEST(UnevenNoise, IsNotLookedForInTheTextureOfExactPoints) {
   const auto truth = [](std::size_t i) { return i < kPlaces / 2 ? 5.0 : 1.0; };
   auto all = witnesses(truth, 1);
-  ASSERT_FALSE(uneven_noise(all, kCommon).empty());
-  for (auto& witness : all) witness.variance *= 1e-4;
-  EXPECT_TRUE(uneven_noise(all, 1e-4 * kCommon).empty());
-  EXPECT_TRUE(uneven_noise(all, 0.0).empty());
-  EXPECT_TRUE(uneven_noise({}, kCommon).empty());
+  ASSERT_FALSE(uneven_noise(all).empty());
+  for (auto& witness : all) {
+    witness.variance *= 1e-4;
+    witness.expected *= 1e-4;
+  }
+  EXPECT_TRUE(uneven_noise(all).empty());
+  EXPECT_TRUE(uneven_noise({}).empty());
+}
+
+TEST(NoiseBeyondTold, IsNotSeenWhereWhatIsToldIsRightOrTooMuch) {
+  const auto half = [](std::size_t i) { return i < kPlaces / 2 ? 0.3 : 1.0; };
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    EXPECT_TRUE(noise_beyond_told(witnesses(even, seed)).empty()) << seed;
+    EXPECT_TRUE(noise_beyond_told(witnesses(half, seed)).empty()) << seed;
+  }
+}
+
+/// What is told of a third is right, of a third too little and of a third too much.
+TEST(NoiseBeyondTold, IsMetWhereItIsAndNowhereElse) {
+  for (const double times : {2.0, 3.0, 5.0, 100.0}) {
+    const auto truth = [&](std::size_t i) {
+      return i < kPlaces / 3 ? times : i < 2 * kPlaces / 3 ? 1.0 : 0.3;
+    };
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const auto known = noise_beyond_told(witnesses(truth, seed));
+      ASSERT_EQ(known.size(), kPlaces) << times << " " << seed;
+      for (std::size_t i = 0; i < kPlaces; ++i) {
+        EXPECT_NEAR(std::log(known[i].times / std::max(truth(i), 1.0)), 0.0, 0.45)
+            << times << " " << seed << " place " << i;
+      }
+    }
+  }
+}
+
+TEST(NoiseBeyondTold, IsNotLookedForInTheTextureOfExactPoints) {
+  const auto truth = [](std::size_t i) { return i < kPlaces / 2 ? 5.0 : 1.0; };
+  auto all = witnesses(truth, 1);
+  for (auto& witness : all) {
+    witness.variance *= 1e-6;
+    witness.expected *= 1e-6;
+  }
+  EXPECT_TRUE(noise_beyond_told(all).empty());
+}
+
+TEST(UnevenNoise, IsUsuallyTheRootOfTheMeanSquare) {
+  EXPECT_DOUBLE_EQ(usual_times({{{0, 0, 0}, 1.0}, {{1, 0, 0}, 7.0}}), 5.0);
 }
 
 TEST(UnevenNoise, IsReadBetweenPlacesAsTheNearestHaveIt) {
-  const std::vector<LocalSigma> known = {{{0, 0, 0}, 0.1}, {{1, 0, 0}, 0.4}};
-  EXPECT_NEAR(sigma_at(known, {0, 0, 0}), 0.1, 1e-9);
-  EXPECT_NEAR(sigma_at(known, {1, 0, 0}), 0.4, 1e-9);
-  EXPECT_NEAR(sigma_at(known, {0.5, 0.2, 0.1}), 0.2, 1e-9);
-  EXPECT_NEAR(sigma_at(known, {0.05, 0, 0}), 0.1, 0.001);
+  const std::vector<LocalNoise> known = {{{0, 0, 0}, 0.1}, {{1, 0, 0}, 0.4}};
+  EXPECT_NEAR(times_at(known, {0, 0, 0}), 0.1, 1e-9);
+  EXPECT_NEAR(times_at(known, {1, 0, 0}), 0.4, 1e-9);
+  EXPECT_NEAR(times_at(known, {0.5, 0.2, 0.1}), 0.2, 1e-9);
+  EXPECT_NEAR(times_at(known, {0.05, 0, 0}), 0.1, 0.001);
 }
 
 }  // namespace
