@@ -227,12 +227,13 @@ std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePl
 
 void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band) {
   auto normals = told_normals(cloud, plane, band);
+  const bool righted = right_lone_normals(normals, band.index);
   const auto trust = normals.empty() ? NormalTrust::kNone : trust_in(normals, band.index);
   band.normals_dropped = !normals.empty() && trust == NormalTrust::kNone;
   if (trust == NormalTrust::kNone) normals = shown_normals(cloud, plane, band);
   const double least = 1e-9 * band.spacing;
-  const bool told =
-      trust == NormalTrust::kSlopes && band.sigma <= kExactSigma && band.spacing >= kFinestGrain;
+  const bool told = trust == NormalTrust::kSlopes && !righted && band.sigma <= kExactSigma &&
+                    band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double sigma =

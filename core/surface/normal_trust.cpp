@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 namespace instep {
 namespace {
 
 constexpr std::size_t kSample = 500;
+/// Of a few normals that are turned over more would see nothing.
+constexpr std::size_t kLargeSample = 3000;
 /// Of each, itself included.
 constexpr std::size_t kNeighbours = 4;
 /// Cosine of normals that face alike, how many neighbours have to, and how many may face away. Of
@@ -16,6 +20,14 @@ constexpr std::size_t kNeighbours = 4;
 constexpr double kAlike = 0.5;
 constexpr double kLeastAlike = 0.85;
 constexpr double kMostOpposed = 0.03;
+/// Two neighbours along the skin never face opposite ways, as those of the two sides of a thin part
+/// do, and those on both sides of where normals are turned over: cosine of their normals, that of
+/// the chord to either, and how many of all pairs may. Of right ones, however sparse, creased or
+/// noisy, none did in 790 drawn bodies; one point that is turned over makes three to six, and only
+/// where many lie round it, it does no harm.
+constexpr double kTurnedOver = -0.9;
+constexpr double kAlongTheSkin = 0.35;
+constexpr double kMostTurnedOver = 5e-4;
 /// Round an evenly covered closed section normals add up to nothing, whatever way the skin leans,
 /// and their flux is that of its area: against the distances from its middle more than this, if it
 /// is less than ten times as long as wide.
@@ -81,11 +93,60 @@ void hear(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index, 
   if (lonely) witness.lonely += 1.0;
 }
 
+std::size_t stride_for(std::size_t sample, std::size_t count) {
+  return (count + sample - 1) / sample;
+}
+
+/// Whether normals of neighbours face opposite ways, though the chord between them runs along the
+/// skin.
+bool is_turned_over(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index,
+                    std::size_t one, std::size_t other) {
+  if (!(normals[one].dot(normals[other]) < kTurnedOver)) return false;
+  const Eigen::Vector3d chord = (index.points()[other] - index.points()[one]).normalized();
+  return std::abs(normals[one].dot(chord)) < kAlongTheSkin &&
+         std::abs(normals[other].dot(chord)) < kAlongTheSkin;
+}
+
+bool some_are_turned_over(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index) {
+  const std::size_t count = normals.size();
+  double pairs = 0.0;
+  double turned_over = 0.0;
+  for (std::size_t i = 0; i < count; i += stride_for(kLargeSample, count)) {
+    for (const auto& near : index.nearest(index.points()[i], kNeighbours)) {
+      if (near.index == i) continue;
+      pairs += 1.0;
+      if (is_turned_over(normals, index, i, near.index)) turned_over += 1.0;
+    }
+  }
+  return turned_over > kMostTurnedOver * pairs;
+}
+
+/// The mean of its neighbours' normals, if these all face alike and it faces away from all of them,
+/// from one as if turned over.
+std::optional<Eigen::Vector3d> righted(const std::vector<Eigen::Vector3d>& normals,
+                                       const PointIndex& index, std::size_t point) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  bool turned_over = false;
+  const auto nearest = index.nearest(index.points()[point], kNeighbours);
+  for (const auto& near : nearest) {
+    if (near.index == point) continue;
+    if (!(normals[point].dot(normals[near.index]) < 0.0)) return std::nullopt;
+    turned_over = turned_over || is_turned_over(normals, index, point, near.index);
+    sum += normals[near.index];
+  }
+  if (!turned_over) return std::nullopt;
+  const Eigen::Vector3d mean = sum.normalized();
+  for (const auto& near : nearest) {
+    if (near.index != point && !(normals[near.index].dot(mean) > kAlike)) return std::nullopt;
+  }
+  return mean;
+}
+
 }  // namespace
 
 NormalTrust trust_in(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index) {
   const auto& points = index.points();
-  const std::size_t stride = (points.size() + kSample - 1) / kSample;
+  const std::size_t stride = stride_for(kSample, points.size());
   Witness witness;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double lengths = 0.0;
@@ -103,9 +164,19 @@ NormalTrust trust_in(const std::vector<Eigen::Vector3d>& normals, const PointInd
                      witness.opposed <= kMostOpposed * witness.pairs &&
                      witness.lonely <= most_astray;
   const bool outward = sum.norm() <= kOneWay * lengths && flux > kLeastFlux * distances;
-  if (!agree || !outward) return NormalTrust::kNone;
+  if (!agree || !outward || some_are_turned_over(normals, index)) return NormalTrust::kNone;
   const bool exact = is_square(witness.off_square, witness.turned) && witness.astray <= most_astray;
   return exact ? NormalTrust::kSlopes : NormalTrust::kSide;
+}
+
+bool right_lone_normals(std::vector<Eigen::Vector3d>& normals, const PointIndex& index) {
+  if (normals.size() > kLargeSample) return false;
+  std::vector<std::pair<std::size_t, Eigen::Vector3d>> found;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (const auto right = righted(normals, index, i)) found.emplace_back(i, *right);
+  }
+  for (const auto& [point, right] : found) normals[point] = right;
+  return !found.empty();
 }
 
 }  // namespace instep

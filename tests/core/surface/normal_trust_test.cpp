@@ -171,6 +171,59 @@ TEST(NormalTrust, NormalsOfWhichSomeAreFlippedTellNothing) {
   }
 }
 
+/// Within so far of a point of the section.
+Normals turned_over_near(const Body& body, std::size_t point, double reach) {
+  Normals normals = body.normals;
+  for (const auto& near : body.index.around(body.index.points()[point], reach)) {
+    normals[near.index] *= -1.0;
+  }
+  return normals;
+}
+
+TEST(NormalTrust, NormalsOfWhichAPatchIsTurnedOverTellNothing) {
+  for (const auto& body : all_bodies()) {
+    for (const std::size_t point : {0U, 17U, 101U}) {
+      for (const double reach : {12.0, 20.0}) {
+        EXPECT_EQ(body.trust(turned_over_near(body, point, reach)), NormalTrust::kNone)
+            << body.name << ", " << reach << " mm round " << point;
+      }
+    }
+  }
+}
+
+TEST(LoneNormals, AreRightedAndNoOthers) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    for (const Body& body : {body_of("ellipse", test::elliptic_cylinder(48, 28), 1500, seed),
+                             body_of("cone", test::cone(38, 0.25), 1500, seed)}) {
+      Normals normals = body.normals;
+      EXPECT_FALSE(right_lone_normals(normals, body.index)) << body.name;
+      for (const std::size_t lone : {100U, 300U, 900U}) normals[lone] *= -1.0;
+      EXPECT_TRUE(right_lone_normals(normals, body.index)) << body.name;
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        const double cosine = normals[i].dot(body.normals[i]);
+        EXPECT_GT(cosine, i == 100 || i == 300 || i == 900 ? 0.95 : 1.0 - 1e-12) << body.name;
+      }
+    }
+  }
+}
+
+TEST(LoneNormals, OfAPatchStayAsTheyAre) {
+  for (const auto& body : all_bodies()) {
+    const Normals turned = turned_over_near(body, 17, 20.0);
+    Normals normals = turned;
+    right_lone_normals(normals, body.index);
+    EXPECT_EQ(trust_in(normals, body.index), NormalTrust::kNone) << body.name;
+  }
+}
+
+/// Their two sides face opposite ways, but across the skin.
+TEST(NormalTrust, RightNormalsOfAThinBodyTellSlopes) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Body thin = body_of("thin", test::elliptic_cylinder(40, 3), 6000, seed);
+    EXPECT_EQ(thin.trust(thin.normals), NormalTrust::kSlopes) << thin.name;
+  }
+}
+
 TEST(NormalTrust, NormalsThatPointInwardsTellNothing) {
   for (const auto& body : all_bodies()) {
     EXPECT_EQ(body.trust(flipped(body.normals, 1.1, 7)), NormalTrust::kNone) << body.name;
