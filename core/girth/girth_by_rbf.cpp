@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "core/geometry/polygon.h"
@@ -11,6 +13,7 @@
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
+#include "core/girth/skin_layers.h"
 #include "core/girth/smooth_section.h"
 #include "core/surface/blended_surface.h"
 
@@ -40,6 +43,14 @@ constexpr double kMostDistrust = 2.0;
 constexpr double kNotableUnexplained = 0.02;
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
+/// Of a second layer from the surface, of two layers from each other, and what these scatter at
+/// least, against the section: nearer ones do not matter.
+constexpr double kFurthestLayer = 0.08;
+constexpr double kNearestLayers = 0.002;
+constexpr double kScatterOfLayers = 3e-4;
+constexpr double kLayersMore = 1.1;
+/// So many points tell of layers, or fewer than twice as many.
+constexpr std::size_t kMostHeights = 800;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 /// One in so many points, the nearest to the plane, is a start at least.
@@ -142,6 +153,29 @@ bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
          std::abs(one.stretched - other.stretched) > one.stretched_u95 + other.stretched_u95;
 }
 
+/// Of the points near the plane.
+std::optional<SkinLayers> layers_of(const PlaneBand& band, const BlendedSurface& surface) {
+  if (band.shown_sigma < kScatterOfLayers) return std::nullopt;
+  const double near = kEvidenceInGrains * band.grain;
+  std::vector<double> heights;
+  const std::size_t stride = (band.points.size() + kMostHeights - 1) / kMostHeights;
+  for (std::size_t i = 0; i < band.points.size(); i += stride) {
+    const Eigen::Vector3d& position = band.points[i].position;
+    if (std::abs(position.z()) > near) continue;
+    const auto field = surface.at(position);
+    if (field && std::abs(field->value) < kFurthestLayer) heights.push_back(field->value);
+  }
+  const auto layers = layers_among(std::move(heights));
+  if (!layers || layers->outer - layers->inner < kNearestLayers) return std::nullopt;
+  return layers;
+}
+
+/// A tape on either layer is longer or shorter than one between them by at most this: by its height
+/// times a whole turn, and some more, for what is between follows where there are more of either.
+double reach_of(const SkinLayers& layers) {
+  return kLayersMore * 2.0 * std::numbers::pi * std::max(layers.outer, -layers.inner);
+}
+
 /// A stretch without a seen point.
 bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
   return evidence.seen_gap > kNotableGapInGrains * band.grain;
@@ -167,9 +201,18 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::ve
   return *smooth;
 }
 
+std::string warning_of(const SkinLayers& layers, double unit_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * (layers.outer - layers.inner));
+  return "the points lie in two layers, " + std::string(figure) +
+         " apart: the tape was laid between them and may belong on either; see to the cameras' "
+         "poses, or scan one layer alone";
+}
+
 /// What whoever reads the girth should know. `doubt`: half of the interval, against the length.
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
-                  const SectionEvidence& evidence, double doubt, Girth& girth) {
+                  const SectionEvidence& evidence, const std::optional<SkinLayers>& layers,
+                  double doubt, Girth& girth) {
   const auto warn_if = [&](bool so, const char* warning) {
     if (so) girth.warnings.emplace_back(warning);
   };
@@ -184,11 +227,12 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
           "many points near the plane stand alone and were left out");
   for (auto& disbelief : disbelief_of(band)) girth.warnings.push_back(std::move(disbelief));
-  const bool scattered = band.shown_sigma > kNotableNoise;
+  if (layers) girth.warnings.push_back(warning_of(*layers, band.unit_mm));
+  const bool scattered = !layers && band.shown_sigma > kNotableNoise;
   warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
   warn_if(
-      !scattered && band.told_scale == 1.0 && band.sigma > kNotableNoise,
+      !scattered && !layers && band.told_scale == 1.0 && band.sigma > kNotableNoise,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
   warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
@@ -241,6 +285,11 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   // Noise that is not what was told of it is hardly independent from point to point either.
   section.contact_u95 *= std::min(band->told_scale, kMostDistrust);
   section.stretched_u95 *= std::min(band->told_scale, kMostDistrust);
+  const auto layers = layers_of(*band, surface);
+  if (layers) {
+    section.contact_u95 += reach_of(*layers);
+    section.stretched_u95 += reach_of(*layers);
+  }
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,
@@ -259,7 +308,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;
   girth.largest_gap_mm = band->unit_mm * evidence.seen_gap;
-  add_warnings(*band, loops, evidence, doubt, girth);
+  add_warnings(*band, loops, evidence, layers, doubt, girth);
   return girth;
 }
 

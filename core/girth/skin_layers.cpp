@@ -1,0 +1,71 @@
+#include "core/girth/skin_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace instep {
+namespace {
+
+constexpr std::size_t kFewest = 40;
+constexpr double kLeastHeap = 0.1;
+/// Half-way between the means, and round both, those within this part of their distance are
+/// counted.
+constexpr double kHalfWindow = 1.0 / 6.0;
+/// Fewer half-way than this part of those round either mean, and by so many deviations of their
+/// number. Of 500 drawn cases of one skin (tests/bench/accuracy) the part is 0.85 at least and 2 as
+/// a rule, of two layers at most 0.5.
+constexpr double kMostBetween = 0.5;
+constexpr double kPlainly = 4.0;
+
+/// Into the first `count` and the rest.
+struct Parting {
+  std::size_t count = 0;
+  SkinLayers means;
+};
+
+/// `heights` sorted, two at least.
+Parting furthest_parted(const std::vector<double>& heights) {
+  const auto all = static_cast<double>(heights.size());
+  const double total = std::accumulate(heights.begin(), heights.end(), 0.0);
+  Parting best;
+  double furthest = -1.0;
+  double sum = 0.0;
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    sum += heights[i - 1];
+    const auto below = static_cast<double>(i);
+    const SkinLayers means{sum / below, (total - sum) / (all - below)};
+    const double parted = below * (all - below) * std::pow(means.outer - means.inner, 2);
+    if (parted <= furthest) continue;
+    furthest = parted;
+    best = {i, means};
+  }
+  return best;
+}
+
+double count_within(const std::vector<double>& heights, double middle, double half_width) {
+  const auto first = std::lower_bound(heights.begin(), heights.end(), middle - half_width);
+  const auto last = std::upper_bound(heights.begin(), heights.end(), middle + half_width);
+  return static_cast<double>(last - first);
+}
+
+}  // namespace
+
+std::optional<SkinLayers> layers_among(std::vector<double> heights) {
+  if (heights.size() < kFewest) return std::nullopt;
+  std::sort(heights.begin(), heights.end());
+  const auto [count, means] = furthest_parted(heights);
+  const auto least = kLeastHeap * static_cast<double>(heights.size());
+  const auto lower = static_cast<double>(count);
+  if (lower < least || static_cast<double>(heights.size()) - lower < least) return std::nullopt;
+  const double half_width = kHalfWindow * (means.outer - means.inner);
+  const double between = count_within(heights, 0.5 * (means.inner + means.outer), half_width);
+  const double round_least = std::min(count_within(heights, means.inner, half_width),
+                                      count_within(heights, means.outer, half_width));
+  if (between > kMostBetween * round_least) return std::nullopt;
+  if (!(round_least - between > kPlainly * std::sqrt(round_least))) return std::nullopt;
+  return means;
+}
+
+}  // namespace instep

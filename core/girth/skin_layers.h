@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace instep {
+
+/// Two layers of points over the surface that was laid between them: their mean heights.
+struct SkinLayers {
+  double inner = 0.0;  ///< the lower one
+  double outer = 0.0;
+};
+
+/// Whether heights of points over one surface fall into two heaps, as those of a skin and of a sock
+/// over it do, or of two scans of one body that do not fit: nothing says then where its skin is,
+/// and noise that was taken for even hides that. The heights are parted where their two means lie
+/// furthest apart for their spread (Otsu 1979); they are two heaps if half-way between the means
+/// there are plainly fewer than round them. Noise, of whatever size from place to place, has most
+/// there, and rounding as many as elsewhere.
+///
+/// Nothing for fewer than some dozens of heights, where a heap has less than a tenth of them, and for
+/// layers less than four of their own deviations apart, which look like one. O(n log n).
+std::optional<SkinLayers> layers_among(std::vector<double> heights);
+
+}  // namespace instep
