@@ -26,6 +26,8 @@ constexpr double kExactVariance = 1e-10;
 /// times it; of five frames, or one, of three times that noise it shows 1.5 and 2 times as a rule.
 constexpr double kFewNeighbourhoods = 0.25;
 constexpr double kPlainlyMore = 1.25;
+constexpr std::size_t kFewestOutvoted = 4;
+constexpr double kPlainlyWider = 2.0;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
 constexpr double kRoughnessSpread = 2.0;
 constexpr double kLeastRoughness = 1e-12;
@@ -235,6 +237,51 @@ double set_uneven(std::vector<LocalNoise> known, NoiseEstimate& estimate) {
   return usual;
 }
 
+/// Whether some neighbourhoods scatter by more than `least`, a standard deviation, and are fewer
+/// than the others only because these have most of the points: they are plainly wider. Where exact
+/// points seem to scatter, round creases of sparse bodies, they are not.
+bool are_outvoted(const std::vector<Neighbourhood>& neighbourhoods, double least) {
+  std::vector<double> scattered;
+  std::vector<double> quiet;
+  for (const auto& here : neighbourhoods) {
+    (here.variance > least * least ? scattered : quiet).push_back(here.radius);
+  }
+  if (scattered.size() < kFewestOutvoted || scattered.size() > quiet.size()) return false;
+  return median(std::move(scattered)) > kPlainlyWider * median(std::move(quiet));
+}
+
+/// Of each neighbourhood: its noise (a variance) and the roughness that goes with it.
+struct NoiseAndShape {
+  std::vector<double> noise;
+  std::vector<double> roughness;
+};
+
+/// What is used, and in `estimate` what that is against the usual.
+NoiseAndShape set_noise(const std::vector<Eigen::Vector3d>& points,
+                        const std::vector<Neighbourhood>& neighbourhoods,
+                        const std::vector<double>& told, NoiseEstimate& estimate) {
+  auto noise = expected_noise(neighbourhoods, told, estimate);
+  auto roughness = likely_roughnesses(neighbourhoods, noise);
+  const auto witnesses = witnesses_of(points, neighbourhoods, noise, roughness, !told.empty());
+  auto uneven = told.empty() ? uneven_noise(witnesses) : noise_beyond_told(witnesses);
+  if (told.empty() && uneven.empty() && are_outvoted(neighbourhoods, least_noise(witnesses))) {
+    // As if the least noise were told of all.
+    const std::vector<double> least(noise.size(), std::pow(least_noise(witnesses), 2));
+    uneven = noise_beyond_told(witnesses_of(points, neighbourhoods, least,
+                                            likely_roughnesses(neighbourhoods, least), true));
+    if (!uneven.empty()) {
+      noise = least;
+      estimate.sigma = least_noise(witnesses);
+    }
+  }
+  if (uneven.empty()) return {std::move(noise), std::move(roughness)};
+  for (std::size_t i = 0; i < noise.size(); ++i) noise[i] *= std::pow(uneven[i].times, 2);
+  const double usual = set_uneven(std::move(uneven), estimate);
+  if (!told.empty()) estimate.told_scale *= usual;
+  roughness = likely_roughnesses(neighbourhoods, noise);
+  return {std::move(noise), std::move(roughness)};
+}
+
 }  // namespace
 
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
@@ -253,17 +300,7 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
   if (neighbourhoods.empty()) return estimate;
   estimate.shown = std::sqrt(median(std::move(variances)));
   if (told.empty()) estimate.sigma = estimate.shown;
-  auto noise = expected_noise(neighbourhoods, told, estimate);
-  auto roughness = likely_roughnesses(neighbourhoods, noise);
-  auto witnesses = witnesses_of(points, neighbourhoods, noise, roughness, !told.empty());
-  auto uneven =
-      told.empty() ? uneven_noise(std::move(witnesses)) : noise_beyond_told(std::move(witnesses));
-  if (!uneven.empty()) {
-    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] *= std::pow(uneven[i].times, 2);
-    roughness = likely_roughnesses(neighbourhoods, noise);
-    const double usual = set_uneven(std::move(uneven), estimate);
-    if (!told.empty()) estimate.told_scale *= usual;
-  }
+  auto [noise, roughness] = set_noise(points, neighbourhoods, told, estimate);
   const double usual = std::max(median(std::move(roughness)), 1e-300);
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
     estimate.roughness.push_back(

@@ -27,6 +27,7 @@ constexpr double kMostOfOnePlace = 20.0;
 constexpr double kPlainlyBeyond = 1.2;
 /// Against the extent of all places: less is no noise but the texture of skin, or rounding.
 constexpr double kTexture = 2e-4;
+constexpr double kOutOfTexture = 3.0;
 /// Standard deviation of the logarithm of the noise over a body, where it is uneven.
 constexpr double kSpread = 0.7;
 /// No place scatters so many times as much as usual, or as little: a zero is a guess.
@@ -114,6 +115,10 @@ std::vector<LocalNoise> noise_beyond_told(std::vector<NoiseWitness> witnesses) {
   }
   if (!(contradiction_of(witnesses) > kPlainlyBeyond)) return {};
   return noise_of_each(witnesses);
+}
+
+double least_noise(const std::vector<NoiseWitness>& witnesses) {
+  return kOutOfTexture * kTexture * extent_of(witnesses);
 }
 
 double usual_times(const std::vector<LocalNoise>& known) {

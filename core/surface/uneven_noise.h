@@ -37,6 +37,10 @@ std::vector<LocalNoise> uneven_noise(std::vector<NoiseWitness> witnesses);
 /// neighbours may share a part of it, which does not show; the others have as much as they show.
 std::vector<LocalNoise> noise_beyond_told(std::vector<NoiseWitness> witnesses);
 
+/// The least noise (a standard deviation) that is not the texture of skin or rounding, for a body
+/// as large as the places of `witnesses` lie apart.
+double least_noise(const std::vector<NoiseWitness>& witnesses);
+
 /// The root of the mean square over all of them. At least one is known.
 double usual_times(const std::vector<LocalNoise>& known);
 
