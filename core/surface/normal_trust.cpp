@@ -23,7 +23,7 @@ constexpr double kMostOpposed = 0.03;
 /// Two neighbours along the skin never face opposite ways, as those of the two sides of a thin part
 /// do, and those on both sides of where normals are turned over: cosine of their normals, that of
 /// the chord to either, and how many of all pairs may. Of right ones, however sparse, creased or
-/// noisy, none did in 790 drawn bodies; one point that is turned over makes three to six, and only
+/// noisy, none did in 484 drawn bodies; one point that is turned over makes three to six, and only
 /// where many lie round it, it does no harm.
 constexpr double kTurnedOver = -0.9;
 constexpr double kAlongTheSkin = 0.35;

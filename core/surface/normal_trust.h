@@ -19,13 +19,13 @@ enum class NormalTrust {
 /// through the section is its area, twice), tell nothing; nor do those of which more than one in
 /// 150 faces as none of its neighbours, as where a stretch of the section has them at random, or
 /// of which more than one pair of neighbours along the skin in two thousand faces opposite ways, as
-/// round a few that are turned over: 2 to 5 % of them made girths of feet up to 26 mm wrong, one in
-/// four unseen. They tell slopes where the chord between neighbours on one sheet is square to the
-/// mean of their normals, as on any smooth surface up to the third order of its length: by much
-/// less than the normals turn from one to the other. Noise of a degree is borne; normals averaged
-/// over a crease are not, nor are noisy points, nor a few normals that are off by tens of degrees:
-/// where one in twenty was, girths of lasts were up to 9 mm too short, one in four outside its
-/// interval.
+/// round a few that are turned over: 2 to 5 % of them made girths of feet and lasts up to 26 mm
+/// wrong, one in four unseen. They tell slopes where the chord between neighbours on one sheet is
+/// square to the mean of their normals, as on any smooth surface up to the third order of its
+/// length: by much less than the normals turn from one to the other. Noise of a degree is borne;
+/// normals averaged over a crease are not, nor are noisy points, nor a few normals that are off by
+/// tens of degrees: where one in twenty was, girths of lasts were up to 9 mm too short, one in four
+/// outside its interval.
 ///
 /// `normals`: unit length, one for each of the points of `index`, which differ all; the section
 /// lies in the plane of x and y. O(log points).
