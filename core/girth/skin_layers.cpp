@@ -17,7 +17,7 @@ constexpr double kHalfWindow = 1.0 / 6.0;
 /// number. Of 353 drawn cases of one skin (tests/bench/accuracy) the part is 0.85 at least and 2 as
 /// a rule, of two layers 2 mm apart that scatter by 0.3 mm at most 0.25.
 constexpr double kMostBetween = 0.5;
-constexpr double kPlainly = 4.0;
+constexpr double kPlainly = 3.0;
 
 /// Into the first `count` and the rest.
 struct Parting {

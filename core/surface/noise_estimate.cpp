@@ -26,6 +26,10 @@ constexpr double kExactVariance = 1e-10;
 /// times it; of five frames, or one, of three times that noise it shows 1.5 and 2 times as a rule.
 constexpr double kFewNeighbourhoods = 0.25;
 constexpr double kPlainlyMore = 1.25;
+/// A neighbourhood wider than this part of the body has no say on noise beyond what is told: its
+/// shape passes for noise. Of 576 clouds of simulated feet with the noise that is told, 36 were
+/// not believed in places without this, nearly all of 800 points, and 2 with it.
+constexpr double kTooWideToAccuse = 0.2;
 constexpr std::size_t kFewestOutvoted = 4;
 constexpr double kPlainlyWider = 2.0;
 /// Standard deviation of the logarithm of the roughness over a body: smooth and creased parts.
@@ -216,6 +220,14 @@ std::vector<NoiseWitness> witnesses_of(const std::vector<Eigen::Vector3d>& point
   return witnesses;
 }
 
+/// Takes their say from witnesses whose neighbourhoods are too wide.
+void hush_wide(const std::vector<Neighbourhood>& neighbourhoods,
+               std::vector<NoiseWitness>& witnesses) {
+  for (std::size_t i = 0; i < witnesses.size(); ++i) {
+    if (neighbourhoods[i].radius > kTooWideToAccuse) witnesses[i].contradiction = 0.0;
+  }
+}
+
 /// What is expected of each, in variances.
 std::vector<double> expected_noise(const std::vector<Neighbourhood>& neighbourhoods,
                                    const std::vector<double>& told, const NoiseEstimate& estimate) {
@@ -262,7 +274,8 @@ NoiseAndShape set_noise(const std::vector<Eigen::Vector3d>& points,
                         const std::vector<double>& told, NoiseEstimate& estimate) {
   auto noise = expected_noise(neighbourhoods, told, estimate);
   auto roughness = likely_roughnesses(neighbourhoods, noise);
-  const auto witnesses = witnesses_of(points, neighbourhoods, noise, roughness, !told.empty());
+  auto witnesses = witnesses_of(points, neighbourhoods, noise, roughness, !told.empty());
+  if (!told.empty()) hush_wide(neighbourhoods, witnesses);
   auto uneven = told.empty() ? uneven_noise(witnesses) : noise_beyond_told(witnesses);
   if (told.empty() && uneven.empty() && are_outvoted(neighbourhoods, least_noise(witnesses))) {
     // As if the least noise were told of all.

@@ -88,6 +88,15 @@ double square_beside(const Eigen::Vector3d& place, const Eigen::Vector3d& point,
   return outward.cross(point - place).squaredNorm();
 }
 
+/// By how much a length over an edge would be shorter if the edge were as round as its gaps allow,
+/// an arc that meets both sheets at their last points, and how likely that is: where they come as
+/// near as their spacing lets them, it is sharp.
+double rounding_of(const CreasedPatch& creased, double spacing) {
+  const double half = 0.5 * creased.turn();
+  const double lost = 2.0 * creased.gap() * (1.0 - half / std::tan(half));
+  return kRounding * std::min(creased.gap() / spacing, 1.0) * lost;
+}
+
 }  // namespace
 
 PatchFitter::PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
@@ -271,15 +280,6 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   return SurfacePatch{place, place, radius, std::move(*field), std::move(members), variance};
 }
 
-/// By how much a length over an edge would be shorter if the edge were as round as its gaps allow,
-/// an arc that meets both sheets at their last points, and how likely that is: where they come as
-/// near as their spacing lets them, it is sharp.
-double rounding_of(const CreasedPatch& creased, double spacing) {
-  const double half = 0.5 * creased.turn();
-  const double lost = 2.0 * creased.gap() * (1.0 - half / std::tan(half));
-  return kRounding * std::min(creased.gap() / spacing, 1.0) * lost;
-}
-
 /// Where the points tell a crease better than one smooth sheet.
 std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroundings,
                                                      const Eigen::Vector3d& place,
@@ -390,21 +390,6 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     }
     width = fitting;
   }
-}
-
-FieldValue SurfacePatch::at(const Eigen::Vector3d& place) const {
-  return std::visit([&](const auto& surface) { return surface.at(place); }, field);
-}
-
-SurfacePatch::Sheet SurfacePatch::sheet_at(const Eigen::Vector3d& place) const {
-  if (const auto* smooth = std::get_if<HeightPatch>(&field)) {
-    return {this, smooth, nullptr};
-  }
-  if (const auto* creased = std::get_if<CreasedPatch>(&field)) {
-    const auto& sheet = creased->sheet_at(place);
-    return {this, &sheet.patch, &sheet.members};
-  }
-  return {this, nullptr, nullptr};
 }
 
 }  // namespace instep

@@ -48,6 +48,15 @@ TEST(SkinLayers, AreFoundWhereTwoSkinsAre) {
   }
 }
 
+TEST(SkinLayers, AreFoundWhereTheThinnerOneHasADozenHeights) {
+  std::vector<double> all(48, 0.0);
+  all.insert(all.end(), 12, -1.0);
+  const auto layers = layers_among(all);
+  ASSERT_TRUE(layers);
+  EXPECT_DOUBLE_EQ(layers->inner, -1.0);
+  EXPECT_DOUBLE_EQ(layers->outer, 0.0);
+}
+
 TEST(SkinLayers, AreNotFoundInNoiseOfAnyKind) {
   const std::function<double(RandomNumbers&)> kinds[] = {
       [](RandomNumbers& random) { return random.normal(); },

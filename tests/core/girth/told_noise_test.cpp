@@ -9,6 +9,9 @@
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cases/case_bodies.h"
+#include "tests/support/cases/point_patterns.h"
+#include "tests/support/cases/simulated_feet.h"
 #include "tests/support/cylinder_tape.h"
 #include "tests/support/random_numbers.h"
 
@@ -167,6 +170,25 @@ TEST(ToldNoise, OfCopiesDoesNotDependOnTheirOrder) {
     EXPECT_EQ(other->stretched_mm, girth->stretched_mm);
     EXPECT_EQ(other->stretched_u95_mm, girth->stretched_u95_mm);
     EXPECT_EQ(other->contour, girth->contour);
+  }
+}
+
+/// Round a sharp bend of a sparse foot shape passed for up to 18 times the noise that was told.
+TEST(ToldNoise, IsBelievedWhereItIsRightThoughPointsAreFewForTheShape) {
+  for (const auto& foot : test::simulated_feet(5)) {
+    test::RandomNumbers random(7);
+    auto plane = foot.plane(random);
+    while (!foot.lengths(plane)) plane = foot.plane(random);
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      for (const double sigma : {0.1, 0.3}) {
+        PointCloud cloud = test::with_noise(foot.crowd(800, seed), sigma, seed);
+        cloud.normals.clear();
+        cloud.sigma_mm.clear();
+        const auto girth = girth_by_rbf(cloud, plane, {sigma});
+        ASSERT_TRUE(girth) << seed << " " << sigma;
+        EXPECT_FALSE(says(*girth, "in places")) << seed << " " << sigma;
+      }
+    }
   }
 }
 
