@@ -222,7 +222,7 @@ Result<void> DepthSensor::Parts::set_straight() {
 Result<void> DepthSensor::start() {
   if (auto well = look(); !well) return well;
   if (parts_->stream.start() == openni::STATUS_OK) return {};
-  if (auto well = look(); !well) return well;
+  if (auto well = parts_->events.look_after_failure(); !well) return well;
   return fail(ErrorCode::kIo, Remedy::kReopen,
               fmt::format("the sensor does not start ({})", extended_error()),
               "unplug it and plug it in again");

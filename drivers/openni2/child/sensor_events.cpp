@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <thread>
 
 namespace instep {
 namespace {
@@ -64,6 +65,14 @@ Result<void> SensorEvents::look() const {
     return fail(ErrorCode::kIo, "the sensor says that it is too hot", "let it cool down");
   }
   return {};
+}
+
+Result<void> SensorEvents::look_after_failure() const {
+  const auto last = steady_clock::now() + kUnplugging;
+  while (!listener_->gone && steady_clock::now() < last) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return look();
 }
 
 }  // namespace instep
