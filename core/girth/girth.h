@@ -81,6 +81,9 @@ struct Girth {
 /// They take the noise of points to be independent: what is common to neighbours, such as a bent
 /// depth map, is not in them.
 ///
+/// Points in two layers (core/girth/skin_layers.h), as of a skin and a sock or from cameras with
+/// wrong poses, are named in a warning, and the interval reaches both.
+///
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});

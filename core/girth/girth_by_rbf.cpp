@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <utility>
 
 #include "core/geometry/polygon.h"
@@ -43,14 +42,6 @@ constexpr double kMostDistrust = 2.0;
 constexpr double kNotableUnexplained = 0.02;
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
-/// Of a second layer from the surface, of two layers from each other, and what these scatter at
-/// least, against the section: nearer ones do not matter.
-constexpr double kFurthestLayer = 0.08;
-constexpr double kNearestLayers = 0.002;
-constexpr double kScatterOfLayers = 3e-4;
-constexpr double kLayersMore = 1.1;
-/// So many points tell of layers, or fewer than twice as many.
-constexpr std::size_t kMostHeights = 800;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 /// One in so many points, the nearest to the plane, is a start at least.
@@ -151,29 +142,6 @@ void largest_first(std::vector<Loop>& loops) {
 bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
   return std::abs(one.contact - other.contact) > one.contact_u95 + other.contact_u95 ||
          std::abs(one.stretched - other.stretched) > one.stretched_u95 + other.stretched_u95;
-}
-
-/// Of the points near the plane.
-std::optional<SkinLayers> layers_of(const PlaneBand& band, const BlendedSurface& surface) {
-  if (band.shown_sigma < kScatterOfLayers) return std::nullopt;
-  const double near = kEvidenceInGrains * band.grain;
-  std::vector<double> heights;
-  const std::size_t stride = (band.points.size() + kMostHeights - 1) / kMostHeights;
-  for (std::size_t i = 0; i < band.points.size(); i += stride) {
-    const Eigen::Vector3d& position = band.points[i].position;
-    if (std::abs(position.z()) > near) continue;
-    const auto field = surface.at(position);
-    if (field && std::abs(field->value) < kFurthestLayer) heights.push_back(field->value);
-  }
-  const auto layers = layers_among(std::move(heights));
-  if (!layers || layers->outer - layers->inner < kNearestLayers) return std::nullopt;
-  return layers;
-}
-
-/// A tape on either layer is longer or shorter than one between them by at most this: by its height
-/// times a whole turn, and some more, for what is between follows where there are more of either.
-double reach_of(const SkinLayers& layers) {
-  return kLayersMore * 2.0 * std::numbers::pi * std::max(layers.outer, -layers.inner);
 }
 
 /// A stretch without a seen point.
@@ -285,7 +253,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   // Noise that is not what was told of it is hardly independent from point to point either.
   section.contact_u95 *= std::min(band->told_scale, kMostDistrust);
   section.stretched_u95 *= std::min(band->told_scale, kMostDistrust);
-  const auto layers = layers_of(*band, surface);
+  const auto layers = layers_near_plane(*band, surface, kEvidenceInGrains * band->grain);
   if (layers) {
     section.contact_u95 += reach_of(*layers);
     section.stretched_u95 += reach_of(*layers);

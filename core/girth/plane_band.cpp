@@ -242,6 +242,20 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   }
 }
 
+/// Where it differs from place to place, what it is where it is most.
+std::string disbelief_of_noise(const PlaneBand& band) {
+  double times = 1.0;
+  for (const auto& local : band.uneven) times = std::max(times, local.times);
+  char figures[64];
+  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", times * band.unit_mm * band.sigma,
+                times * band.told_scale);
+  const bool in_places = !band.uneven.empty();
+  return std::string(in_places ? "in places " : "") + "the points scatter by " + figures +
+         " the noise that was told of them, which was not believed: leave --sigma-mm out" +
+         (in_places ? "" : " or give this one") +
+         ", or see to the sensor and scan again with more frames";
+}
+
 }  // namespace
 
 /// What stands for skin that nobody saw is told of by who put it there: what points show is no word
@@ -285,24 +299,6 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   set_points(cloud, slabs.plane(), band);
   return band;
 }
-
-namespace {
-
-/// Where it differs from place to place, what it is where it is most.
-std::string disbelief_of_noise(const PlaneBand& band) {
-  double times = 1.0;
-  for (const auto& local : band.uneven) times = std::max(times, local.times);
-  char figures[64];
-  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", times * band.unit_mm * band.sigma,
-                times * band.told_scale);
-  const bool in_places = !band.uneven.empty();
-  return std::string(in_places ? "in places " : "") + "the points scatter by " + figures +
-         " the noise that was told of them, which was not believed: leave --sigma-mm out" +
-         (in_places ? "" : " or give this one") +
-         ", or see to the sensor and scan again with more frames";
-}
-
-}  // namespace
 
 std::vector<std::string> disbelief_of(const PlaneBand& band) {
   std::vector<std::string> said;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 
 namespace instep {
@@ -18,6 +19,14 @@ constexpr double kHalfWindow = 1.0 / 6.0;
 /// a rule, of two layers 2 mm apart that scatter by 0.3 mm at most 0.25.
 constexpr double kMostBetween = 0.5;
 constexpr double kPlainly = 3.0;
+/// Of a second layer from the surface, of two layers from each other, and what these scatter at
+/// least, against the section: nearer ones do not matter.
+constexpr double kFurthestLayer = 0.08;
+constexpr double kNearestLayers = 0.002;
+constexpr double kScatterOfLayers = 3e-4;
+constexpr double kLayersMore = 1.1;
+/// So many points tell of layers, or fewer than twice as many.
+constexpr std::size_t kMostHeights = 800;
 
 /// Into the first `count` and the rest.
 struct Parting {
@@ -66,6 +75,26 @@ std::optional<SkinLayers> layers_among(std::vector<double> heights) {
   if (between > kMostBetween * round_least) return std::nullopt;
   if (!(round_least - between > kPlainly * std::sqrt(round_least))) return std::nullopt;
   return means;
+}
+
+std::optional<SkinLayers> layers_near_plane(const PlaneBand& band, const BlendedSurface& surface,
+                                            double near) {
+  if (band.shown_sigma < kScatterOfLayers) return std::nullopt;
+  std::vector<double> heights;
+  const std::size_t stride = (band.points.size() + kMostHeights - 1) / kMostHeights;
+  for (std::size_t i = 0; i < band.points.size(); i += stride) {
+    const Eigen::Vector3d& position = band.points[i].position;
+    if (std::abs(position.z()) > near) continue;
+    const auto field = surface.at(position);
+    if (field && std::abs(field->value) < kFurthestLayer) heights.push_back(field->value);
+  }
+  const auto layers = layers_among(std::move(heights));
+  if (!layers || layers->outer - layers->inner < kNearestLayers) return std::nullopt;
+  return layers;
+}
+
+double reach_of(const SkinLayers& layers) {
+  return kLayersMore * 2.0 * std::numbers::pi * std::max(layers.outer, -layers.inner);
 }
 
 }  // namespace instep

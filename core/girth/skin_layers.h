@@ -3,6 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/girth/plane_band.h"
+#include "core/surface/blended_surface.h"
+
 namespace instep {
 
 /// Two layers of points over the surface that was laid between them: their mean heights.
@@ -18,8 +21,18 @@ struct SkinLayers {
 /// there are plainly fewer than round them. Noise, of whatever size from place to place, has most
 /// there, and rounding as many as elsewhere.
 ///
-/// Nothing for fewer than some dozens of heights, where a heap has less than a tenth of them, and for
-/// layers less than four of their own deviations apart, which look like one. O(n log n).
+/// Nothing for fewer than some dozens of heights, where a heap has less than a tenth of them, and
+/// for layers less than four of their own deviations apart, or less than five if one has three
+/// points in ten: they look like one. O(n log n).
 std::optional<SkinLayers> layers_among(std::vector<double> heights);
+
+/// Those of the points within `near` of the tape plane, of which some hundreds are asked; nothing
+/// for layers so near to each other that it does not matter. In the unit of the band.
+std::optional<SkinLayers> layers_near_plane(const PlaneBand& band, const BlendedSurface& surface,
+                                            double near);
+
+/// A tape on either layer is longer or shorter than one between them by at most this: by its height
+/// times a whole turn, and some more, for what is between follows where there are more of either.
+double reach_of(const SkinLayers& layers);
 
 }  // namespace instep

@@ -32,8 +32,8 @@ struct NoiseEstimate {
 /// noise from wandering shape by its scale. The noise is the middle one over the neighbourhoods, so
 /// that creases and a few stray ones do not count. Where they plainly contradict one noise for all
 /// (uneven_noise()), each has its own, and the one to use for all is their root mean square; so
-/// where a dense part that is exact has most of the points. That needs
-/// `places` in the order in which they lie round the body.
+/// where a dense part that is exact has most of the points. That needs `places` in the order in
+/// which they lie round the body.
 ///
 /// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
 /// points show less, for part of their noise may be common to neighbours; but where three quarters

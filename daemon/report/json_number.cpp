@@ -4,11 +4,15 @@
 
 namespace instep {
 
-Json json_number(double value, double step) {
-  if (!std::isfinite(value)) return nullptr;
+double rounded_to(double value, double step) {
   const double per_unit = std::round(1.0 / step);
   const double rounded = std::round(value * per_unit) / per_unit;
   return rounded == 0.0 ? 0.0 : rounded;
+}
+
+Json json_number(double value, double step) {
+  if (!std::isfinite(value)) return nullptr;
+  return rounded_to(value, step);
 }
 
 Json json_number(const std::optional<double>& value, double step) {

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+
+#include "daemon/report/json_number.h"
 
 namespace instep {
 
 std::string tenths(double value) {
-  return fmt::format("{:.1f}", std::round(1000.0 * value) / 1000.0);
+  return fmt::format("{:.1f}", rounded_to(value, 0.001));
 }
 
 std::string interval_text(double value, const std::optional<double>& u95) {

@@ -18,8 +18,8 @@ class SensorEvents {
   /// kDeviceGone once it was unplugged, kIo while it says that something is wrong with it.
   Result<void> look() const;
 
-  /// The same where the sensor has just failed: that may come before the word that it was unplugged,
-  /// which is waited for, up to 0.2 s.
+  /// The same where the sensor has just failed: that may come before the word that it was
+  /// unplugged, which is waited for, up to 0.2 s.
   Result<void> look_after_failure() const;
 
  private:
