@@ -25,6 +25,10 @@ constexpr double kBlendedNoise = 0.5;
 constexpr double kMostWaves = 0.001;
 /// Unseen waves that lengthen a line by less than this part of it are not looked at closer.
 constexpr double kLeastWaves = 1e-6;
+/// A patch is as rough as its points are in all directions; feet and lasts are rougher round their
+/// girths than along them. Measured on both, of 900 to 17,000 exact points, by the second
+/// derivatives of the patches: 1.45 to 1.9.
+constexpr double kBentAcross = 1.6;
 /// Variance of a direction (square radians) beyond which waves would be folds.
 constexpr double kSteepestWaves = 0.01;
 /// What first order leaves out, against the length.
@@ -133,8 +137,9 @@ void add_waves(const Stretch& stretch, double noise, double wandering, Sums& sum
   const double unseen = 0.5 * stretch.length * std::min(wandering, kSteepestWaves);
   sums.unseen_waves += unseen;
   if (unseen < kLeastWaves * stretch.length) return;
-  const double bending = stretch.sheet.patch->fine_bending();
-  sums.likely_waves += bending * bending * unseen;
+  const auto& patch = *stretch.sheet.patch;
+  const double bending = patch.fine_bending();
+  sums.likely_waves += (patch.is_exact() ? kBentAcross : 1.0) * bending * bending * unseen;
 }
 
 void add(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {

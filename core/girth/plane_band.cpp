@@ -48,9 +48,6 @@ constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
 /// Of a section: the texture of skin or a scanner's rounding.
 constexpr double kHarmlessScatter = 3e-4;
-/// Noise up to this part of the section leaves told normals something to say of the skin between
-/// points.
-constexpr double kExactSigma = 3e-7;
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
@@ -232,7 +229,8 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   band.normals_dropped = !normals.empty() && trust == NormalTrust::kNone;
   if (trust == NormalTrust::kNone) normals = shown_normals(cloud, plane, band);
   const double least = 1e-9 * band.spacing;
-  const bool told = trust == NormalTrust::kSlopes && !righted && band.sigma <= kExactSigma &&
+  const bool told = trust == NormalTrust::kSlopes && !righted &&
+                    is_harmless(band.sigma * band.sigma, band.spacing) &&
                     band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {

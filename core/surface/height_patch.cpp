@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/surface/kriging_likelihood.h"
@@ -14,8 +15,6 @@ namespace {
 constexpr std::size_t kFewestForQuadratic = 9;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
-/// Points whose variance is less, in unit scale, are exact: nothing is smoothed.
-constexpr double kExactVariance = 1e-10;
 /// Standard deviation of the logarithm of the roughness round its likely value.
 constexpr double kRoughnessSpread = 4.0;
 /// The roughnesses that are tried, against the likely one.
@@ -46,8 +45,12 @@ constexpr double kLeastSquared = 1e-300;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 
-bool are_exact(double most_variance) {
-  return !(most_variance > kExactVariance);
+/// Whether all points within the radius are.
+bool are_exact(const std::vector<OrientedPoint>& points, double radius) {
+  const double spacing = radius * std::sqrt(std::numbers::pi / static_cast<double>(points.size()));
+  return std::all_of(points.begin(), points.end(), [&](const OrientedPoint& point) {
+    return is_harmless(point.variance, spacing);
+  });
 }
 
 Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward) {
@@ -133,9 +136,9 @@ std::optional<Fit> noisy_fit(HeightKriging kriging, double usual) {
 }
 
 /// Points so many that they were averaged lie so close that all kernels say the same.
-std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, double usual) {
+std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, bool exact,
+                          double usual) {
   const bool few = points < kFewestForQuadratic && !samples.has_slopes();
-  const bool exact = are_exact(samples.variances.maxCoeff());
   std::optional<Fit> fit;
   if (exact && !few && points <= kMostHeightSamples) {
     fit = likeliest_exact_fit(samples, usual);
@@ -165,8 +168,9 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
     patch.cells_ = std::move(averages.cells);
     patch.shares_ = std::move(averages.shares);
   }
-  if (!are_exact(samples.variances.maxCoeff())) samples.slopes.resize(2, 0);
-  auto fit = fit_to(samples, points.size(), std::max(roughness * radius, 1e-12));
+  patch.exact_ = are_exact(points, radius);
+  if (!patch.exact_) samples.slopes.resize(2, 0);
+  auto fit = fit_to(samples, points.size(), patch.exact_, std::max(roughness * radius, 1e-12));
   if (!fit) return std::nullopt;
   patch.misfit_ = fit->misfit;
   patch.wander_ = fit->wander;
@@ -216,16 +220,12 @@ HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& position
   return sums;
 }
 
-bool HeightPatch::is_exact() const {
-  return are_exact(kriging_->level());
-}
-
 bool HeightPatch::is_smooth() const {
   return kriging_->kernel() == HeightKernel::kSeptic;
 }
 
 double HeightPatch::fine_bending() const {
-  if (!is_exact() || !(wander_ > 0.0)) return 1.0;
+  if (!exact_ || !(wander_ > 0.0)) return 1.0;
   return kriging_->left_out(solution_) / wander_;
 }
 

@@ -54,7 +54,7 @@ class HeightPatch {
   double fine_bending() const;
 
   /// Whether the points carry no noise worth smoothing.
-  bool is_exact() const;
+  bool is_exact() const { return exact_; }
 
   /// Whether the points are exact and plainly likelier by the smoothest kernel.
   bool is_smooth() const;
@@ -90,6 +90,7 @@ class HeightPatch {
   Eigen::Vector3d centre_;
   Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards
   double radius_ = 1.0;
+  bool exact_ = false;
   std::optional<HeightKriging> kriging_;
   HeightKriging::Solution solution_;
   Column x_;  ///< of the samples

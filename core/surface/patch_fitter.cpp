@@ -15,8 +15,6 @@ namespace {
 /// Of exact points, half of them are asked first for a crease: the further ones tell no more of it,
 /// but may lie round a second one or on the other side of a thin part.
 constexpr std::size_t kNearerPart = 2;
-/// Variances less than this part of the square of their reach are those of exact points.
-constexpr double kExactVariance = 1e-10;
 /// Lines further apart than so many spacings are told from a chance gap.
 constexpr double kLinesApart = 1.5;
 /// A place whose points have their middle further off, against their reach, lies in a hole; holes
@@ -145,7 +143,7 @@ PatchFitter::Surroundings PatchFitter::surroundings_of(const Eigen::Vector3d& pl
   here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
   here.noise_area = variance * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
-  here.exact = variance <= kExactVariance * here.nearest.back().squared_distance;
+  here.exact = is_harmless(variance, here.spacing);
   return here;
 }
 
