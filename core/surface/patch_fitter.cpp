@@ -60,6 +60,10 @@ constexpr int kMostAttempts = 5;
 constexpr double kTooWide = 1.5;
 /// Or wider, if the points determine no surface yet.
 constexpr double kWidening = 1.6;
+/// Of many exact points: how far off their averages' surface they lie where these blur what the
+/// points tell, root mean square against the radius. On scanned feet of 200,000 points girths were
+/// 0.10 mm short, and are 0.04 with patches of the nearest ones there.
+constexpr double kBlurred = 1e-3;
 /// A crease is so much likelier than one smooth sheet.
 constexpr double kLeastGain = 8.0;
 /// An edge may be round where no points lie: part of what a length over it would lose by that.
@@ -93,6 +97,15 @@ double rounding_of(const CreasedPatch& creased, double spacing) {
   const double half = 0.5 * creased.turn();
   const double lost = 2.0 * creased.gap() * (1.0 - half / std::tan(half));
   return kRounding * std::min(creased.gap() / spacing, 1.0) * lost;
+}
+
+/// Whether a surface through averages of exact points leaves out detail that these tell.
+bool blurs(const HeightPatch& sheet, const std::vector<OrientedPoint>& points, double radius) {
+  if (!sheet.is_exact() || points.size() <= kMostHeightSamples) return false;
+  double squares = 0.0;
+  for (const auto& point : points) squares += std::pow(sheet.at(point.position).value, 2);
+  const double most = kBlurred * radius;
+  return squares > most * most * static_cast<double>(points.size());
 }
 
 }  // namespace
@@ -312,6 +325,16 @@ std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& 
   return fit_creased(surroundings, place, nearer_of(members, place), surroundings.roughness);
 }
 
+/// One smooth sheet over the points that face the same way.
+std::optional<SurfacePatch> PatchFitter::fit_sheet(const Eigen::Vector3d& place,
+                                                   const Members& members, double roughness) const {
+  const auto points = points_at(members.front);
+  auto sheet = HeightPatch::fit(points, place, members.outward, members.front_radius, roughness);
+  if (!sheet) return std::nullopt;
+  return SurfacePatch{
+      place, middle_of(points), members.front_radius, std::move(*sheet), members.front, 0.0};
+}
+
 /// A patch of as many points, but of more lines and fewer points of each, where the points lie on
 /// lines so far apart that few of these are among the nearest. As smooth a surface tells all the
 /// more of a place by them; a rougher one would only have more bends in the patch, and nothing is
@@ -338,12 +361,9 @@ std::optional<SurfacePatch> PatchFitter::fit_across_lines(Surroundings surroundi
             [](const auto& a, const auto& b) { return a.squared_distance < b.squared_distance; });
   nearest.resize(std::min(nearest.size(), surroundings.nearest.size()));
   surroundings.nearest = std::move(nearest);
-  const Members members = members_of(surroundings, place, surroundings.reach);
-  const auto points = points_at(members.front);
-  auto patch = HeightPatch::fit(points, place, members.outward, members.front_radius, roughness);
-  if (!patch || !patch->is_smooth()) return std::nullopt;
-  return SurfacePatch{
-      place, middle_of(points), members.front_radius, std::move(*patch), members.front, 0.0};
+  auto patch = fit_sheet(place, members_of(surroundings, place, surroundings.reach), roughness);
+  if (!patch || !std::get<HeightPatch>(patch->field).is_smooth()) return std::nullopt;
+  return patch;
 }
 
 std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const {
@@ -371,21 +391,22 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
                             *plain, members.front,     plain->variance()};
       }
     }
-    auto smooth = HeightPatch::fit(points, place, members.outward, members.front_radius, likely);
-    if (!smooth) {
+    auto patch = fit_sheet(place, members, likely);
+    if (!patch) {
       // Points on a line, such as one row of a scan, ask for more.
       width = kWidening * members.radius;
       if (attempt == kMostAttempts || width > kWidestHole) return std::nullopt;
       continue;
     }
-    if (smooth->is_smooth() && nearest_only && here.nearest.size() <= rule_.points) {
+    const auto& sheet = std::get<HeightPatch>(patch->field);
+    if (!nearest_only && blurs(sheet, points, patch->radius)) {
+      if (auto finer = fit_sheet(place, members_of(here, place, here.reach), likely)) return finer;
+    }
+    if (sheet.is_smooth() && nearest_only && here.nearest.size() <= rule_.points) {
       if (auto across = fit_across_lines(here, place, likely)) return across;
     }
-    const double fitting = kBandwidths * here.bandwidth(smooth->roughness());
-    if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) {
-      return SurfacePatch{
-          place, middle_of(points), members.front_radius, std::move(*smooth), members.front, 0.0};
-    }
+    const double fitting = kBandwidths * here.bandwidth(sheet.roughness());
+    if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) return patch;
     width = fitting;
   }
 }

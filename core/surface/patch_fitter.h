@@ -80,6 +80,8 @@ class PatchFitter {
                                           double roughness) const;
   std::optional<SurfacePatch> fit_creased_nearby(const Surroundings& surroundings,
                                                  const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> fit_sheet(const Eigen::Vector3d& place, const Members& members,
+                                        double roughness) const;
   std::optional<SurfacePatch> fit_across_lines(Surroundings surroundings,
                                                const Eigen::Vector3d& place,
                                                double roughness) const;
