@@ -13,8 +13,9 @@ namespace instep {
 namespace {
 
 /// How much each part counts against that of the noise, so that intervals hold.
-constexpr double kWandering = 1.4;
+constexpr double kWandering = 1.3;
 constexpr double kUnseenWaves = 1.2;
+constexpr double kUnseenUnderNoise = 1.5;
 constexpr double kDeviations = 1.96;
 /// A surface through points wanders no further between them, against the radius of a patch, however
 /// rough a crease within it seems.
@@ -53,9 +54,9 @@ struct Sums {
   std::vector<double> stretched;
   double contact_wandering = 0.0;  ///< variance
   double stretched_wandering = 0.0;
-  double rounding = 0.0;     ///< variance
-  double noise_waves = 0.0;  ///< length
-  double unseen_waves = 0.0;
+  double rounding = 0.0;      ///< variance
+  double noise_waves = 0.0;   ///< length
+  double unseen_waves = 0.0;  ///< weighed
   double likely_waves = 0.0;  ///< of the unseen ones, those that the points hint at
 };
 
@@ -137,7 +138,7 @@ void add_waves(const Stretch& stretch, double noise, double wandering, Sums& sum
   const auto& patch = *stretch.sheet.patch;
   const double across = patch.is_exact() ? kBentAcross : 1.0;
   const double unseen = 0.5 * across * stretch.length * std::min(wandering, kSteepestWaves);
-  sums.unseen_waves += unseen;
+  sums.unseen_waves += (patch.is_exact() ? kUnseenWaves : kUnseenUnderNoise) * unseen;
   if (unseen < kLeastWaves * stretch.length) return;
   const double bending = patch.fine_bending();
   sums.likely_waves += bending * bending * unseen;
@@ -185,9 +186,9 @@ double half_width(const std::vector<double>& influence, double wandering, const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     noise += influence[i] * influence[i] * points[i].variance;
   }
-  const double unseen = kUnseenWaves * sums.unseen_waves;
   const double variance = noise + kWandering * kWandering * wandering + sums.rounding +
-                          unseen * unseen + sums.noise_waves * sums.noise_waves;
+                          sums.unseen_waves * sums.unseen_waves +
+                          sums.noise_waves * sums.noise_waves;
   return kDeviations * std::sqrt(variance) + kLeast * length;
 }
 
