@@ -12,8 +12,10 @@ namespace instep {
 namespace {
 
 constexpr double kFewestKnots = 8.0;
-/// So near to each other that from the nearest one move of Newton's method is enough.
 constexpr int kCornersFromKnotToKnot = 4;
+/// Of Newton's method from the nearest corner to a foot. After one, feet are off by up to 4e-4 of
+/// the section, which shows where some points are exact.
+constexpr int kMoves = 2;
 /// A foot is looked for as if the point were no further than half-way to where the line bends
 /// round.
 constexpr double kLeastPull = 0.5;
@@ -98,10 +100,12 @@ FairLine::Place FairLine::at(double way) const {
 FairLine::Foot FairLine::foot_of(const Eigen::Vector2d& point) const {
   const double apart = basis_.knots_apart() / kCornersFromKnotToKnot;
   double way = apart * static_cast<double>(corners_.nearest(point));
-  const Curve near = curve_at(way);
-  const Eigen::Vector2d aside = point - near.point;
-  const double squared = near.tangent.squaredNorm();
-  way += aside.dot(near.tangent) / std::max(squared - aside.dot(near.bend), kLeastPull * squared);
+  for (int move = 0; move < kMoves; ++move) {
+    const Curve near = curve_at(way);
+    const Eigen::Vector2d aside = point - near.point;
+    const double squared = near.tangent.squaredNorm();
+    way += aside.dot(near.tangent) / std::max(squared - aside.dot(near.bend), kLeastPull * squared);
+  }
   const Place place = at(way);
   const Eigen::Vector2d offset = point - place.point;
   return {way, place.outward.dot(offset), offset.norm()};

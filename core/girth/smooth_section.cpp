@@ -30,7 +30,7 @@ constexpr double kMostPoints = 20000.0;
 /// much (radians) it turns more between two knots than beside them. Over drawn shapes, feet and
 /// lasts (tests/bench/accuracy) intervals of even sections hold as they should; of sections beyond
 /// these limits, sorted by both, those of most sorts hold in 36 to 75 %.
-constexpr double kMostBending = 0.006;
+constexpr double kMostBending = 0.005;
 constexpr double kMostScatter = 1.15;
 constexpr double kSharpestTurn = 0.15;
 /// From so many points of a band on the line is asked first: it turns as sharply as the section

@@ -224,7 +224,7 @@ double RibbonSpline::try_prices(const Evidence& evidence, const Prices& prices, 
 }
 
 /// In steps until those beside the best are less likely, then to the lowest place of the parabola
-/// through the three.
+/// through the three, in whole steps of the last size: so rounding does not move a price.
 void RibbonSpline::improve_along(const Evidence& evidence, double step, Fit& best) const {
   const auto at = [&, off = best.prices.off](double along) {
     return try_prices(evidence, {along, off}, best);
@@ -241,7 +241,8 @@ void RibbonSpline::improve_along(const Evidence& evidence, double step, Fit& bes
     (down ? below : above) = at(down ? along - step : along + step);
   }
   const double bend = below - 2.0 * here + above;
-  if (std::isfinite(bend) && bend > 0.0) at(along + 0.5 * step * (below - above) / bend);
+  const double moves = std::round(0.5 * step * (below - above) / bend / kLastStep);
+  if (std::isfinite(moves) && moves != 0.0) at(along + moves * kLastStep);
 }
 
 /// The likeliest price along the line hardly depends on that off the plane.

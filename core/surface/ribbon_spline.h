@@ -33,7 +33,7 @@ class RibbonSpline {
  public:
   /// Places along the line closer than `length` / `knots` are not told apart; `knots` is rounded to
   /// a multiple of three, nine at least. Nothing if the points are too few or do not determine the
-  /// heights, or have no noise at all. O(points + 30 x knots).
+  /// heights, or have no noise at all. O(points + 12 x knots).
   static std::optional<RibbonSpline> through(const std::vector<RibbonPoint>& points, double length,
                                              int knots);
 

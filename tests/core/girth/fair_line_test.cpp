@@ -62,7 +62,7 @@ TEST(FairLine, FindsTheNearestPlaceOfAll) {
     const auto from = line->at(random.uniform(0.0, line->length()));
     const Eigen::Vector2d point = from.point + random.uniform(-0.2, 0.4) * from.outward;
     double nearest = std::numeric_limits<double>::infinity();
-    for (double way = 0.0; way < line->length(); way += 1e-3) {
+    for (double way = 0.0; way < line->length(); way += 2.5e-4) {
       nearest = std::min(nearest, (line->at(way).point - point).norm());
     }
     const auto foot = line->foot_of(point);
