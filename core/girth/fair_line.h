@@ -2,9 +2,10 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
-#include "core/girth/contour_index.h"
 #include "core/girth/contour_trace.h"
+#include "core/girth/corner_grid.h"
 #include "core/surface/closed_spline_basis.h"
 
 namespace instep {
@@ -36,11 +37,25 @@ class FairLine {
   double length() const { return basis_.length(); }
 
  private:
-  FairLine(const Contour& contour, Eigen::Index knots);
+  /// From a knot to the next: factors of rising powers of the part of the way.
+  using Piece = Eigen::Matrix<double, 2, 4>;
 
-  ContourIndex corners_;
+  struct Curve {
+    Eigen::Vector2d point;
+    Eigen::Vector2d tangent;
+    Eigen::Vector2d bend;  ///< change of the tangent with the way
+  };
+
+  FairLine(const ClosedSplineBasis& basis, const Eigen::MatrixX2d& terms);
+
+  static std::vector<Piece> pieces_of(const ClosedSplineBasis& basis,
+                                      const Eigen::MatrixX2d& terms);
+  std::vector<Eigen::Vector2d> corners_on_it() const;
+  Curve curve_at(double way) const;
+
   ClosedSplineBasis basis_;
-  Eigen::MatrixX2d terms_;
+  std::vector<Piece> pieces_;
+  CornerGrid corners_;  ///< of some places on the curve, equally many from knot to knot
 };
 
 }  // namespace instep

@@ -21,6 +21,8 @@ constexpr double kLeastTurn = 0.6;
 constexpr double kLeastTurnOfQuadratics = 0.55;
 constexpr double kLeastToldTurn = 0.4;
 constexpr std::size_t kFewestOnASheet = 6;
+/// Of more than twice as many points so many are asked first whether they turn at all.
+constexpr std::size_t kEnoughPoints = 160;
 constexpr int kRounds = 6;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
 /// which they are.
@@ -255,6 +257,39 @@ double distance_to(const Eigen::Vector3d& place, const std::vector<OrientedPoint
   return nearest;
 }
 
+/// Points parted by the sheets that they lie on.
+struct Parts {
+  TwoSheets sheets;
+  std::array<std::vector<OrientedPoint>, 2> points;
+  std::array<std::vector<std::size_t>, 2> members;
+};
+
+/// Nothing if the sheets hardly turn where they meet, as quadratics tell it, or as is told.
+std::optional<Parts> turning_parts(const std::vector<OrientedPoint>& points,
+                                   const Eigen::Vector3d& centre, double radius) {
+  const bool told = all_tell_normals(points);
+  auto sheets = told ? told_sheets(points) : two_sheets(points);
+  if (!sheets) return std::nullopt;
+  Parts parts{std::move(*sheets), {}, {}};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    parts.points[parts.sheets.sides[i]].push_back(points[i]);
+    parts.members[parts.sheets.sides[i]].push_back(i);
+  }
+  if (told) return parts;
+  const auto& [one, other] = parts.sheets.planes;
+  const Crease rough = crease_between(
+      points, parts.sheets, QuadraticSheet(parts.points[0], one.normal, centre, radius),
+      QuadraticSheet(parts.points[1], other.normal, centre, radius));
+  if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
+  return parts;
+}
+
+std::vector<OrientedPoint> one_in(std::size_t stride, const std::vector<OrientedPoint>& points) {
+  std::vector<OrientedPoint> some;
+  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+  return some;
+}
+
 }  // namespace
 
 CreasedPatch::CreasedPatch(Sheet first, Sheet second, bool convex)
@@ -264,29 +299,19 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
                                               const Eigen::Vector3d& centre, double radius,
                                               double roughness) {
   if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
-  const bool told = all_tell_normals(points);
-  const auto sheets = told ? told_sheets(points) : two_sheets(points);
-  if (!sheets) return std::nullopt;
-  std::array<std::vector<OrientedPoint>, 2> parts;
-  std::array<std::vector<std::size_t>, 2> members;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    parts[sheets->sides[i]].push_back(points[i]);
-    members[sheets->sides[i]].push_back(i);
-  }
-  const auto& [one, other] = sheets->planes;
-  if (!told) {
-    const Crease rough =
-        crease_between(points, *sheets, QuadraticSheet(parts[0], one.normal, centre, radius),
-                       QuadraticSheet(parts[1], other.normal, centre, radius));
-    if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
-  }
+  const std::size_t stride = points.size() / kEnoughPoints;
+  if (stride > 1 && !turning_parts(one_in(stride, points), centre, radius)) return std::nullopt;
+  auto turning = turning_parts(points, centre, radius);
+  if (!turning) return std::nullopt;
+  auto& [sheets, parts, members] = *turning;
+  const auto& [one, other] = sheets.planes;
   auto first = HeightPatch::fit(parts[0], centre, one.normal, radius, roughness);
   if (!first) return std::nullopt;
   auto second = HeightPatch::fit(parts[1], centre, other.normal, radius, roughness);
   if (!second) return std::nullopt;
-  const Crease crease = crease_between(points, *sheets, *first, *second);
+  const Crease crease = crease_between(points, sheets, *first, *second);
   CreasedPatch patch({std::move(*first), std::move(members[0])},
-                     {std::move(*second), std::move(members[1])}, sheets->convex);
+                     {std::move(*second), std::move(members[1])}, sheets.convex);
   patch.turn_ = crease.turn;
   patch.gap_ = std::max(distance_to(crease.place, parts[0]), distance_to(crease.place, parts[1]));
   return patch;

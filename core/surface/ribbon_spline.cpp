@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/median.h"
 
@@ -24,11 +25,12 @@ constexpr double kFreeTerms = 3.0;
 /// Products of the second differences of a knot's term with those of the terms ahead.
 constexpr std::array<double, 3> kFourthDifference = {6.0, -4.0, 1.0};
 
-/// Logarithms: prices off the plane that are tried, from a parabola to nearly free; the first price
-/// along the line; steps in which that is looked for.
-constexpr std::array<double, 3> kOffPrices = {3.0, -3.0, -9.0};
+/// Logarithms: prices off the plane that are tried, of which the largest leaves a parabola; the
+/// first price along the line; steps in which that is looked for, first and without strays.
+constexpr std::array<double, 3> kOffPrices = {-3.0, 3.0, -9.0};
 constexpr double kFirstAlong = 2.0;
-constexpr std::array<double, 3> kSteps = {3.0, 1.5, 0.75};
+constexpr double kFirstStep = 3.0;
+constexpr double kLastStep = 0.75;
 constexpr double kLeastAlong = -14.0;
 constexpr double kMostAlong = 20.0;
 
@@ -37,20 +39,44 @@ constexpr double kFarOff = 2.5;
 constexpr double kStray = 6.0;
 constexpr double kSigmaOfMedian = 1.4826;
 
+/// From the power of none on.
+template <int kCount>
+Eigen::Matrix<double, kCount, 1> powers_of(double value) {
+  Eigen::Matrix<double, kCount, 1> powers;
+  powers[0] = 1.0;
+  for (int i = 1; i < kCount; ++i) powers[i] = powers[i - 1] * value;
+  return powers;
+}
+
+/// Of two cubic polynomials, told by their factors of rising powers.
+Eigen::Matrix<double, 7, 1> product_of(const Eigen::RowVector4d& one,
+                                       const Eigen::RowVector4d& other) {
+  Eigen::Matrix<double, 7, 1> product = Eigen::Matrix<double, 7, 1>::Zero();
+  for (int i = 0; i < 4; ++i) product.segment<4>(i) += one[i] * other.transpose();
+  return product;
+}
+
 }  // namespace
 
 RibbonSpline::RibbonSpline(double length, int knots)
     : basis_(length, kKnotsInBlock * std::max(3, (knots + 1) / kKnotsInBlock)) {}
 
-/// Legendre's polynomials.
-RibbonSpline::Columns RibbonSpline::columns_at(double off) {
-  Columns columns;
-  columns[0] = 1.0;
-  columns[1] = off;
-  for (int i = 2; i < kColumns; ++i) {
-    columns[i] = ((2 * i - 1) * off * columns[i - 1] - (i - 1) * columns[i - 2]) / i;
-  }
-  return columns;
+/// Sums over points, a row for each power of what they are off the plane and a column for each
+/// power of their part of the way: nothing else of a point matters.
+struct RibbonSpline::Moments {
+  Eigen::Matrix<double, Powers::SizeAtCompileTime, 7> certainties = decltype(certainties)::Zero();
+  Eigen::Matrix<double, kColumns + 1, 4> heights = decltype(heights)::Zero();
+};
+
+/// Legendre's polynomials: a row for each, its factors of rising powers.
+RibbonSpline::Square RibbonSpline::legendre() {
+  Square factors;
+  factors << 1.0, 0.0, 0.0, 0.0, 0.0,  //
+      0.0, 1.0, 0.0, 0.0, 0.0,         //
+      -0.5, 0.0, 1.5, 0.0, 0.0,        //
+      0.0, -1.5, 0.0, 2.5, 0.0,        //
+      0.375, 0.0, -3.75, 0.0, 4.375;
+  return factors;
 }
 
 /// Adds what a knot's terms have with those of the one so many ahead: to both of its places where
@@ -70,44 +96,52 @@ void RibbonSpline::add_ahead(std::size_t knot, int ahead, const Square& square, 
 
 /// Of Legendre's polynomials with each other, from sums of the powers of what they are taken at.
 RibbonSpline::Square RibbonSpline::products_of_columns(const Powers& powers) {
-  Square legendre;
-  legendre << 1.0, 0.0, 0.0, 0.0, 0.0,  //
-      0.0, 1.0, 0.0, 0.0, 0.0,          //
-      -0.5, 0.0, 1.5, 0.0, 0.0,         //
-      0.0, -1.5, 0.0, 2.5, 0.0,         //
-      0.375, 0.0, -3.75, 0.0, 4.375;
   Square products;
   for (int i = 0; i < kColumns; ++i) products.col(i) = powers.segment<kColumns>(i);
-  return legendre * products * legendre.transpose();
+  return legendre() * products * legendre().transpose();
+}
+
+std::vector<RibbonSpline::Moments> RibbonSpline::moments_of(const std::vector<RibbonPoint>& points,
+                                                            Evidence& evidence) const {
+  std::vector<Moments> moments(static_cast<std::size_t>(basis_.knots()));
+  for (const auto& point : points) {
+    if (!(point.certainty > 0.0)) continue;
+    const auto [knot, part] = basis_.place_of(point.way);
+    const auto along = powers_of<7>(part);
+    const Powers off = point.certainty * powers_of<Powers::SizeAtCompileTime>(point.off);
+    Moments& here = moments[static_cast<std::size_t>(knot)];
+    here.certainties.noalias() += off * along.transpose();
+    here.heights.noalias() += point.height * off.head<kColumns + 1>() * along.head<4>().transpose();
+    evidence.squares += point.certainty * point.height * point.height;
+    evidence.count += 1.0;
+  }
+  return moments;
 }
 
 RibbonSpline::Evidence RibbonSpline::evidence_of(const std::vector<RibbonPoint>& points) const {
   const auto knots = static_cast<std::size_t>(basis_.knots());
+  Evidence evidence{{}, Eigen::VectorXd::Zero(basis_.knots() * kColumns)};
+  const auto moments = moments_of(points, evidence);
   // Of each knot with itself and the three ahead of it.
   std::vector<std::array<Powers, 4>> ahead(
       knots, {Powers::Zero(), Powers::Zero(), Powers::Zero(), Powers::Zero()});
-  Evidence evidence{{}, Eigen::VectorXd::Zero(basis_.knots() * kColumns)};
-  for (const auto& point : points) {
-    if (!(point.certainty > 0.0)) continue;
-    const auto spot = basis_.at(point.way);
-    const Columns columns = point.certainty * point.height * columns_at(point.off);
-    Powers powers;
-    powers[0] = point.certainty;
-    for (int i = 1; i < kPowers; ++i) powers[i] = powers[i - 1] * point.off;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto knot = static_cast<std::size_t>(spot.terms[i]);
-      const double value = spot.values[static_cast<Eigen::Index>(i)];
-      evidence.right.segment<kColumns>(spot.terms[i] * kColumns) += value * columns;
-      for (std::size_t j = i; j < 4; ++j) {
-        ahead[knot][j - i] += value * spot.values[static_cast<Eigen::Index>(j)] * powers;
+  const Eigen::Matrix4d splines = ClosedSplineBasis::polynomials();
+  for (std::size_t from = 0; from < knots; ++from) {
+    const auto terms = basis_.terms_from(static_cast<Eigen::Index>(from));
+    const Piece heights = moments[from].heights.topRows<kColumns>().transpose();
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      const Eigen::Index term = terms[static_cast<std::size_t>(i)];
+      evidence.right.segment<kColumns>(term * kColumns) +=
+          legendre() * (splines.row(i) * heights).transpose();
+      auto& products = ahead[static_cast<std::size_t>(term)];
+      for (Eigen::Index j = i; j < 4; ++j) {
+        products[static_cast<std::size_t>(j - i)] +=
+            moments[from].certainties * product_of(splines.row(i), splines.row(j));
       }
     }
-    evidence.squares += point.certainty * point.height * point.height;
-    evidence.count += 1.0;
   }
-  const std::size_t blocks = knots / kKnotsInBlock;
-  evidence.products.own.assign(blocks, System::Block::Zero());
-  evidence.products.next.assign(blocks, System::Block::Zero());
+  evidence.products.own.assign(knots / kKnotsInBlock, System::Block::Zero());
+  evidence.products.next.assign(knots / kKnotsInBlock, System::Block::Zero());
   for (std::size_t knot = 0; knot < knots; ++knot) {
     for (int i = 0; i < 4; ++i) {
       const Powers& powers = ahead[knot][static_cast<std::size_t>(i)];
@@ -143,13 +177,6 @@ void RibbonSpline::add_prices(const Prices& prices, System& system) const {
   }
 }
 
-std::optional<RibbonSpline::Cholesky> RibbonSpline::solved(const Evidence& evidence,
-                                                           const Prices& prices) const {
-  System system = evidence.products;
-  add_prices(prices, system);
-  return Cholesky::of(system);
-}
-
 /// Logarithm of the product of all prices that are not zero: the waves round the line each have
 /// theirs.
 double RibbonSpline::log_price(const Prices& prices) const {
@@ -169,59 +196,88 @@ double RibbonSpline::log_price(const Prices& prices) const {
   return sum;
 }
 
-/// Minus twice the logarithm of the restricted likelihood, but for a constant, with the likeliest
-/// noise.
-double RibbonSpline::unlikelihood(const Evidence& evidence, const Prices& prices) const {
+/// With minus twice the logarithm of the restricted likelihood, but for a constant, with the
+/// likeliest noise. Nothing where the points and the prices do not determine the terms.
+std::optional<RibbonSpline::Fit> RibbonSpline::fit(const Evidence& evidence,
+                                                   const Prices& prices) const {
+  System system = evidence.products;
+  add_prices(prices, system);
+  auto cholesky = Cholesky::of(system);
+  if (!cholesky) return std::nullopt;
+  Eigen::VectorXd terms = cholesky->solve(evidence.right);
+  const double left = evidence.squares - evidence.right.dot(terms);
+  if (!(left > 0.0)) return std::nullopt;
+  const double unlikelihood = (evidence.count - kFreeTerms) * std::log(left) +
+                              cholesky->log_determinant() - log_price(prices);
+  return Fit{prices, std::move(*cholesky), std::move(terms), left, unlikelihood};
+}
+
+/// Takes the fit at other prices if it is likelier; tells how unlikely it is.
+double RibbonSpline::try_prices(const Evidence& evidence, const Prices& prices, Fit& best) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  const auto cholesky = solved(evidence, prices);
-  if (!cholesky) return kNever;
-  const double left = evidence.squares - evidence.right.dot(cholesky->solve(evidence.right));
-  if (!(left > 0.0)) return kNever;
-  return (evidence.count - kFreeTerms) * std::log(left) + cholesky->log_determinant() -
-         log_price(prices);
+  if (prices.along < kLeastAlong || prices.along > kMostAlong) return kNever;
+  auto tried = fit(evidence, prices);
+  if (!tried) return kNever;
+  const double unlikelihood = tried->unlikelihood;
+  if (unlikelihood < best.unlikelihood) best = std::move(*tried);
+  return unlikelihood;
 }
 
-/// Goes on in one direction while that gets likelier.
-void RibbonSpline::improve_along(const Evidence& evidence, double step, Prices& prices,
-                                 double& unlikely) const {
-  for (const double move : {step, -step}) {
-    bool moved = false;
-    for (;;) {
-      const Prices tried{std::clamp(prices.along + move, kLeastAlong, kMostAlong), prices.off};
-      if (tried.along == prices.along) break;
-      const double there = unlikelihood(evidence, tried);
-      if (!(there < unlikely)) break;
-      prices = tried;
-      unlikely = there;
-      moved = true;
-    }
-    if (moved) return;
+/// In steps until those beside the best are less likely, then to the lowest place of the parabola
+/// through the three, in whole steps of the last size: so rounding does not move a price.
+void RibbonSpline::improve_along(const Evidence& evidence, double step, Fit& best) const {
+  const auto at = [&, off = best.prices.off](double along) {
+    return try_prices(evidence, {along, off}, best);
+  };
+  double along = best.prices.along;
+  double here = best.unlikelihood;
+  double below = at(along - step);
+  double above = at(along + step);
+  while (best.prices.along != along) {
+    const bool down = best.prices.along < along;
+    (down ? above : below) = here;
+    along = best.prices.along;
+    here = best.unlikelihood;
+    (down ? below : above) = at(down ? along - step : along + step);
   }
+  const double bend = below - 2.0 * here + above;
+  const double moves = std::round(0.5 * step * (below - above) / bend / kLastStep);
+  if (std::isfinite(moves) && moves != 0.0) at(along + moves * kLastStep);
 }
 
-RibbonSpline::Prices RibbonSpline::likeliest(const Evidence& evidence) const {
-  Prices best{kFirstAlong, kOffPrices.front()};
-  double least = std::numeric_limits<double>::infinity();
+/// The likeliest price along the line hardly depends on that off the plane.
+std::optional<RibbonSpline::Fit> RibbonSpline::likeliest(const Evidence& evidence) const {
+  std::optional<Fit> best;
   for (const double off : kOffPrices) {
-    Prices prices{best.along, off};
-    double unlikely = unlikelihood(evidence, prices);
-    improve_along(evidence, kSteps.front(), prices, unlikely);
-    if (!(unlikely < least)) continue;
-    least = unlikely;
-    best = prices;
+    if (!best) {
+      best = fit(evidence, {kFirstAlong, off});
+    } else {
+      try_prices(evidence, {best->prices.along, off}, *best);
+    }
+    if (best && best->prices.off == off) improve_along(evidence, kFirstStep, *best);
   }
-  for (const double step : kSteps) improve_along(evidence, step, best, least);
   return best;
 }
 
-bool RibbonSpline::settle(const Evidence& evidence, const Prices& prices) {
-  prices_ = prices;
-  cholesky_ = solved(evidence, prices);
-  if (!cholesky_) return false;
-  terms_ = cholesky_->solve(evidence.right);
-  const double left = evidence.squares - evidence.right.dot(terms_);
-  sigma_ = std::sqrt(left / (evidence.count - kFreeTerms));
+bool RibbonSpline::settle(std::optional<Fit> fit, double count) {
+  if (!fit) return false;
+  fit_ = std::move(fit);
+  sigma_ = std::sqrt(fit_->left / (count - kFreeTerms));
+  set_pieces();
   return sigma_ > 0.0;
+}
+
+void RibbonSpline::set_pieces() {
+  const Eigen::Matrix4d splines = ClosedSplineBasis::polynomials();
+  pieces_.assign(static_cast<std::size_t>(basis_.knots()), Piece::Zero());
+  for (std::size_t from = 0; from < pieces_.size(); ++from) {
+    const auto terms = basis_.terms_from(static_cast<Eigen::Index>(from));
+    for (Eigen::Index i = 0; i < 4; ++i) {
+      const Eigen::Index row = terms[static_cast<std::size_t>(i)] * kColumns;
+      pieces_[from] += splines.row(i).transpose() *
+                       (fit_->terms.segment<kColumns>(row).transpose() * legendre());
+    }
+  }
 }
 
 RibbonSpline::Evidence RibbonSpline::without_strays(Evidence evidence,
@@ -251,13 +307,12 @@ std::optional<RibbonSpline> RibbonSpline::through(const std::vector<RibbonPoint>
   if (points.size() < kFewestPoints) return std::nullopt;
   RibbonSpline spline(length, knots);
   const Evidence first = spline.evidence_of(points);
-  if (!spline.settle(first, spline.likeliest(first))) return std::nullopt;
+  if (!spline.settle(spline.likeliest(first), first.count)) return std::nullopt;
   const Evidence second = spline.without_strays(first, points);
   if (second.count < kFewestPoints) return std::nullopt;
-  Prices prices = spline.prices_;
-  double unlikely = spline.unlikelihood(second, prices);
-  spline.improve_along(second, kSteps.back(), prices, unlikely);
-  if (!spline.settle(second, prices)) return std::nullopt;
+  auto best = spline.fit(second, spline.fit_->prices);
+  if (best) spline.improve_along(second, kLastStep, *best);
+  if (!spline.settle(std::move(best), second.count)) return std::nullopt;
   return spline;
 }
 
@@ -266,22 +321,17 @@ RibbonSpline::Height RibbonSpline::at(double way) const {
 }
 
 RibbonSpline::Height RibbonSpline::height(double way, double off) const {
-  const auto spot = basis_.at(way);
-  const Columns columns = columns_at(off);
-  Height read;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Index row = spot.terms[static_cast<std::size_t>(i)] * kColumns;
-    const double term = columns.dot(terms_.segment<kColumns>(row));
-    read.value += spot.values[i] * term;
-    read.slope += spot.slopes[i] * term;
-  }
-  return read;
+  const auto [knot, part] = basis_.place_of(way);
+  const Eigen::Vector4d cubic = pieces_[static_cast<std::size_t>(knot)] * powers_of<kColumns>(off);
+  const double slope = cubic[1] + part * (2.0 * cubic[2] + part * 3.0 * cubic[3]);
+  return {cubic[0] + part * (cubic[1] + part * (cubic[2] + part * cubic[3])),
+          slope / basis_.knots_apart()};
 }
 
 double RibbonSpline::variance_of_sum(const std::vector<double>& ways,
                                      const std::vector<double>& shares) const {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(terms_.size());
-  const Columns columns = columns_at(0.0);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(fit_->terms.size());
+  const Columns columns = legendre().col(0);  // on the plane
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const auto spot = basis_.at(ways[i]);
     for (int k = 0; k < 4; ++k) {
@@ -289,11 +339,11 @@ double RibbonSpline::variance_of_sum(const std::vector<double>& ways,
       sum.segment<kColumns>(row) += shares[i] * spot.values[k] * columns;
     }
   }
-  return sigma_ * sigma_ * sum.dot(cholesky_->solve(sum));
+  return sigma_ * sigma_ * sum.dot(fit_->cholesky.solve(sum));
 }
 
 double RibbonSpline::bending() const {
-  return sigma_ * std::exp(-0.5 * prices_.along);
+  return sigma_ * std::exp(-0.5 * fit_->prices.along);
 }
 
 }  // namespace instep

@@ -33,7 +33,7 @@ class RibbonSpline {
  public:
   /// Places along the line closer than `length` / `knots` are not told apart; `knots` is rounded to
   /// a multiple of three, nine at least. Nothing if the points are too few or do not determine the
-  /// heights, or have no noise at all. O(points + 30 x knots).
+  /// heights, or have no noise at all. O(points + 12 x knots).
   static std::optional<RibbonSpline> through(const std::vector<RibbonPoint>& points, double length,
                                              int knots);
 
@@ -58,10 +58,14 @@ class RibbonSpline {
   static constexpr int kColumns = 5;
   static constexpr int kKnotsInBlock = 3;
   static constexpr int kSide = kColumns * kKnotsInBlock;
-  static constexpr int kPowers = 2 * kColumns - 1;
   using Columns = Eigen::Matrix<double, kColumns, 1>;
   using Square = Eigen::Matrix<double, kColumns, kColumns>;
-  using Powers = Eigen::Matrix<double, kPowers, 1>;
+  /// Those of what the columns are taken at that products of two have, and one more: they are
+  /// summed in pairs.
+  using Powers = Eigen::Matrix<double, 2 * kColumns, 1>;
+  /// From a knot to the next the heights are a polynomial of the part of the way (a row for each
+  /// power) and of what is off the plane.
+  using Piece = Eigen::Matrix<double, 4, kColumns>;
   using System = CyclicSystem<kSide>;
   using Cholesky = CyclicCholesky<kSide>;
 
@@ -76,33 +80,45 @@ class RibbonSpline {
     System products;
     Eigen::VectorXd right;
     double squares = 0.0;
-    double count = 0.0;
+    double count = 0.0;  ///< of points
 
     /// Takes what other points say from it; not their number.
     void take(const Evidence& less);
   };
 
+  /// What they make of it at some prices.
+  struct Fit {
+    Prices prices;
+    Cholesky cholesky;
+    Eigen::VectorXd terms;  ///< of the columns, knot by knot
+    double left = 0.0;      ///< squares that the terms leave, and pay
+    double unlikelihood = 0.0;
+  };
+
   RibbonSpline(double length, int knots);
 
-  static Columns columns_at(double off);
+  /// What the points from a knot to the next say.
+  struct Moments;
+
+  static Square legendre();
   static Square products_of_columns(const Powers& powers);
   static void add_ahead(std::size_t knot, int ahead, const Square& square, System& system);
+  std::vector<Moments> moments_of(const std::vector<RibbonPoint>& points, Evidence& evidence) const;
   Evidence evidence_of(const std::vector<RibbonPoint>& points) const;
   void add_prices(const Prices& prices, System& system) const;
-  std::optional<Cholesky> solved(const Evidence& evidence, const Prices& prices) const;
+  std::optional<Fit> fit(const Evidence& evidence, const Prices& prices) const;
   double log_price(const Prices& prices) const;
-  double unlikelihood(const Evidence& evidence, const Prices& prices) const;
-  void improve_along(const Evidence& evidence, double step, Prices& prices,
-                     double& unlikelihood) const;
-  Prices likeliest(const Evidence& evidence) const;
-  bool settle(const Evidence& evidence, const Prices& prices);
+  double try_prices(const Evidence& evidence, const Prices& prices, Fit& best) const;
+  void improve_along(const Evidence& evidence, double step, Fit& best) const;
+  std::optional<Fit> likeliest(const Evidence& evidence) const;
+  bool settle(std::optional<Fit> fit, double count);
+  void set_pieces();
   Height height(double way, double off) const;
   Evidence without_strays(Evidence evidence, const std::vector<RibbonPoint>& points) const;
 
   ClosedSplineBasis basis_;
-  Prices prices_;
-  std::optional<Cholesky> cholesky_;
-  Eigen::VectorXd terms_;  ///< of the columns, knot by knot
+  std::optional<Fit> fit_;
+  std::vector<Piece> pieces_;  ///< its terms, from knot to knot
   double sigma_ = 0.0;
 };
 

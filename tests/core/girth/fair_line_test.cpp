@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+
+#include "tests/support/random_numbers.h"
 
 namespace instep {
 namespace {
@@ -46,6 +50,25 @@ TEST(FairLine, FindsHeightsOverTheCurveNotOverItsChords) {
                                  line->length()),
                   0.0, 2e-3);
     }
+  }
+}
+
+/// Looks at places all along the line.
+TEST(FairLine, FindsTheNearestPlaceOfAll) {
+  const auto line = FairLine::through(circle(400, 0.12, 3), 0.25);
+  ASSERT_TRUE(line);
+  test::RandomNumbers random(1);
+  for (int i = 0; i < 200; ++i) {
+    const auto from = line->at(random.uniform(0.0, line->length()));
+    const Eigen::Vector2d point = from.point + random.uniform(-0.2, 0.4) * from.outward;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (double way = 0.0; way < line->length(); way += 2.5e-4) {
+      nearest = std::min(nearest, (line->at(way).point - point).norm());
+    }
+    const auto foot = line->foot_of(point);
+    EXPECT_NEAR(foot.distance, nearest, 2e-4) << point.transpose();
+    EXPECT_NEAR((line->at(foot.way).point - point).norm(), foot.distance, 1e-12);
+    EXPECT_NEAR(std::abs(foot.height), foot.distance, 2e-4);
   }
 }
 
