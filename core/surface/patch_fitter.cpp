@@ -41,6 +41,8 @@ constexpr int kAveragedInSpace = 6;
 constexpr double kTwin = 0.02;
 /// A patch is at least this part of the body wide.
 constexpr double kLeastReach = 0.033;
+/// Neighbours that reach no further are a crowd: of exact ones a polynomial may tell all.
+constexpr double kCrowdedReach = 0.04;
 /// Cosine to the outward direction of normals that tell of no crease, and how many, and which part
 /// of all, must tell of one.
 constexpr double kHardlyBent = 0.93;
@@ -367,7 +369,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     }
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
     const auto points = points_at(members.front);
-    if (here.exact && points.size() > kMostHeightSamples) {
+    if (here.exact && here.reach <= kCrowdedReach) {
       if (auto plain = QuinticPatch::fit(points, place, members.outward, members.front_radius)) {
         return SurfacePatch{place,  middle_of(points), members.front_radius,
                             *plain, members.front,     plain->variance()};
