@@ -75,6 +75,11 @@ class PatchFitter {
   bool is_thin(const Neighbours& nearest) const;
   std::optional<SurfacePatch> fit_in_space(const Surroundings& surroundings,
                                            const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> fit_plain(const Surroundings& surroundings,
+                                        const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> plain_patch(const Neighbours& found, double reach,
+                                          const Eigen::Vector3d& outward,
+                                          const Eigen::Vector3d& place) const;
   std::optional<SurfacePatch> fit_creased(const Surroundings& surroundings,
                                           const Eigen::Vector3d& place, const Members& members,
                                           double roughness) const;

@@ -13,7 +13,7 @@ constexpr int kTerms = QuinticPatch::kTerms;
 /// Points for each term: fewer let the polynomial bend between them.
 constexpr Eigen::Index kPointsForATerm = 2;
 /// Of the points round the polynomial, against the square of the radius.
-constexpr double kMostVariance = 1e-9;
+constexpr double kMostVariance = 8e-9;
 /// The variance of the height at the centre, against that of a point over their number: 9 where
 /// they lie evenly all round.
 constexpr double kMostAtCentre = 18.0;
