@@ -39,6 +39,22 @@ bool is_near_origin(const Eigen::Vector3d& place) {
          std::abs(place.y()) <= kLargestCoordinateMm && std::abs(place.z()) <= kLargestCoordinateMm;
 }
 
+/// The first point that is not. That none is is plain of many at once: no coordinate is larger than
+/// the root of the sum of all squares.
+std::size_t first_far_from_origin(const std::vector<Eigen::Vector3d>& places) {
+  constexpr std::size_t kAtOnce = 256;
+  for (std::size_t begin = 0; begin < places.size(); begin += kAtOnce) {
+    const std::size_t end = std::min(begin + kAtOnce, places.size());
+    const Eigen::Map<const Eigen::VectorXd> coordinates(
+        places[begin].data(), static_cast<Eigen::Index>(3 * (end - begin)));
+    if (coordinates.squaredNorm() <= kLargestCoordinateMm * kLargestCoordinateMm) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_near_origin(places[i])) return i;
+    }
+  }
+  return places.size();
+}
+
 tl::unexpected<Error> bad_point(std::size_t index, const std::string& what) {
   return fail(ErrorCode::kInvalidInput, "point " + std::to_string(index) + " " + what,
               "repair or export the cloud again");
@@ -92,8 +108,7 @@ Result<void> check_cloud(const PointCloud& cloud) {
   if (!cloud.is_consistent()) {
     return fail(ErrorCode::kInternal, "the lists of a cloud differ in length", "report this");
   }
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (is_near_origin(cloud.positions[i])) continue;
+  if (const std::size_t i = first_far_from_origin(cloud.positions); i < cloud.size()) {
     return bad_point(i, cloud.positions[i].allFinite() ? "lies more than 100 m from the origin"
                                                        : "has a coordinate that is no number");
   }

@@ -19,8 +19,10 @@
 namespace instep {
 namespace {
 
-/// Steps in grains: short ones place the patches evenly, longer ones read the finished field.
+/// Steps in grains: short ones place the patches evenly, longer ones read the finished field. Of a
+/// thinned crowd patches reach as far in any case.
 constexpr double kDraftStep = 0.4;
+constexpr double kDraftStepInThinned = 0.8;
 constexpr double kReadingStep = 0.6;
 /// Points further from the contour or the plane than this many grains are no evidence for it.
 constexpr double kEvidenceInGrains = 2.5;
@@ -79,6 +81,7 @@ std::vector<std::size_t> starts_of(const PlaneBand& band) {
 /// Follows every loop that starts near a point on the plane and round which the body lies inside.
 std::vector<Loop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
   std::vector<Loop> loops;
+  const double draft_step = band.thinned_out > 0 ? kDraftStepInThinned : kDraftStep;
   int starts = 0;
   for (const std::size_t candidate : starts_of(band)) {
     const Eigen::Vector2d start = band.points[candidate].position.head<2>();
@@ -89,7 +92,7 @@ std::vector<Loop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
     if (++starts > kMostStarts || loops.size() >= kMostLoops) break;
     // The first round places the patches, the second reads the finished field.
     const auto draft =
-        trace_contour(surface, start, kDraftStep * band.grain, kWidestBridge, kLongestSection);
+        trace_contour(surface, start, draft_step * band.grain, kWidestBridge, kLongestSection);
     if (!draft) continue;
     auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.grain,
                                  kWidestBridge, kLongestSection);
@@ -273,7 +276,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   girth.stretched_u95_mm = band->unit_mm * section.stretched_u95;
   girth.contact_u95_mm = band->unit_mm * section.contact_u95;
   girth.points = cloud.size();
-  girth.band_points = band->points.size();
+  girth.band_points = band->points.size() + band->thinned_out;
   girth.sigma_mm = band->unit_mm * band->sigma;
   girth.largest_gap_mm = band->unit_mm * evidence.seen_gap;
   add_warnings(*band, loops, evidence, layers, doubt, girth);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/geometry/crowding_points.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
@@ -40,8 +41,12 @@ constexpr double kGrainInSigmas = 2.0;
 constexpr double kCoarsestGrain = 0.018;
 /// Points nearer than this part of the section tell no more than fewer would.
 constexpr double kFinestGrain = 0.0075;
-/// Side of the cells that share a normal, and the fewest points for one.
+/// Points that stand nearer than this part of that may be thinned.
+constexpr double kCrowded = 0.85;
+/// Side of the cells that share a normal, as large in a thinned crowd as in a cloud of half
+/// its points, and the fewest points for one.
 constexpr double kNormalCellInGrains = 1.5;
+constexpr double kNormalCellInThinned = 2.2;
 constexpr double kNormalCellInSigmas = 3.3;
 /// Of a cell, against the section: three of them in a row must not reach round the body.
 constexpr double kLargestNormalCell = 0.05;
@@ -90,10 +95,25 @@ Result<Probe> probe(SlabSource& slabs) {
               "give control points on the body, or a denser cloud");
 }
 
-/// The points within `half_width` of the plane; lengths in the probe's unit.
-PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
+/// Leaves out the points that are marked.
+PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
+  PlaneSlab rest;
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    if (marked[i]) continue;
+    rest.indices.push_back(slab.indices[i]);
+    rest.places.push_back(slab.places[i]);
+  }
+  return rest;
+}
+
+/// Seen from the plane; lengths in the probe's unit.
+PlaneSlab slab_of(SlabSource& slabs, const Probe& found, double half_width) {
   PlaneSlab slab = slabs.slab(half_width * found.unit_mm);
   for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
+  return slab;
+}
+
+PlaneBand band_of(PlaneSlab slab, const Probe& found) {
   PlaneBand band{.unit_mm = found.unit_mm,
                  .middle_mm = found.middle_mm.head<2>(),
                  .points = {},
@@ -104,6 +124,11 @@ PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
                  .roughness = {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
   return band;
+}
+
+/// The points within `half_width` of the plane.
+PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
+  return band_of(slab_of(slabs, found, half_width), found);
 }
 
 /// Leaves out the points that are marked.
@@ -189,6 +214,45 @@ NoiseEstimate noise_of(const PointCloud& cloud, const PlaneBand& band,
                         told_sigmas(cloud, band, sigma_mm));
 }
 
+/// A band, and in its unit what its points show of noise.
+struct BandAndNoise {
+  PlaneBand band;
+  NoiseEstimate noise;
+};
+
+/// Of points that crowd, of which nothing is told and which are exact wherever they are looked at,
+/// as many as tell the same: those left out would tell it again. Nothing of others.
+std::optional<BandAndNoise> thinned(SlabSource& slabs, const Probe& found) {
+  const PointCloud& cloud = slabs.cloud();
+  const bool told = cloud.has_normals() || cloud.has_sigma() || !cloud.origins.empty();
+  if (told || found.spacing > kCrowded * kFinestGrain) return std::nullopt;
+  const PlaneSlab slab = slab_of(slabs, found, kBandInGrains * kFinestGrain);
+  PlaneBand band = band_of(without(crowding_points(slab.places, kFinestGrain), slab), found);
+  band.thinned_out = slab.places.size() - band.sources.size();
+  band.grain = grain_of(band.spacing, 0.0);
+  auto noise = estimate_if_exact(band.index.points(), band.index, along_the_plane(cloud, band));
+  if (!noise) return std::nullopt;
+  drop_strays(band);
+  // What strays are beside them the whole crowd tells.
+  if (band.strays > 0) return std::nullopt;
+  return BandAndNoise{std::move(band), std::move(*noise)};
+}
+
+/// All points of as wide a band as they ask for. Nothing if they form no surface.
+std::optional<BandAndNoise> whole(SlabSource& slabs, const Probe& found,
+                                  std::optional<double> sigma_mm) {
+  PlaneBand band = gather_enough(slabs, found, 0.0);
+  drop_strays(band);
+  if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return std::nullopt;
+  NoiseEstimate noise = noise_of(slabs.cloud(), band, sigma_mm);
+  if (grain_of(band.spacing, noise.sigma) > band.grain) {
+    band = gather_enough(slabs, found, noise.sigma);
+    drop_strays(band);
+    if (band.sources.size() < kFewestPoints) return std::nullopt;
+  }
+  return BandAndNoise{std::move(band), std::move(noise)};
+}
+
 /// A direction of the cloud as the plane sees it.
 Eigen::Vector3d turned(const Eigen::Vector3d& direction, const TapePlane& plane) {
   return {plane.u().dot(direction), plane.v().dot(direction), plane.normal().dot(direction)};
@@ -208,9 +272,9 @@ std::vector<Eigen::Vector3d> told_normals(const PointCloud& cloud, const TapePla
 /// Those that the points show.
 std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePlane& plane,
                                            const PlaneBand& band) {
+  const double grains = band.thinned_out > 0 ? kNormalCellInThinned : kNormalCellInGrains;
   const double side =
-      std::min(std::max(kNormalCellInGrains * band.grain, kNormalCellInSigmas * band.sigma),
-               kLargestNormalCell);
+      std::min(std::max(grains * band.grain, kNormalCellInSigmas * band.sigma), kLargestNormalCell);
   CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
   std::vector<Eigen::Vector3d> normals = cells.of_points();
@@ -273,16 +337,10 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   }
   const auto found = probe(slabs);
   if (!found) return tl::make_unexpected(found.error());
-  PlaneBand band = gather_enough(slabs, *found, 0.0);
-  drop_strays(band);
-  if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return no_surface();
-
-  NoiseEstimate noise = noise_of(cloud, band, sigma_mm);
-  if (grain_of(band.spacing, noise.sigma) > band.grain) {
-    band = gather_enough(slabs, *found, noise.sigma);
-    drop_strays(band);
-    if (band.sources.size() < kFewestPoints) return no_surface();
-  }
+  auto made = sigma_mm ? std::nullopt : thinned(slabs, *found);
+  if (!made) made = whole(slabs, *found, sigma_mm);
+  if (!made) return no_surface();
+  auto& [band, noise] = *made;
   if (!is_cut(band.index.points())) {
     return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                 "give control points that cut the body");
@@ -295,7 +353,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
   set_points(cloud, slabs.plane(), band);
-  return band;
+  return std::move(band);
 }
 
 std::vector<std::string> disbelief_of(const PlaneBand& band) {

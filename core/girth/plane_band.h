@@ -29,6 +29,7 @@ struct PlaneBand {
   double sigma = 0.0;                     ///< noise of the points, in the unit: the usual one
   double shown_sigma = 0.0;               ///< the one that they show, whatever is told of them
   std::size_t strays = 0;                 ///< points that stood alone and were left out
+  std::size_t thinned_out = 0;            ///< exact points of a crowd that tell nothing more
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
   double told_scale = 1.0;                ///< by which the noise that is told was raised, as a rule
   bool normals_dropped = false;           ///< those that were told contradict each other
@@ -47,6 +48,9 @@ struct PlaneBand {
 
 /// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
 /// they tell no more than fewer would, a part of the section.
+///
+/// Of a crowd of which nothing is told and which shows no noise, wherever it is looked at, nor
+/// strays, as many points are kept as the finest grain needs (core/geometry/crowding_points.h).
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
 /// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place.

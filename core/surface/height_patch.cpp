@@ -135,12 +135,12 @@ std::optional<Fit> noisy_fit(HeightKriging kriging, double usual) {
   return Fit{std::move(kriging), std::move(*solution), misfit, likeliest, likeliest};
 }
 
-/// Points so many that they were averaged lie so close that all kernels say the same.
-std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, bool exact,
+/// `alike`: all kernels say the same, as of points so many that they were averaged.
+std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, bool exact, bool alike,
                           double usual) {
   const bool few = points < kFewestForQuadratic && !samples.has_slopes();
   std::optional<Fit> fit;
-  if (exact && !few && points <= kMostHeightSamples) {
+  if (exact && !few && !alike) {
     fit = likeliest_exact_fit(samples, usual);
   } else if (auto kriging = HeightKriging::of(samples, few ? 3 : Quadratic::RowsAtCompileTime)) {
     fit = exact ? exact_fit(std::move(kriging), usual) : noisy_fit(std::move(*kriging), usual);
@@ -153,7 +153,7 @@ std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, bool
 std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& points,
                                             const Eigen::Vector3d& centre,
                                             const Eigen::Vector3d& outward, double radius,
-                                            double roughness) {
+                                            double roughness, bool crowded) {
   if (points.size() < 4 || !(radius > 0.0)) return std::nullopt;
   HeightPatch patch;
   patch.centre_ = centre;
@@ -170,7 +170,9 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
   }
   patch.exact_ = are_exact(points, radius);
   if (!patch.exact_) samples.slopes.resize(2, 0);
-  auto fit = fit_to(samples, points.size(), patch.exact_, std::max(roughness * radius, 1e-12));
+  const bool alike = points.size() > kMostHeightSamples || (crowded && !samples.has_slopes());
+  auto fit =
+      fit_to(samples, points.size(), patch.exact_, alike, std::max(roughness * radius, 1e-12));
   if (!fit) return std::nullopt;
   patch.misfit_ = fit->misfit;
   patch.wander_ = fit->wander;

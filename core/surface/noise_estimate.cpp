@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/median.h"
 #include "core/surface/height_kriging.h"
 #include "core/surface/kriging_likelihood.h"
 #include "core/surface/local_mean.h"
+#include "core/surface/quintic_patch.h"
 
 namespace instep {
 namespace {
@@ -73,6 +75,8 @@ struct Neighbourhood {
 struct TangentView {
   Eigen::Matrix3Xd points;
   double thickness = std::numeric_limits<double>::infinity();  ///< against the width
+
+  double radius() const { return points.size() > 0 ? points.colwise().norm().maxCoeff() : 0.0; }
 };
 
 /// `nearest`: to its middle, in that order.
@@ -123,35 +127,45 @@ double likeliest_variance(const KrigingLikelihood& likelihood) {
   return likelihood.likeliest_variance(kLeastRatio * scale, kMostRatio * scale, kRatioStep);
 }
 
+/// Of heights in units of `radius`.
+std::optional<KrigingLikelihood> likelihood_of(const Eigen::Matrix3Xd& points, double radius) {
+  const HeightSamples samples{points.topRows<2>() / radius, points.row(2).transpose() / radius,
+                              Eigen::VectorXd::Ones(points.cols())};
+  if (points.cols() < 2 * kTerms || !(radius > 0.0)) return std::nullopt;
+  const auto kriging = HeightKriging::of(samples, kTerms);
+  if (!kriging) return std::nullopt;
+  return KrigingLikelihood(*kriging);
+}
+
 std::optional<Neighbourhood> neighbourhood_of(const std::vector<Eigen::Vector3d>& points,
                                               const PointIndex& index, std::size_t point) {
   const TangentView view = flattest_view(points, index, points[point]);
-  const Eigen::Index count = view.points.cols();
-  if (count < 2 * kTerms) return std::nullopt;
-  const double radius = view.points.colwise().norm().maxCoeff();
-  if (!(radius > 0.0)) return std::nullopt;
-  const HeightSamples samples{view.points.topRows<2>() / radius,
-                              view.points.row(2).transpose() / radius,
-                              Eigen::VectorXd::Ones(count)};
-  const auto kriging = HeightKriging::of(samples, kTerms);
-  if (!kriging) return std::nullopt;
-  KrigingLikelihood likelihood(*kriging);
-  const double variance = radius * radius * likeliest_variance(likelihood);
-  return Neighbourhood{point, radius, std::move(likelihood), variance};
+  const double radius = view.radius();
+  auto likelihood = likelihood_of(view.points, radius);
+  if (!likelihood) return std::nullopt;
+  const double variance = radius * radius * likeliest_variance(*likelihood);
+  return Neighbourhood{point, radius, std::move(*likelihood), variance};
+}
+
+/// The places that are asked, if all are.
+std::vector<std::size_t> chosen_of(const std::vector<std::size_t>& places) {
+  const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = stride / 2; i < places.size(); i += stride) chosen.push_back(places[i]);
+  return chosen;
 }
 
 /// Of some of the places, in their order.
 std::vector<Neighbourhood> neighbourhoods_of(const std::vector<Eigen::Vector3d>& points,
                                              const PointIndex& index,
                                              const std::vector<std::size_t>& places) {
-  const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
-  const std::size_t first = stride / 2;
-  std::vector<std::optional<Neighbourhood>> looked((places.size() - first + stride - 1) / stride);
+  const auto chosen = chosen_of(places);
+  std::vector<std::optional<Neighbourhood>> looked(chosen.size());
   bool found = false;
   bool exact = true;
   for (const std::size_t turn : kTurns) {
     for (std::size_t i = turn; i < looked.size(); i += kTurns.size()) {
-      looked[i] = neighbourhood_of(points, index, places[first + i * stride]);
+      looked[i] = neighbourhood_of(points, index, chosen[i]);
       if (!looked[i]) continue;
       found = true;
       exact = exact && looked[i]->is_exact();
@@ -226,6 +240,31 @@ void hush_wide(const std::vector<Neighbourhood>& neighbourhoods,
   for (std::size_t i = 0; i < witnesses.size(); ++i) {
     if (neighbourhoods[i].radius > kTooWideToAccuse) witnesses[i].contradiction = 0.0;
   }
+}
+
+/// Whether one polynomial passes through all points: none of them is off it by noise.
+bool is_plain(const TangentView& view) {
+  std::vector<OrientedPoint> points;
+  for (const auto& place : view.points.colwise())
+    points.push_back({place, Eigen::Vector3d::UnitZ()});
+  const Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  return QuinticPatch::fit(points, middle, Eigen::Vector3d::UnitZ(), view.radius()).has_value();
+}
+
+/// Nothing if the points round one show noise. Where they plainly show none half of them tell it.
+std::optional<double> roughness_if_exact(const std::vector<Eigen::Vector3d>& points,
+                                         const PointIndex& index, std::size_t point) {
+  const TangentView view = flattest_view(points, index, points[point]);
+  if (is_plain(view)) {
+    const auto half = Eigen::seq(0, Eigen::last, Eigen::fix<2>);
+    const auto likelihood = likelihood_of(view.points(Eigen::all, half), view.radius());
+    if (!likelihood) return std::nullopt;
+    const double ratio = kLeastRatio * likelihood->mean_diagonal();
+    return likelihood->likeliest_roughness(ratio) / view.radius();
+  }
+  const auto here = neighbourhood_of(points, index, point);
+  if (!here || !here->is_exact()) return std::nullopt;
+  return likely_roughness(*here, std::max(here->variance, kLeastVariance), std::nullopt);
 }
 
 /// What is expected of each, in variances.
@@ -319,6 +358,20 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
     estimate.roughness.push_back(
         {points[neighbourhoods[i].point], likely_roughness(neighbourhoods[i], noise[i], usual)});
   }
+  return estimate;
+}
+
+std::optional<NoiseEstimate> estimate_if_exact(const std::vector<Eigen::Vector3d>& points,
+                                               const PointIndex& index,
+                                               const std::vector<std::size_t>& places) {
+  const auto chosen = chosen_of(places);
+  NoiseEstimate estimate;
+  for (std::size_t i = kTurns.front(); i < chosen.size(); i += kTurns.size()) {
+    const auto roughness = roughness_if_exact(points, index, chosen[i]);
+    if (!roughness) return std::nullopt;
+    estimate.roughness.push_back({points[chosen[i]], *roughness});
+  }
+  if (estimate.roughness.empty()) return std::nullopt;
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/point_index.h"
@@ -43,6 +44,12 @@ struct NoiseEstimate {
 NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                              const std::vector<std::size_t>& places,
                              const std::vector<double>& told);
+
+/// The same of points of which nothing is told, if all of the places that are asked first are of
+/// exact points; nothing as soon as one is not.
+std::optional<NoiseEstimate> estimate_if_exact(const std::vector<Eigen::Vector3d>& points,
+                                               const PointIndex& index,
+                                               const std::vector<std::size_t>& places);
 
 /// The roughness at a place, from the nearest ones; a small positive number if there are none.
 double roughness_at(const std::vector<LocalRoughness>& known, const Eigen::Vector3d& place);

@@ -39,6 +39,10 @@ constexpr int kAveragedInSpace = 6;
 constexpr double kTwin = 0.02;
 /// A patch is at least this part of the body wide.
 constexpr double kLeastReach = 0.033;
+/// Neighbours that reach no further are a crowd: of exact ones a polynomial may tell all. It is
+/// made of those within the least reach, or of so many.
+constexpr double kCrowdedReach = 0.04;
+constexpr std::size_t kFewestOfCrowd = 44;
 /// Cosine to the outward direction of normals that tell of no crease, and how many, and which part
 /// of all, must tell of one.
 constexpr double kHardlyBent = 0.93;
@@ -326,10 +330,12 @@ std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& 
 }
 
 /// One smooth sheet over the points that face the same way.
-std::optional<SurfacePatch> PatchFitter::fit_sheet(const Eigen::Vector3d& place,
+std::optional<SurfacePatch> PatchFitter::fit_sheet(const Surroundings& surroundings,
+                                                   const Eigen::Vector3d& place,
                                                    const Members& members, double roughness) const {
   const auto points = points_at(members.front);
-  auto sheet = HeightPatch::fit(points, place, members.outward, members.front_radius, roughness);
+  auto sheet = HeightPatch::fit(points, place, members.outward, members.front_radius, roughness,
+                                surroundings.reach <= kCrowdedReach);
   if (!sheet) return std::nullopt;
   return SurfacePatch{
       place, middle_of(points), members.front_radius, std::move(*sheet), members.front, 0.0};
@@ -361,9 +367,43 @@ std::optional<SurfacePatch> PatchFitter::fit_across_lines(Surroundings surroundi
             [](const auto& a, const auto& b) { return a.squared_distance < b.squared_distance; });
   nearest.resize(std::min(nearest.size(), surroundings.nearest.size()));
   surroundings.nearest = std::move(nearest);
-  auto patch = fit_sheet(place, members_of(surroundings, place, surroundings.reach), roughness);
+  const Members members = members_of(surroundings, place, surroundings.reach);
+  auto patch = fit_sheet(surroundings, place, members, roughness);
   if (!patch || !std::get<HeightPatch>(patch->field).is_smooth()) return std::nullopt;
   return patch;
+}
+
+/// A polynomial, where the nearest of a crowd all lie on it: so there is neither a crease nor a
+/// stray among them. Where the skin bends too much for those within the least reach, fewer do.
+std::optional<SurfacePatch> PatchFitter::fit_plain(const Surroundings& surroundings,
+                                                   const Eigen::Vector3d& place) const {
+  if (!surroundings.exact || surroundings.reach > kCrowdedReach) return std::nullopt;
+  const bool wider = kLeastReach > surroundings.reach;
+  if (auto plain = plain_patch(wider ? index_.around(place, kLeastReach) : surroundings.nearest,
+                               kLeastReach, surroundings.outward, place)) {
+    return plain;
+  }
+  return plain_patch(surroundings.nearest, 0.0, surroundings.outward, place);
+}
+
+/// Of those within `reach`, at least of so many as a polynomial needs.
+std::optional<SurfacePatch> PatchFitter::plain_patch(const Neighbours& found, double reach,
+                                                     const Eigen::Vector3d& outward,
+                                                     const Eigen::Vector3d& place) const {
+  std::vector<std::size_t> members;
+  double farthest = 0.0;  // its square
+  for (const auto& [point, square] : found) {
+    if (square > reach * reach && members.size() >= kFewestOfCrowd) break;
+    if (points_[point].normal.dot(outward) < kFacing) continue;
+    members.push_back(point);
+    farthest = std::max(farthest, square);
+  }
+  const auto points = points_at(members);
+  const double radius = std::sqrt(farthest);
+  const auto field = QuinticPatch::fit(points, place, outward, radius);
+  if (!field) return std::nullopt;
+  const double variance = field->variance();
+  return SurfacePatch{place, middle_of(points), radius, *field, std::move(members), variance};
 }
 
 std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const {
@@ -372,6 +412,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     if (auto creased = fit_creased_nearby(here, place)) return creased;
     return fit_in_space(here, place);
   }
+  if (auto plain = fit_plain(here, place)) return plain;
   const double narrowest = std::max(here.reach, kLeastReach);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   for (int attempt = 1;; ++attempt) {
@@ -385,13 +426,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     }
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
     const auto points = points_at(members.front);
-    if (here.exact && points.size() > kMostHeightSamples) {
-      if (auto plain = QuinticPatch::fit(points, place, members.outward, members.front_radius)) {
-        return SurfacePatch{place,  middle_of(points), members.front_radius,
-                            *plain, members.front,     plain->variance()};
-      }
-    }
-    auto patch = fit_sheet(place, members, likely);
+    auto patch = fit_sheet(here, place, members, likely);
     if (!patch) {
       // Points on a line, such as one row of a scan, ask for more.
       width = kWidening * members.radius;
@@ -400,7 +435,8 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     }
     const auto& sheet = std::get<HeightPatch>(patch->field);
     if (!nearest_only && blurs(sheet, points, patch->radius)) {
-      if (auto finer = fit_sheet(place, members_of(here, place, here.reach), likely)) return finer;
+      if (auto finer = fit_sheet(here, place, members_of(here, place, here.reach), likely))
+        return finer;
     }
     if (sheet.is_smooth() && nearest_only && here.nearest.size() <= rule_.points) {
       if (auto across = fit_across_lines(here, place, likely)) return across;

@@ -75,12 +75,18 @@ class PatchFitter {
   bool is_thin(const Neighbours& nearest) const;
   std::optional<SurfacePatch> fit_in_space(const Surroundings& surroundings,
                                            const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> fit_plain(const Surroundings& surroundings,
+                                        const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> plain_patch(const Neighbours& found, double reach,
+                                          const Eigen::Vector3d& outward,
+                                          const Eigen::Vector3d& place) const;
   std::optional<SurfacePatch> fit_creased(const Surroundings& surroundings,
                                           const Eigen::Vector3d& place, const Members& members,
                                           double roughness) const;
   std::optional<SurfacePatch> fit_creased_nearby(const Surroundings& surroundings,
                                                  const Eigen::Vector3d& place) const;
-  std::optional<SurfacePatch> fit_sheet(const Eigen::Vector3d& place, const Members& members,
+  std::optional<SurfacePatch> fit_sheet(const Surroundings& surroundings,
+                                        const Eigen::Vector3d& place, const Members& members,
                                         double roughness) const;
   std::optional<SurfacePatch> fit_across_lines(Surroundings surroundings,
                                                const Eigen::Vector3d& place,

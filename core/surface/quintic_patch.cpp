@@ -10,8 +10,10 @@ namespace {
 
 constexpr int kDegree = QuinticPatch::kDegree;
 constexpr int kTerms = QuinticPatch::kTerms;
+/// Points for each term: fewer let the polynomial bend between them.
+constexpr Eigen::Index kPointsForATerm = 2;
 /// Of the points round the polynomial, against the square of the radius.
-constexpr double kMostVariance = 1e-9;
+constexpr double kMostVariance = 8e-9;
 /// The variance of the height at the centre, against that of a point over their number: 9 where
 /// they lie evenly all round.
 constexpr double kMostAtCentre = 18.0;
@@ -87,7 +89,7 @@ std::optional<QuinticPatch> QuinticPatch::fit(const std::vector<OrientedPoint>& 
                                               const Eigen::Vector3d& centre,
                                               const Eigen::Vector3d& outward, double radius) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  if (count <= kTerms) return std::nullopt;
+  if (count < kPointsForATerm * kTerms) return std::nullopt;
   QuinticPatch patch;
   patch.centre_ = centre;
   patch.radius_ = radius;

@@ -1,0 +1,57 @@
+#include "core/geometry/crowding_points.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+
+namespace instep {
+namespace {
+
+using Cell = Eigen::Array<std::int64_t, 3, 1>;
+
+/// A point of one layer of cells, which all have the same first number.
+struct Member {
+  std::int64_t row;
+  std::int64_t level;
+  double off;  ///< square of how far it is from the cell's middle, in sides
+  std::size_t point;
+
+  bool shares_cell_with(const Member& other) const {
+    return row == other.row && level == other.level;
+  }
+  bool operator<(const Member& other) const {
+    return std::tie(row, level, off, point) <
+           std::tie(other.row, other.level, other.off, other.point);
+  }
+};
+
+}  // namespace
+
+std::vector<bool> crowding_points(const std::vector<Eigen::Vector3d>& points, double side) {
+  std::vector<bool> crowding(points.size(), false);
+  if (points.empty()) return crowding;
+  Eigen::Array3d least = points.front();
+  for (const auto& point : points) least = least.min(point.array());
+  std::vector<Member> layer;
+  std::int64_t column = 0;
+  const auto mark_layer = [&] {
+    std::sort(layer.begin(), layer.end());
+    for (std::size_t i = 1; i < layer.size(); ++i) {
+      crowding[layer[i].point] = layer[i].shares_cell_with(layer[i - 1]);
+    }
+    layer.clear();
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Array3d place = (points[i].array() - least) / side;
+    const Cell cell = place.cast<std::int64_t>();
+    if (cell.x() != column) mark_layer();
+    column = cell.x();
+    const double off = (place - cell.cast<double>() - 0.5).square().sum();
+    layer.push_back({cell.y(), cell.z(), off, i});
+  }
+  mark_layer();
+  return crowding;
+}
+
+}  // namespace instep
