@@ -51,6 +51,9 @@ constexpr double kNormalCellInSigmas = 3.3;
 /// Of a cell, against the section: three of them in a row must not reach round the body.
 constexpr double kLargestNormalCell = 0.05;
 constexpr std::size_t kFewestNormalPoints = 16;
+/// Noise in places, against what was told, that whoever reads the girth should know of: what shows
+/// less is measured with what it shows.
+constexpr double kNotableInPlaces = 1.5;
 /// Of a section: the texture of skin or a scanner's rounding.
 constexpr double kHarmlessScatter = 3e-4;
 
@@ -304,18 +307,24 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   }
 }
 
-/// Where it differs from place to place, what it is where it is most.
-std::string disbelief_of_noise(const PlaneBand& band) {
+/// Against the usual noise, what it is where it is most.
+double most_uneven(const PlaneBand& band) {
   double times = 1.0;
   for (const auto& local : band.uneven) times = std::max(times, local.times);
+  return times;
+}
+
+std::string disbelief_of_noise(const PlaneBand& band) {
+  const double times = most_uneven(band);
   char figures[64];
   std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", times * band.unit_mm * band.sigma,
                 times * band.told_scale);
   const bool in_places = !band.uneven.empty();
+  const std::string remedy = band.own_sigma ? "see to the sensor and scan again with more frames"
+                             : in_places    ? "leave --sigma-mm out"
+                                            : "leave --sigma-mm out or give this one";
   return std::string(in_places ? "in places " : "") + "the points scatter by " + figures +
-         " the noise that was told of them, which was not believed: leave --sigma-mm out" +
-         (in_places ? "" : " or give this one") +
-         ", or see to the sensor and scan again with more frames";
+         " the noise that was told of them, which was not believed: " + remedy;
 }
 
 }  // namespace
@@ -358,8 +367,11 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
 
 std::vector<std::string> disbelief_of(const PlaneBand& band) {
   std::vector<std::string> said;
-  if (band.told_scale > 1.0 && band.sigma > kHarmlessScatter)
+  const bool notable =
+      band.uneven.empty() || most_uneven(band) * band.told_scale > kNotableInPlaces;
+  if (band.told_scale > 1.0 && band.sigma > kHarmlessScatter && notable) {
     said.push_back(disbelief_of_noise(band));
+  }
   if (band.normals_dropped) {
     said.emplace_back(
         "the normals that came with the points contradict each other or point inwards, and were "

@@ -133,6 +133,38 @@ TEST(ToldNoise, IsNotBelievedOfAThirdThatPlainlyScattersMore) {
   }
 }
 
+/// A station's clouds tell their noise; nobody there has given the option.
+TEST(ToldNoise, IsDisbelievedWithARemedyOfWhoeverToldIt) {
+  PointCloud cloud = noisy_ellipse(4000, 0.5, 3);
+  const auto by_option = girth_by_rbf(cloud, oblique_plane(), {0.1});
+  cloud.sigma_mm.assign(cloud.size(), 0.1);
+  const auto by_cloud = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(by_option && by_cloud);
+  EXPECT_TRUE(says(*by_option, "leave --sigma-mm out or give this one"));
+  EXPECT_TRUE(says(*by_cloud, "scan again with more frames"));
+  EXPECT_FALSE(says(*by_cloud, "--sigma-mm"));
+}
+
+/// It is measured with what it shows; telling of it at every scan would only tire.
+TEST(ToldNoise, IsNotSpokenOfWhereAThirdScattersLittleMore) {
+  constexpr double kTold = 0.2;
+  const double truth = test::true_girth(ellipse(), oblique_plane());
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    PointCloud cloud = test::points_by_area(ellipse(), 30000, -30, 30, seed);
+    test::RandomNumbers random(seed);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const auto& place = cloud.positions[i];
+      const bool noisier = std::abs(std::atan2(place.y(), place.x())) < std::numbers::pi / 3;
+      cloud.positions[i] += kTold * (noisier ? 1.3 : 1.0) * random.normal() * cloud.normals[i];
+    }
+    cloud.normals.clear();
+    const auto girth = girth_by_rbf(cloud, oblique_plane(), {kTold});
+    ASSERT_TRUE(girth) << girth.error().line();
+    EXPECT_FALSE(says(*girth, kDisbelief)) << seed;
+    EXPECT_NEAR(girth->stretched_mm, truth, *girth->stretched_u95_mm) << seed;
+  }
+}
+
 /// It may be noise that neighbours share: only the interval can tell of it.
 TEST(ToldNoise, OfMoreThanPointsShowOnlyWidensTheInterval) {
   PointCloud cloud = noisy_ellipse(8000, 0.1, 2);
