@@ -59,10 +59,6 @@ Result<std::vector<WorkingView>> open_views(const std::vector<View>& views,
     const WorkingView& last = working.back();
     scene.diagnostics.pixels += last.pixels;
     scene.diagnostics.flying_pixels += last.flying_pixels;
-    if (last.depth.moved) {
-      scene.warnings.push_back("the foot moved by about " + in_millimetres(last.depth.movement_mm) +
-                               " while camera " + last.id + " looked; stand still and repeat");
-    }
   }
   return working;
 }

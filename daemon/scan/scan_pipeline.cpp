@@ -1,5 +1,7 @@
 #include "daemon/scan/scan_pipeline.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <functional>
 #include <future>
@@ -69,11 +71,17 @@ std::map<std::string, double> frame_quality(const std::vector<FusedDepth>& image
   return quality;
 }
 
+/// One for all cameras, of the one before which it moved most.
 std::vector<std::string> movement_warnings(const std::vector<FusedDepth>& images) {
-  const bool moved =
-      std::any_of(images.begin(), images.end(), [](const auto& image) { return image.moved; });
-  if (!moved) return {};
-  return {"the foot moved during the scan: ask the customer to stand still and scan again"};
+  double most_mm = 0.0;
+  for (const auto& image : images) {
+    if (image.moved) most_mm = std::max(most_mm, image.movement_mm);
+  }
+  if (!(most_mm > 0.0)) return {};
+  return {fmt::format(
+      "the foot moved by about {:.1f} mm during the scan: ask the customer to stand still and scan "
+      "again",
+      most_mm)};
 }
 
 Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> images,

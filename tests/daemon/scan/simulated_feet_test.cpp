@@ -63,6 +63,23 @@ TEST_P(SimulatedFeet, AreMeasuredWithinAMillimetre) {
   }
 }
 
+/// Two cameras see it, each by more than a millimetre.
+TEST(SimulatedFoot, ThatMovedIsSpokenOfOnce) {
+  SimulationSettings simulation;
+  simulation.seed = 3;
+  simulation.noise = NoiseLaw::kPessimistic;
+  simulation.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(simulation);
+  ASSERT_TRUE(station) << station.error().line();
+  const auto records = measure_capture(capture_of(*station), {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  const auto& warnings = records->front().warnings;
+  const auto spoken = std::count_if(warnings.begin(), warnings.end(), [](const auto& warning) {
+    return warning.find(" moved ") != std::string::npos;
+  });
+  EXPECT_EQ(spoken, 1);
+}
+
 TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
   SimulationSettings simulation;
   simulation.seed = 5;
