@@ -13,9 +13,9 @@ namespace instep {
 namespace {
 
 /// How much each part counts against that of the noise, so that intervals hold.
-constexpr double kWandering = 1.3;
+constexpr double kWandering = 1.15;
 constexpr double kUnseenWaves = 1.2;
-constexpr double kUnseenUnderNoise = 1.5;
+constexpr double kUnseenUnderNoise = 1.7;
 constexpr double kDeviations = 1.96;
 /// A surface through points wanders no further between them, against the radius of a patch, however
 /// rough a crease within it seems.
