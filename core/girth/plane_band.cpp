@@ -98,19 +98,8 @@ Result<Probe> probe(SlabSource& slabs) {
               "give control points on the body, or a denser cloud");
 }
 
-/// Leaves out the points that are marked.
-PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
-  PlaneSlab rest;
-  for (std::size_t i = 0; i < marked.size(); ++i) {
-    if (marked[i]) continue;
-    rest.indices.push_back(slab.indices[i]);
-    rest.places.push_back(slab.places[i]);
-  }
-  return rest;
-}
-
 /// Seen from the plane; lengths in the probe's unit.
-PlaneSlab slab_of(SlabSource& slabs, const Probe& found, double half_width) {
+PlaneSlab slab_in_unit(SlabSource& slabs, const Probe& found, double half_width) {
   PlaneSlab slab = slabs.slab(half_width * found.unit_mm);
   for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
   return slab;
@@ -131,7 +120,7 @@ PlaneBand band_of(PlaneSlab slab, const Probe& found) {
 
 /// The points within `half_width` of the plane.
 PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
-  return band_of(slab_of(slabs, found, half_width), found);
+  return band_of(slab_in_unit(slabs, found, half_width), found);
 }
 
 /// Leaves out the points that are marked.
@@ -229,7 +218,7 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const Probe& found) {
   const PointCloud& cloud = slabs.cloud();
   const bool told = cloud.has_normals() || cloud.has_sigma() || !cloud.origins.empty();
   if (told || found.spacing > kCrowded * kFinestGrain) return std::nullopt;
-  const PlaneSlab slab = slab_of(slabs, found, kBandInGrains * kFinestGrain);
+  const PlaneSlab slab = slab_in_unit(slabs, found, kBandInGrains * kFinestGrain);
   PlaneBand band = band_of(without(crowding_points(slab.places, kFinestGrain), slab), found);
   band.thinned_out = slab.places.size() - band.sources.size();
   band.grain = grain_of(band.spacing, 0.0);

@@ -136,6 +136,16 @@ PlaneSlab within(const PlaneSlab& slab, double half_width) {
   return part;
 }
 
+PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
+  PlaneSlab rest;
+  for (std::size_t i = 0; i < marked.size(); ++i) {
+    if (marked[i]) continue;
+    rest.indices.push_back(slab.indices[i]);
+    rest.places.push_back(slab.places[i]);
+  }
+  return rest;
+}
+
 SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
     : cloud_(cloud), plane_(plane) {
   Reach along(plane.u());

@@ -23,6 +23,9 @@ PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_w
 /// Those of a slab that lie at most `half_width` from the plane, in the same order.
 PlaneSlab within(const PlaneSlab& slab, double half_width);
 
+/// Those of a slab that are not marked, in the same order. `marked`: as many as there are.
+PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab);
+
 /// Slabs of one cloud at one plane, of widths that only what they hold can tell: picks more than is
 /// asked for, so that it seldom has to look through the cloud again, which it borrows.
 class SlabSource {

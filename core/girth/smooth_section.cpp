@@ -41,16 +41,6 @@ constexpr std::size_t kManyPoints = 3000;
 constexpr double kDeviations = 1.96;
 constexpr double kLeast = 1e-4;
 
-PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
-  PlaneSlab rest;
-  for (std::size_t i = 0; i < marked.size(); ++i) {
-    if (marked[i]) continue;
-    rest.indices.push_back(slab.indices[i]);
-    rest.places.push_back(slab.places[i]);
-  }
-  return rest;
-}
-
 double half_width_of(const PlaneBand& band) {
   double reach = 0.0;
   for (const auto& point : band.points) reach = std::max(reach, std::abs(point.position.z()));
