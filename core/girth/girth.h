@@ -42,9 +42,11 @@ struct Girth {
   std::optional<double> stretched_u95_mm;
   std::optional<double> contact_u95_mm;
 
-  std::size_t points = 0;       ///< points of the whole cloud
-  std::size_t band_points = 0;  ///< points near the plane that took part
-  double sigma_mm = 0.0;        ///< noise that was used: of the usual point near the plane
+  std::size_t points = 0;  ///< points of the whole cloud
+  /// Points near the plane that took part, and those of an exact crowd that would have told the
+  /// same again.
+  std::size_t band_points = 0;
+  double sigma_mm = 0.0;  ///< noise that was used: of the usual point near the plane
   /// Longest stretch of the section without a seen point under it.
   double largest_gap_mm = 0.0;
   std::vector<std::string> warnings;

@@ -26,6 +26,8 @@ constexpr double kDraftStepInThinned = 0.8;
 constexpr double kReadingStep = 0.6;
 /// Points further from the contour or the plane than this many grains are no evidence for it.
 constexpr double kEvidenceInGrains = 2.5;
+/// Loops of two bodies, or of both sides of a thin part, are further apart than this.
+constexpr double kSameInGrains = 0.3;
 /// Of a section, against the width of the body.
 constexpr double kLongestSection = 6.0;
 /// A stretch without a seen point that is worth a warning, in grains.
@@ -78,6 +80,13 @@ std::vector<std::size_t> starts_of(const PlaneBand& band) {
   return starts;
 }
 
+/// Whether one of the loops passes within a distance of a place.
+bool pass_near(const std::vector<Loop>& loops, const Eigen::Vector2d& place, double distance) {
+  return std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+    return loop.index.foot_of(place).distance < distance;
+  });
+}
+
 /// Follows every loop that starts near a point on the plane and round which the body lies inside.
 std::vector<Loop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
   std::vector<Loop> loops;
@@ -85,15 +94,13 @@ std::vector<Loop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
   int starts = 0;
   for (const std::size_t candidate : starts_of(band)) {
     const Eigen::Vector2d start = band.points[candidate].position.head<2>();
-    const bool known = std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) {
-      return loop.index.foot_of(start).distance < kEvidenceInGrains * band.grain;
-    });
-    if (known) continue;
+    if (pass_near(loops, start, kEvidenceInGrains * band.grain)) continue;
     if (++starts > kMostStarts || loops.size() >= kMostLoops) break;
     // The first round places the patches, the second reads the finished field.
     const auto draft =
         trace_contour(surface, start, draft_step * band.grain, kWidestBridge, kLongestSection);
-    if (!draft) continue;
+    // Where the plane cuts the skin at a slant, points beside a known loop lead to it too.
+    if (!draft || pass_near(loops, draft->points.front(), kSameInGrains * band.grain)) continue;
     auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.grain,
                                  kWidestBridge, kLongestSection);
     if (contour && signed_area(contour->points) > 0.0) loops.emplace_back(std::move(*contour));

@@ -41,7 +41,8 @@ constexpr double kGrainInSigmas = 2.0;
 constexpr double kCoarsestGrain = 0.018;
 /// Points nearer than this part of the section tell no more than fewer would.
 constexpr double kFinestGrain = 0.0075;
-/// Points that stand nearer than this part of that may be thinned.
+/// Exact points are thinned where they stand nearer than this part of the finest grain: of others
+/// few share a cell as wide as that.
 constexpr double kCrowded = 0.85;
 /// Side of the cells that share a normal, as large in a thinned crowd as in a cloud of half
 /// its points, and the fewest points for one.

@@ -251,6 +251,13 @@ bool is_plain(const TangentView& view) {
   return QuinticPatch::fit(points, middle, Eigen::Vector3d::UnitZ(), view.radius()).has_value();
 }
 
+bool is_exact(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
+              std::size_t point) {
+  if (is_plain(flattest_view(points, index, points[point]))) return true;
+  const auto here = neighbourhood_of(points, index, point);
+  return here && here->is_exact();
+}
+
 /// Nothing if the points round one show noise. Where they plainly show none half of them tell it.
 std::optional<double> roughness_if_exact(const std::vector<Eigen::Vector3d>& points,
                                          const PointIndex& index, std::size_t point) {
@@ -366,10 +373,14 @@ std::optional<NoiseEstimate> estimate_if_exact(const std::vector<Eigen::Vector3d
                                                const std::vector<std::size_t>& places) {
   const auto chosen = chosen_of(places);
   NoiseEstimate estimate;
-  for (std::size_t i = kTurns.front(); i < chosen.size(); i += kTurns.size()) {
-    const auto roughness = roughness_if_exact(points, index, chosen[i]);
-    if (!roughness) return std::nullopt;
-    estimate.roughness.push_back({points[chosen[i]], *roughness});
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (i % kTurns.size() == kTurns.front()) {
+      const auto roughness = roughness_if_exact(points, index, chosen[i]);
+      if (!roughness) return std::nullopt;
+      estimate.roughness.push_back({points[chosen[i]], *roughness});
+    } else if (!is_exact(points, index, chosen[i])) {
+      return std::nullopt;
+    }
   }
   if (estimate.roughness.empty()) return std::nullopt;
   return estimate;

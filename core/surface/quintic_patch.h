@@ -20,7 +20,7 @@ class QuinticPatch {
   static constexpr int kTerms = (kDegree + 1) * (kDegree + 2) / 2;
 
   /// `outward`: unit length, out of the body. `radius` > 0: of the neighbourhood round `centre`.
-  /// Nothing if the points are off the polynomial by more than 7e-5 of the radius (root mean
+  /// Nothing if the points are off the polynomial by more than 9e-5 of the radius (root mean
   /// square), or do not lie on all sides of the centre. O(points).
   static std::optional<QuinticPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre,

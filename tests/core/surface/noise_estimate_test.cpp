@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
@@ -212,6 +214,57 @@ TEST(NoiseEstimate, IsFiniteForAnything) {
       EXPECT_GT(known.roughness, 0.0);
     }
   }
+}
+
+std::optional<NoiseEstimate> if_exact(const Points& points) {
+  return estimate_if_exact(points, PointIndex(points), ring_of(points));
+}
+
+TEST(NoiseEstimateIfExact, IsThatOfExactPointsAlone) {
+  const auto exact = if_exact(sphere(0.0, 13));
+  ASSERT_TRUE(exact);
+  EXPECT_EQ(exact->sigma, 0.0);
+  EXPECT_TRUE(exact->uneven.empty());
+  EXPECT_GE(exact->roughness.size(), 8U);
+  for (const double sigma : {1e-5, 3e-4, 0.003}) EXPECT_FALSE(if_exact(sphere(sigma, 13))) << sigma;
+}
+
+/// Wherever the part is: those who ask every third place saw half of these.
+TEST(NoiseEstimateIfExact, SeesNoiseInAFiftiethOfTheRing) {
+  for (int turn = 0; turn < 36; ++turn) {
+    auto points = sphere(0.0, 15);
+    test::RandomNumbers random(15);
+    for (auto& point : points) {
+      const double off = std::atan2(point.y(), point.x()) - 0.17 * turn;
+      if (std::abs(std::remainder(off, 2.0 * std::numbers::pi)) > std::numbers::pi / 50.0) continue;
+      point *= 1.0 + 0.002 * random.normal();
+    }
+    EXPECT_FALSE(if_exact(points)) << turn;
+  }
+}
+
+/// Waves of twice the height wander by four times as much.
+TEST(NoiseEstimateIfExact, FindsHigherWavesRougher) {
+  const auto disc = test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 4000, 0.0, 16);
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < disc.size(); i += 60) {
+    if (disc[i].position.norm() < 0.7) places.push_back(i);
+  }
+  const auto roughness = [&](double height, double often) {
+    auto waves = test::positions_of(disc);
+    for (auto& place : waves) place.z() = height * std::sin(often * (place.x() + 0.4 * place.y()));
+    const auto noise = estimate_if_exact(waves, PointIndex(waves), places);
+    return noise ? middle_roughness(*noise) : 0.0;
+  };
+  for (const double often : {3.0, 5.0}) {
+    EXPECT_NEAR(roughness(0.002, often) / roughness(0.001, often), 4.0, 0.4) << often;
+  }
+}
+
+TEST(NoiseEstimateIfExact, IsNothingWithoutPlaces) {
+  const auto points = sphere(0.0, 17);
+  EXPECT_FALSE(estimate_if_exact(points, PointIndex(points), {}));
+  EXPECT_FALSE(if_exact({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
 TEST(RoughnessAt, ComesFromTheNearestPlaces) {

@@ -1,0 +1,91 @@
+// Girths of clouds so dense that their points tell the same over and over.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+
+#include "core/girth/girth.h"
+#include "core/girth/plane_band.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/cylinder_tape.h"
+
+namespace instep {
+namespace {
+
+using test::oblique_plane;
+
+PointCloud crowd(double sigma_mm = 0.0) {
+  return test::random_points(test::elliptic_cylinder(45, 28), 60000, -30, 30, sigma_mm, 11);
+}
+
+/// Points near the plane that were left out, as telling nothing more.
+std::size_t left_out(const PointCloud& cloud, std::optional<double> sigma_mm = {}) {
+  SlabSource slabs(cloud, oblique_plane());
+  const auto band = band_at(slabs, sigma_mm);
+  EXPECT_TRUE(band) << band.error().line();
+  return band ? band->thinned_out : 0;
+}
+
+TEST(CrowdedGirth, MeetsSmoothShapesInAnyOrder) {
+  auto cloud = crowd();
+  const auto girth = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  const double truth = test::true_girth(test::elliptic_cylinder(45, 28), oblique_plane());
+  EXPECT_NEAR(girth->contact_mm, truth, 0.001);
+  std::reverse(cloud.positions.begin(), cloud.positions.end());
+  const auto reversed = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(reversed);
+  EXPECT_EQ(reversed->stretched_mm, girth->stretched_mm);
+  EXPECT_EQ(reversed->band_points, girth->band_points);
+}
+
+TEST(CrowdedGirth, LeavesOutNothingOfWhichMoreIsTold) {
+  ASSERT_GT(left_out(crowd()), 4000U);
+  EXPECT_EQ(left_out(crowd(), 0.1), 0U);
+  PointCloud noise_told = crowd();
+  noise_told.sigma_mm.assign(noise_told.size(), 0.1);
+  EXPECT_EQ(left_out(noise_told), 0U);
+  PointCloud unseen_told = crowd();
+  unseen_told.origins.assign(unseen_told.size(), PointOrigin::kSeen);
+  EXPECT_EQ(left_out(unseen_told), 0U);
+  const PointCloud normals_told =
+      test::points_by_area(test::elliptic_cylinder(45, 28), 60000, -30, 30, 11);
+  EXPECT_EQ(left_out(normals_told), 0U);
+}
+
+TEST(CrowdedGirth, UsesTheNoiseThatIsToldOfExactPoints) {
+  const auto girth = girth_by_rbf(crowd(), oblique_plane(), {.sigma_mm = 0.1});
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_DOUBLE_EQ(girth->sigma_mm, 0.1);
+}
+
+TEST(CrowdedGirth, LeavesOutNothingOfNoisyPointsOrBesideStrays) {
+  EXPECT_EQ(left_out(crowd(0.2)), 0U);
+  PointCloud cloud = crowd();
+  const auto plane = oblique_plane();
+  const Eigen::Vector2d middle = plane.project({0, 0, 0});
+  for (int i = 0; i < 5; ++i) {
+    cloud.positions.push_back(plane.lift(middle + (60.0 + 6.0 * i) * Eigen::Vector2d::UnitX()));
+  }
+  EXPECT_EQ(left_out(cloud), 0U);
+}
+
+/// Points a grain off such a plane lie far beside the section: it was followed again from each, and
+/// seven more loops of the same length were named.
+TEST(CrowdedGirth, OfAVerySlantedPlaneIsOneLoop) {
+  const auto shape = test::elliptic_cylinder(40, 30);
+  PointCloud cloud = test::points_by_area(shape, 60000, -366, 366, 2);
+  cloud.normals.clear();
+  const double slope = std::tan(75.0 * std::numbers::pi / 180.0);
+  const auto plane = test::plane_at({0, 0, 0}, {10, 0, 10 * slope}, {0, 10, 0});
+  const auto girth = girth_by_rbf(cloud, plane);
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_TRUE(girth->warnings.empty()) << girth->warnings.front();
+  EXPECT_NEAR(girth->stretched_mm, test::true_girth(shape, plane), 0.01);
+}
+
+}  // namespace
+}  // namespace instep
