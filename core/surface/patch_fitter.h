@@ -50,6 +50,9 @@ class PatchFitter {
   std::optional<SurfacePatch> fit_sheet(const Surroundings& surroundings,
                                         const Eigen::Vector3d& place, const Members& members,
                                         double roughness) const;
+  std::optional<SurfacePatch> fit_finer(const Surroundings& surroundings,
+                                        const Eigen::Vector3d& place, const HeightPatch& blurred,
+                                        double roughness) const;
   std::optional<SurfacePatch> fit_across_lines(Surroundings surroundings,
                                                const Eigen::Vector3d& place,
                                                double roughness) const;

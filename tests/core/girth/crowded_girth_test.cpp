@@ -10,6 +10,7 @@
 #include "core/girth/girth.h"
 #include "core/girth/plane_band.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cases/point_patterns.h"
 #include "tests/support/cylinder_tape.h"
 
 namespace instep {
@@ -71,6 +72,24 @@ TEST(CrowdedGirth, LeavesOutNothingOfNoisyPointsOrBesideStrays) {
     cloud.positions.push_back(plane.lift(middle + (60.0 + 6.0 * i) * Eigen::Vector2d::UnitX()));
   }
   EXPECT_EQ(left_out(cloud), 0U);
+}
+
+/// Patches of the nearest points went through such noise: contact lengths were 2.2 mm too long.
+TEST(CrowdedGirth, AveragesNoiseInASmallPart) {
+  const auto shape = test::elliptic_cylinder(45, 30);
+  for (const double part : {0.0, 0.37, 0.74}) {
+    PointCloud cloud = test::points_by_area(shape, 150000, -30, 30, 1);
+    const auto noisier = test::with_noise(cloud, 0.1, 2);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const auto& place = cloud.positions[i];
+      const double here = 0.5 + std::atan2(place.y(), place.x()) / (2.0 * std::numbers::pi);
+      if (here > part && here < part + 0.05) cloud.positions[i] = noisier.positions[i];
+    }
+    cloud.normals.clear();
+    const auto girth = girth_by_rbf(cloud, oblique_plane());
+    ASSERT_TRUE(girth) << girth.error().line();
+    EXPECT_NEAR(girth->contact_mm, test::true_girth(shape, oblique_plane()), 0.5) << part;
+  }
 }
 
 /// Points a grain off such a plane lie far beside the section: it was followed again from each, and
