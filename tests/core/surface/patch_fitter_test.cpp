@@ -301,6 +301,28 @@ TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
 
 /// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
 /// one side and the rim.
+/// Scanned toes over a flat sole: their bends passed for noise where the sole was told to be
+/// smooth, and the surface lay 1.7 mm beside a sole's exact points.
+TEST(PatchFitter, MeetsTheFlatSideOfAThinPartWhoseOtherSideIsBent) {
+  const double harmless = std::pow(0.005 * kSpacing, 2);
+  OrientedPoints points;
+  test::RandomNumbers random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = random.uniform(-0.3, 0.3);
+    const double y = random.uniform(-0.3, 0.3);
+    points.push_back({{x, y, 0.0}, -Vector3d::UnitZ(), harmless});
+    const Vector3d outward = Vector3d(-0.6 * std::cos(60.0 * x), 0.0, 1.0).normalized();
+    points.push_back({{x, y, 0.06 + 0.01 * std::sin(60.0 * x)}, outward, harmless});
+  }
+  const PatchFitter fitter(points, PointIndex(test::positions_of(points)),
+                           {{Vector3d::Zero(), 1e-7}});
+  const auto patch = fitter.fit(Vector3d::Zero()).value();
+  ASSERT_TRUE(std::holds_alternative<HermitePatch>(patch.field));
+  for (const auto member : patch.members) {
+    EXPECT_NEAR(patch.at(points[member].position).value, 0.0, 0.01 * kSpacing);
+  }
+}
+
 TEST(PatchFitter, FindsTheEdgeOfARimWhereThePatchReachesRoundAThinPart) {
   const double thickness = 3.5 * kSpacing;
   const auto points = rimmed_plate_points(thickness);
