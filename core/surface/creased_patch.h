@@ -18,8 +18,9 @@ namespace instep {
 class CreasedPatch {
  public:
   /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six that
-  /// meet in an angle, or if quadratics through the two plainly meet in
-  /// none, as where one smooth surface was cut in two. Two fits and some passes over the points.
+  /// meet in an angle, if quadratics through the two plainly meet in none, as where one smooth
+  /// surface was cut in two, or if each would have to be cut off by the other where points of it
+  /// lie. Two fits and some passes over the points.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
                                          double roughness);
@@ -46,6 +47,10 @@ class CreasedPatch {
 
  private:
   CreasedPatch(Sheet first, Sheet second, bool convex);
+
+  /// Whether more than a few of the points lie on parts of their sheets that bound no body, for the
+  /// other sheet cuts these off.
+  bool hides_points(const std::vector<OrientedPoint>& points, double radius) const;
 
   Sheet first_;
   Sheet second_;

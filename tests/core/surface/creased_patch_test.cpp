@@ -218,6 +218,21 @@ TEST(CreasedPatch, ToldNormalsTellNoCreaseWhereTheyTurnSlowly) {
   }
 }
 
+/// A small facet amid a plane: its sheet would cut off one side of that.
+TEST(CreasedPatch, IsNoneWhereASheetWouldCutOffPointsOfTheOther) {
+  const Vector3d aside(0.6, 0.0, 0.8);
+  OrientedPoints points;
+  test::RandomNumbers random(12);
+  for (int i = 0; i < 40; ++i) {
+    const Vector3d place(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0);
+    const bool on_facet = i % 4 == 0;
+    const Vector3d amid(0.1 * place.x(), 0.1 * place.y(), -0.075 * place.x());
+    points.push_back(
+        {on_facet ? amid : place, on_facet ? aside : Vector3d(Vector3d::UnitZ()), 0.0, true});
+  }
+  EXPECT_FALSE(fit(points));
+}
+
 TEST(CreasedPatch, GapIsTheEdgesDistanceFromTheSheetThatComesLessNear) {
   const Roof roof{90.0 * kDegree};
   const auto both = fit(roof_points(roof, 0.05, 0.05, 60, 0.0, 6));
