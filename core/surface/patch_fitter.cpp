@@ -100,12 +100,12 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   points_.drop_twins(members, surroundings.spacing);
   const double radius = std::sqrt(nearest.back().squared_distance);
   auto points = points_.at(members);
-  // What little looks like noise is shape.
+  // What little looks like noise is shape: where a flat side is the smoothest part of all,
+  // smoothing by it would leave the other side's bends out, and put this side off its points.
   if (surroundings.exact) {
     for (auto& point : points) point.variance = 0.0;
   }
-  const double roughness = points_.roughness_of(members);
-  auto field = HermitePatch::fit(points, place, radius, kAllowanceInSpace * roughness);
+  auto field = HermitePatch::fit(points, place, radius, kAllowanceInSpace * surroundings.roughness);
   if (!field) return std::nullopt;
   const double noise = surroundings.noise_area / (surroundings.spacing * surroundings.spacing);
   const double variance =

@@ -61,12 +61,6 @@ std::size_t PatchPoints::nearer_points() const {
   return rule_.points / kNearerPart;
 }
 
-double PatchPoints::roughness_of(const std::vector<std::size_t>& members) const {
-  double most = 0.0;
-  for (const auto i : members) most = std::max(most, roughness_at(roughness_, points_[i].position));
-  return most;
-}
-
 /// Over which distance noise and roughness weigh the same.
 double PatchPoints::Surroundings::bandwidth(double of_roughness) const {
   return std::pow(noise_area / of_roughness, 0.2);

@@ -58,10 +58,6 @@ class PatchPoints {
   const PatchRule& rule() const { return rule_; }
   std::vector<OrientedPoint> at(const std::vector<std::size_t>& indices) const;
 
-  /// Of the places where these points lie the greatest: what bends least says nothing of the
-  /// others.
-  double roughness_of(const std::vector<std::size_t>& members) const;
-
   /// O(log points), in a hole more.
   Surroundings surroundings_of(const Eigen::Vector3d& place) const;
 

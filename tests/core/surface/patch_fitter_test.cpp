@@ -73,33 +73,6 @@ OrientedPoints rimmed_plate_points(double thickness) {
   return points;
 }
 
-/// A flat side and, over it, one in waves.
-OrientedPoints bent_plate_points(double sigma, double told) {
-  OrientedPoints points;
-  test::RandomNumbers random(3);
-  for (int i = 0; i < 1000; ++i) {
-    const double x = random.uniform(-0.3, 0.3);
-    const double y = random.uniform(-0.3, 0.3);
-    const Vector3d down = -Vector3d::UnitZ();
-    const Vector3d up = Vector3d(-0.6 * std::cos(60.0 * x), 0.0, 1.0).normalized();
-    const Vector3d over(x, y, 0.06 + 0.01 * std::sin(60.0 * x));
-    points.push_back({Vector3d(x, y, 0.0) + sigma * random.normal() * down, down, told * told});
-    points.push_back({over + sigma * random.normal() * up, up, told * told});
-  }
-  return points;
-}
-
-/// How far the field in space round the origin passes by one of its points.
-double most_off(const OrientedPoints& points, const std::vector<LocalRoughness>& known) {
-  const PatchFitter fitter(points, PointIndex(test::positions_of(points)), known);
-  const auto patch = fitter.fit(Vector3d::Zero()).value();
-  EXPECT_TRUE(std::holds_alternative<HermitePatch>(patch.field));
-  double most = 0.0;
-  for (const auto member : patch.members)
-    most = std::max(most, std::abs(patch.at(points[member].position).value));
-  return most;
-}
-
 /// Of a hexagonal prism along z, each wall `width` wide; walls begin at edges at whole sixths of a
 /// turn.
 struct Hexagon {
@@ -326,21 +299,30 @@ TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
   }
 }
 
-/// Toes over a sole, which is far smoother.
-TEST(PatchFitter, MeetsTheExactPointsOfAFlatSideWhoseOtherSideIsBent) {
-  const auto points = bent_plate_points(0.0, 0.005 * kSpacing);
-  EXPECT_LT(most_off(points, {{Vector3d::Zero(), 1e-7}}), 0.01 * kSpacing);
-}
-
-TEST(PatchFitter, MeetsTheNoisyPointsOfAFlatSideWhoseOtherSideIsBent) {
-  const double sigma = 0.05 * kSpacing;
-  const auto points = bent_plate_points(sigma, sigma);
-  const std::vector<LocalRoughness> known = {{Vector3d::Zero(), 1e-7}, {{0.0, 0.0, 0.06}, 5.0}};
-  EXPECT_LT(most_off(points, known), 4.0 * sigma);
-}
-
 /// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
 /// one side and the rim.
+/// Scanned toes over a flat sole: their bends passed for noise where the sole was told to be
+/// smooth, and the surface lay 1.7 mm beside a sole's exact points.
+TEST(PatchFitter, MeetsTheFlatSideOfAThinPartWhoseOtherSideIsBent) {
+  const double harmless = std::pow(0.005 * kSpacing, 2);
+  OrientedPoints points;
+  test::RandomNumbers random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double x = random.uniform(-0.3, 0.3);
+    const double y = random.uniform(-0.3, 0.3);
+    points.push_back({{x, y, 0.0}, -Vector3d::UnitZ(), harmless});
+    const Vector3d outward = Vector3d(-0.6 * std::cos(60.0 * x), 0.0, 1.0).normalized();
+    points.push_back({{x, y, 0.06 + 0.01 * std::sin(60.0 * x)}, outward, harmless});
+  }
+  const PatchFitter fitter(points, PointIndex(test::positions_of(points)),
+                           {{Vector3d::Zero(), 1e-7}});
+  const auto patch = fitter.fit(Vector3d::Zero()).value();
+  ASSERT_TRUE(std::holds_alternative<HermitePatch>(patch.field));
+  for (const auto member : patch.members) {
+    EXPECT_NEAR(patch.at(points[member].position).value, 0.0, 0.01 * kSpacing);
+  }
+}
+
 TEST(PatchFitter, FindsTheEdgeOfARimWhereThePatchReachesRoundAThinPart) {
   const double thickness = 3.5 * kSpacing;
   const auto points = rimmed_plate_points(thickness);
