@@ -328,7 +328,8 @@ bool CreasedPatch::hides_points(const std::vector<OrientedPoint>& points, double
   for (const Sheet* sheet : {&first_, &second_}) {
     hidden += std::count_if(sheet->members.begin(), sheet->members.end(), [&](std::size_t i) {
       const Eigen::Vector3d& place = points[i].position;
-      return std::abs(at(place).value - sheet->patch.at(place).value) > kHidden * radius;
+      return std::abs(at(place).value - sheet->patch.at(place).value) >
+             kHidden * radius + 2.0 * std::sqrt(points[i].variance);
     });
   }
   return static_cast<double>(hidden) > kMostHidden * static_cast<double>(points.size());

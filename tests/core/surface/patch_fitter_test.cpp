@@ -299,8 +299,6 @@ TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
   }
 }
 
-/// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
-/// one side and the rim.
 /// Scanned toes over a flat sole: their bends passed for noise where the sole was told to be
 /// smooth, and the surface lay 1.7 mm beside a sole's exact points.
 TEST(PatchFitter, MeetsTheFlatSideOfAThinPartWhoseOtherSideIsBent) {
@@ -323,6 +321,8 @@ TEST(PatchFitter, MeetsTheFlatSideOfAThinPartWhoseOtherSideIsBent) {
   }
 }
 
+/// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
+/// one side and the rim.
 TEST(PatchFitter, FindsTheEdgeOfARimWhereThePatchReachesRoundAThinPart) {
   const double thickness = 3.5 * kSpacing;
   const auto points = rimmed_plate_points(thickness);
