@@ -24,10 +24,11 @@ constexpr std::size_t kFewestOnASheet = 6;
 /// Of more than twice as many points so many are asked first whether they turn at all.
 constexpr std::size_t kEnoughPoints = 160;
 constexpr int kRounds = 6;
-/// A point further off the body than this part of the radius is no point of it, and so many may
-/// be: of lasts of 902 points with told normals a girth lay 4 mm beside the points that lay
-/// nearest.
+/// A point further off the body than this part of the radius, and than noise explains, is no point
+/// of it, and so many may be: of lasts of 902 points with told normals a girth lay 4 mm beside the
+/// nearest ones.
 constexpr double kHidden = 0.05;
+constexpr double kHiddenInSigmas = 2.0;
 constexpr double kMostHidden = 0.05;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
 /// which they are.
@@ -329,7 +330,7 @@ bool CreasedPatch::hides_points(const std::vector<OrientedPoint>& points, double
     hidden += std::count_if(sheet->members.begin(), sheet->members.end(), [&](std::size_t i) {
       const Eigen::Vector3d& place = points[i].position;
       return std::abs(at(place).value - sheet->patch.at(place).value) >
-             kHidden * radius + 2.0 * std::sqrt(points[i].variance);
+             kHidden * radius + kHiddenInSigmas * std::sqrt(points[i].variance);
     });
   }
   return static_cast<double>(hidden) > kMostHidden * static_cast<double>(points.size());
