@@ -14,6 +14,7 @@
 #include "core/girth/section_gaps.h"
 #include "core/girth/skin_layers.h"
 #include "core/girth/smooth_section.h"
+#include "core/girth/unseen_bends.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {
@@ -115,7 +116,7 @@ void drop_unfounded(const PlaneBand& band, std::vector<Loop>& loops) {
   std::vector<double> densities;
   for (const auto& loop : loops) {
     const auto evidence = evidence_for(band, loop.index, kEvidenceInGrains * band.grain);
-    densities.push_back(static_cast<double>(evidence.points) / loop.index.length());
+    densities.push_back(static_cast<double>(evidence.ways.size()) / loop.index.length());
   }
   const double best = *std::max_element(densities.begin(), densities.end());
   std::vector<Loop> founded;
@@ -129,7 +130,8 @@ void drop_unfounded(const PlaneBand& band, std::vector<Loop>& loops) {
 bool leaves_points_unexplained(const PlaneBand& band, const std::vector<Loop>& loops,
                                const SectionEvidence& of_first) {
   const double near = kEvidenceInGrains * band.grain;
-  const double most = kNotableUnexplained * static_cast<double>(of_first.beside + of_first.points);
+  const double most =
+      kNotableUnexplained * static_cast<double>(of_first.beside + of_first.ways.size());
   // The other loops can only explain some of what the first one does not.
   if (static_cast<double>(of_first.beside) <= most) return false;
   const auto unexplained =
@@ -179,6 +181,16 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::ve
   return *smooth;
 }
 
+/// By what the fitted surface does not know of.
+void widen(const PlaneBand& band, double unseen_bends, const std::optional<SkinLayers>& layers,
+           MeasuredSection& section) {
+  for (double* u95 : {&section.contact_u95, &section.stretched_u95}) {
+    // Noise that is not what was told of it is hardly independent from point to point either.
+    *u95 = std::hypot(*u95, unseen_bends) * std::min(band.told_scale, kMostDistrust);
+    if (layers) *u95 += reach_of(*layers);
+  }
+}
+
 std::string warning_of(const SkinLayers& layers, double unit_mm) {
   char figure[32];
   std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * (layers.outer - layers.inner));
@@ -216,6 +228,22 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
 }
 
+/// In millimetres.
+Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
+               const SectionEvidence& evidence) {
+  Girth girth;
+  girth.contact_mm = band.unit_mm * section.contact;
+  for (const auto& point : section.contour.refined(kPiecesOfChord))
+    girth.contour.push_back(band.to_plane(point));
+  girth.stretched_mm = band.unit_mm * section.stretched;
+  girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
+  girth.contact_u95_mm = band.unit_mm * section.contact_u95;
+  girth.band_points = band.points.size() + band.thinned_out;
+  girth.sigma_mm = band.unit_mm * band.sigma;
+  girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
+  return girth;
+}
+
 /// For normals that let no section close, as those of which one stretch points inwards.
 Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
                                     const GirthOptions& options) {
@@ -251,7 +279,8 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   drop_unfounded(*band, loops);
   largest_first(loops);
   const Contour& contour = loops.front().contour;
-  const auto evidence = evidence_for(*band, loops.front().index, kEvidenceInGrains * band->grain);
+  const double near = kEvidenceInGrains * band->grain;
+  const auto evidence = evidence_for(*band, loops.front().index, near);
   const double length = contour.length();
   if (evidence.gap > kWidestBridge * length) {
     return fail(ErrorCode::kInsufficientData,
@@ -260,14 +289,8 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   }
 
   auto section = measured(slabs, *band, loops, surface, evidence);
-  // Noise that is not what was told of it is hardly independent from point to point either.
-  section.contact_u95 *= std::min(band->told_scale, kMostDistrust);
-  section.stretched_u95 *= std::min(band->told_scale, kMostDistrust);
-  const auto layers = layers_near_plane(*band, surface, kEvidenceInGrains * band->grain);
-  if (layers) {
-    section.contact_u95 += reach_of(*layers);
-    section.stretched_u95 += reach_of(*layers);
-  }
+  const auto layers = layers_near_plane(*band, surface, near);
+  widen(*band, doubt_of_unseen_bends(contour, evidence.ways, near), layers, section);
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,
@@ -275,17 +298,8 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan again, with more or better frames");
   }
 
-  Girth girth;
-  girth.contact_mm = band->unit_mm * section.contact;
-  for (const auto& point : section.contour.refined(kPiecesOfChord))
-    girth.contour.push_back(band->to_plane(point));
-  girth.stretched_mm = band->unit_mm * section.stretched;
-  girth.stretched_u95_mm = band->unit_mm * section.stretched_u95;
-  girth.contact_u95_mm = band->unit_mm * section.contact_u95;
+  Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();
-  girth.band_points = band->points.size() + band->thinned_out;
-  girth.sigma_mm = band->unit_mm * band->sigma;
-  girth.largest_gap_mm = band->unit_mm * evidence.seen_gap;
   add_warnings(*band, loops, evidence, layers, doubt, girth);
   return girth;
 }

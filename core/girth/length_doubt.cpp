@@ -12,8 +12,7 @@
 namespace instep {
 namespace {
 
-/// How much each part counts against that of the noise, so that intervals hold.
-constexpr double kWandering = 1.15;
+/// How much unseen waves count against all else, so that intervals hold.
 constexpr double kUnseenWaves = 1.2;
 constexpr double kUnseenUnderNoise = 1.7;
 constexpr double kDeviations = 1.96;
@@ -186,7 +185,7 @@ double half_width(const std::vector<double>& influence, double wandering, const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     noise += influence[i] * influence[i] * points[i].variance;
   }
-  const double variance = noise + kWandering * kWandering * wandering + sums.rounding +
+  const double variance = noise + wandering + sums.rounding +
                           sums.unseen_waves * sums.unseen_waves +
                           sums.noise_waves * sums.noise_waves;
   return kDeviations * std::sqrt(variance) + kLeast * length;

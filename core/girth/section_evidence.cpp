@@ -1,5 +1,6 @@
 #include "core/girth/section_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -40,9 +41,10 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
     ways.push_back(foot.way);
     if (band.seen[i]) seen.push_back(foot.way);
   }
-  const std::size_t count = ways.size();
-  return {count, beside, largest_gap_between(std::move(ways), contour.length()),
-          largest_gap_between(std::move(seen), contour.length())};
+  std::sort(ways.begin(), ways.end());
+  const double gap = largest_gap_between(ways, contour.length());
+  const double seen_gap = largest_gap_between(std::move(seen), contour.length());
+  return {std::move(ways), beside, gap, seen_gap};
 }
 
 }  // namespace instep

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/girth/contour_index.h"
 #include "core/girth/plane_band.h"
@@ -9,10 +10,10 @@ namespace instep {
 
 /// What the points near the tape plane say of a contour on it. Lengths in the band's unit.
 struct SectionEvidence {
-  std::size_t points = 0;  ///< near the contour
-  std::size_t beside = 0;  ///< as near to the plane, but on no skin that runs to the contour
-  double gap = 0.0;        ///< longest stretch of the contour without one
-  double seen_gap = 0.0;   ///< longest stretch without one that a camera saw
+  std::vector<double> ways;  ///< along the contour to each point near it, in order
+  std::size_t beside = 0;    ///< points as near to the plane, but on no skin that runs to it
+  double gap = 0.0;          ///< longest stretch of the contour without a point
+  double seen_gap = 0.0;     ///< longest stretch without one that a camera saw
 };
 
 /// Points within `near` of the plane and of the contour count.

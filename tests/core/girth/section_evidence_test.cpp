@@ -64,7 +64,7 @@ Vector3d leaning(double degrees) {
 
 TEST(SectionEvidence, IsNothingWithoutPoints) {
   const auto evidence = evidence_of({});
-  EXPECT_EQ(evidence.points, 0U);
+  EXPECT_EQ(evidence.ways.size(), 0U);
   EXPECT_EQ(evidence.beside, 0U);
   EXPECT_NEAR(evidence.gap, way(360), 1e-12);
   EXPECT_NEAR(evidence.seen_gap, way(360), 1e-12);
@@ -82,7 +82,7 @@ TEST(SectionEvidence, CountsPointsNearTheContourAndThoseBesideIt) {
                                      {at(90, kRadius, 1.1 * kNear)},
                                      {at(100, kRadius, -1.1 * kNear)},
                                      {at(110, 2.0 * kRadius, 1.1 * kNear)}});
-  EXPECT_EQ(evidence.points, 5U);
+  EXPECT_EQ(evidence.ways.size(), 5U);
   EXPECT_EQ(evidence.beside, 3U);
 }
 
@@ -114,13 +114,21 @@ TEST(SectionEvidence, MeasuresTheLongestWayBetweenPoints) {
 TEST(SectionEvidence, NoPointBesideTheContourClosesAGap) {
   const auto evidence = evidence_of(
       {{at(0)}, {at(90)}, {at(180)}, {at(230, kRadius + 1.1 * kNear)}, {at(250, 0.35, 0.06)}});
-  EXPECT_EQ(evidence.points, 3U);
+  EXPECT_EQ(evidence.ways.size(), 3U);
   EXPECT_NEAR(evidence.gap, way(180), 1e-9);
+}
+
+TEST(SectionEvidence, TellsTheWaysToItsPointsInOrder) {
+  const auto ways = evidence_of({{at(200)}, {at(20), false}, {at(110, 0.1)}, {at(290)}}).ways;
+  ASSERT_EQ(ways.size(), 3U);
+  EXPECT_NEAR(ways[0], way(20), 1e-9);
+  EXPECT_NEAR(ways[1], way(200), 1e-9);
+  EXPECT_NEAR(ways[2], way(290), 1e-9);
 }
 
 TEST(SectionEvidence, TellsPointsThatNoCameraSawApart) {
   const auto evidence = evidence_of({{at(0)}, {at(90), false}, {at(180)}, {at(270)}});
-  EXPECT_EQ(evidence.points, 4U);
+  EXPECT_EQ(evidence.ways.size(), 4U);
   EXPECT_NEAR(evidence.gap, way(90), 1e-9);
   EXPECT_NEAR(evidence.seen_gap, way(180), 1e-9);
   const auto unseen = evidence_of({{at(0), false}, {at(180), false}});

@@ -1,0 +1,114 @@
+#include "core/girth/unseen_bends.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/girth/contour_index.h"
+#include "core/girth/girth.h"
+#include "tests/support/analytic_shapes.h"
+
+namespace instep {
+namespace {
+
+constexpr double kRadius = 0.35;
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr int kCorners = 3600;
+
+/// Ten corners for each degree.
+Contour circle(double radius = kRadius) {
+  Contour contour;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kCorners;
+    contour.outward.emplace_back(std::cos(angle), std::sin(angle));
+    contour.points.push_back(radius * contour.outward.back());
+  }
+  return contour;
+}
+
+/// A point at each whole degree but between two of them, `first` < `second` < `first` + 360.
+std::vector<double> ways_without(int first, int second) {
+  const double degree = ContourIndex(circle()).length() / 360.0;
+  std::vector<double> ways;
+  for (int i = 0; i < 360; ++i) {
+    const bool inside = (i > first && i < second) || (i + 360 > first && i + 360 < second);
+    if (!inside) ways.push_back(i * degree);
+  }
+  return ways;
+}
+
+double doubt(int first, int second, double near = 0.05) {
+  return doubt_of_unseen_bends(circle(), ways_without(first, second), near);
+}
+
+/// Tangents at both ends meet in a corner.
+double corner_less_arc(double degrees) {
+  const double half = 0.5 * degrees * kDegree;
+  return 2.0 * kRadius * (std::tan(half) - half);
+}
+
+TEST(UnseenBends, AreNoneWhereAllIsSeen) {
+  EXPECT_EQ(doubt(10, 11), 0.0);
+  EXPECT_EQ(doubt_of_unseen_bends(circle(), {}, 0.05), 0.0);
+}
+
+TEST(UnseenBends, AreNoneWhereTheGapIsShortOrHardlyTurns) {
+  EXPECT_EQ(doubt(100, 135), 0.0);
+  EXPECT_GT(doubt(100, 140), 0.0);
+  EXPECT_EQ(doubt(100, 140, 41.0 * kDegree * kRadius), 0.0);
+}
+
+TEST(UnseenBends, ArePartOfWhatACornerWouldAddBeyondAnOrdinaryTurn) {
+  for (const int degrees : {60, 90, 120}) {
+    const double ordinary = corner_less_arc(36) * degrees / 36.0;
+    EXPECT_NEAR(doubt(20, 20 + degrees), 0.7 * (corner_less_arc(degrees) - ordinary), 1e-5)
+        << degrees;
+  }
+}
+
+TEST(UnseenBends, AreTheSameWhereverTheContourBegins) {
+  EXPECT_NEAR(doubt(300, 390), doubt(20, 110), 1e-9);
+  EXPECT_NEAR(doubt(270, 360), doubt(20, 110), 1e-9);
+}
+
+TEST(UnseenBends, OfSeveralGapsAddUpAsIndependentOnes) {
+  const double degree = ContourIndex(circle()).length() / 360.0;
+  const std::vector<double> ways = {0.0, 90.0 * degree, 180.0 * degree, 270.0 * degree};
+  EXPECT_NEAR(doubt_of_unseen_bends(circle(), ways, 0.05), 2.0 * doubt(20, 110), 1e-9);
+}
+
+TEST(UnseenBends, StayBoundedWhereAlmostNothingIsSeen) {
+  const double all = doubt_of_unseen_bends(circle(), {0.1}, 0.05);
+  EXPECT_TRUE(std::isfinite(all));
+  EXPECT_LT(all, 0.6 * ContourIndex(circle()).length());
+}
+
+TEST(UnseenBends, AreTheSameInAnyUnit) {
+  auto ways = ways_without(20, 110);
+  for (auto& way : ways) way *= 1000.0;
+  const double scaled = doubt_of_unseen_bends(circle(1000.0 * kRadius), ways, 50.0);
+  EXPECT_NEAR(scaled, 1000.0 * doubt(20, 110), 1e-6);
+}
+
+/// Exact points, but none within 12 mm of one edge of the sole.
+TEST(UnseenBends, OfAnEdgeThatNobodySawAreToldByTheGirth) {
+  const auto shape = test::flat_soled_cylinder(45, 35, 22);
+  const Eigen::Vector2d edge(45.0 * std::sqrt(1.0 - std::pow(22.0 / 35.0, 2)), -22.0);
+  const auto plane = TapePlane::through({0, 0, 0}, {10, 0, 1}, {0, 10, 2}).value();
+  const double truth = test::true_girth(shape, plane);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    PointCloud cloud = test::points_by_area(shape, 6000, -40, 40, seed);
+    cloud.normals.clear();
+    std::erase_if(cloud.positions, [&](const Eigen::Vector3d& place) {
+      return (place.head<2>() - edge).norm() < 12.0;
+    });
+    const auto girth = girth_by_rbf(cloud, plane);
+    ASSERT_TRUE(girth) << girth.error().line();
+    EXPECT_NEAR(girth->contact_mm, truth, *girth->contact_u95_mm) << seed;
+    EXPECT_LT(*girth->contact_u95_mm, 5.0) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace instep
