@@ -41,6 +41,7 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
+constexpr double kMostOfDoubt = 0.7;
 /// Intervals are wider by as much as the noise is more than was told, up to this.
 constexpr double kMostDistrust = 2.0;
 /// A share of the points near the plane, off all loops, that is worth a warning.
@@ -182,13 +183,13 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::ve
 }
 
 /// By what the fitted surface does not know of.
-void widen(const PlaneBand& band, double unseen_bends, const std::optional<SkinLayers>& layers,
+void widen(const PlaneBand& band, const UnseenBends& bends, const std::optional<SkinLayers>& layers,
            MeasuredSection& section) {
-  for (double* u95 : {&section.contact_u95, &section.stretched_u95}) {
-    // Noise that is not what was told of it is hardly independent from point to point either.
-    *u95 = std::hypot(*u95, unseen_bends) * std::min(band.told_scale, kMostDistrust);
-    if (layers) *u95 += reach_of(*layers);
-  }
+  // Noise that is not what was told of it is hardly independent from point to point either.
+  const double distrust = std::min(band.told_scale, kMostDistrust);
+  const double reach = layers ? reach_of(*layers) : 0.0;
+  section.contact_u95 = std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach;
+  section.stretched_u95 = std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach;
 }
 
 std::string warning_of(const SkinLayers& layers, double unit_mm) {
@@ -199,10 +200,11 @@ std::string warning_of(const SkinLayers& layers, double unit_mm) {
          "poses, or scan one layer alone";
 }
 
-/// What whoever reads the girth should know. `doubt`: half of the interval, against the length.
+/// What whoever reads the girth should know. `doubt`: half of the interval, against the length;
+/// `out_of_sight`: most of it is.
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
                   const SectionEvidence& evidence, const std::optional<SkinLayers>& layers,
-                  double doubt, Girth& girth) {
+                  double doubt, bool out_of_sight, Girth& girth) {
   const auto warn_if = [&](bool so, const char* warning) {
     if (so) girth.warnings.emplace_back(warning);
   };
@@ -225,7 +227,10 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
       !scattered && !layers && band.told_scale == 1.0 && band.sigma > kNotableNoise,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
-  warn_if(doubt > kNotableDoubt, "the points are so few or noisy that the girth is uncertain");
+  warn_if(doubt > kNotableDoubt,
+          out_of_sight ? "the section may bend more sharply where no camera saw it, so that the "
+                         "girth is uncertain: scan the body from there too"
+                       : "the points are so few or noisy that the girth is uncertain");
 }
 
 /// In millimetres.
@@ -290,7 +295,8 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
 
   auto section = measured(slabs, *band, loops, surface, evidence);
   const auto layers = layers_near_plane(*band, surface, near);
-  widen(*band, doubt_of_unseen_bends(contour, evidence.ways, near), layers, section);
+  const UnseenBends bends = unseen_bends_of(contour, evidence.ways, near);
+  widen(*band, bends, layers, section);
   const double doubt = section.stretched_u95 / length;
   if (!(doubt <= kMostDoubt)) {
     return fail(ErrorCode::kInsufficientData,
@@ -298,9 +304,10 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                 "scan again, with more or better frames");
   }
 
+  const bool out_of_sight = bends.stretched_u95 > kMostOfDoubt * section.stretched_u95;
   Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();
-  add_warnings(*band, loops, evidence, layers, doubt, girth);
+  add_warnings(*band, loops, evidence, layers, doubt, out_of_sight, girth);
   return girth;
 }
 

@@ -12,7 +12,8 @@
 namespace instep {
 namespace {
 
-/// How much unseen waves count against all else, so that intervals hold.
+/// How much unseen waves count against all else, so that intervals hold: between exact points, and
+/// where noise hides them.
 constexpr double kUnseenWaves = 1.2;
 constexpr double kUnseenUnderNoise = 1.7;
 constexpr double kDeviations = 1.96;

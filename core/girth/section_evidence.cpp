@@ -42,8 +42,9 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
     if (band.seen[i]) seen.push_back(foot.way);
   }
   std::sort(ways.begin(), ways.end());
+  std::sort(seen.begin(), seen.end());
   const double gap = largest_gap_between(ways, contour.length());
-  const double seen_gap = largest_gap_between(std::move(seen), contour.length());
+  const double seen_gap = largest_gap_between(seen, contour.length());
   return {std::move(ways), beside, gap, seen_gap};
 }
 

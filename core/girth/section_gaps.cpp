@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "core/geometry/polygon.h"
 
@@ -35,9 +34,8 @@ std::optional<double> station(const std::vector<Eigen::Vector2d>& contour,
 
 }  // namespace
 
-double largest_gap_between(std::vector<double> ways, double length) {
+double largest_gap_between(const std::vector<double>& ways, double length) {
   if (ways.empty()) return length;
-  std::sort(ways.begin(), ways.end());
   double gap = ways.front() + length - ways.back();
   for (std::size_t i = 1; i < ways.size(); ++i) gap = std::max(gap, ways[i] - ways[i - 1]);
   return gap;
@@ -50,7 +48,8 @@ double largest_gap(const std::vector<Eigen::Vector2d>& contour,
   for (const auto& point : points) {
     if (const auto way = station(contour, point, reach)) ways.push_back(*way);
   }
-  return largest_gap_between(std::move(ways), perimeter(contour));
+  std::sort(ways.begin(), ways.end());
+  return largest_gap_between(ways, perimeter(contour));
 }
 
 }  // namespace instep

@@ -13,8 +13,8 @@ inline constexpr const char* kBridgedWarning =
     "a part of the section that no camera saw was bridged";
 
 /// The longest stretch between neighbours among places on a closed line of that `length`, each
-/// given by the way to it; the length itself when there are none.
-double largest_gap_between(std::vector<double> ways, double length);
+/// given by the way to it, in order; the length itself when there are none.
+double largest_gap_between(const std::vector<double>& ways, double length);
 
 /// The longest stretch of a closed contour onto which none of the points falls, when each is put on
 /// the contour where it is nearest; the contour's length when there are none. Points further than

@@ -12,14 +12,19 @@ namespace {
 
 constexpr double kOrdinaryTurn = 0.2 * std::numbers::pi;
 /// A corner that turns more is no better told by its ends' directions.
-constexpr double kSharpestTurn = 0.7 * std::numbers::pi;
+constexpr double kSharpestTurn = 0.6 * std::numbers::pi;
 /// Part of what a corner may add that is half of a 95 % interval.
-constexpr double kLikely = 0.7;
+constexpr double kLikely = 0.9;
 
 /// How much longer a corner is than the arc that turns as far, against that.
+double corner_over_arc(double turn) {
+  return std::tan(0.5 * turn) / (0.5 * turn) - 1.0;
+}
+
+/// That, beyond an ordinary turn.
 double longer_by_corner(double turn) {
-  const double half = 0.5 * std::clamp(turn, kOrdinaryTurn, kSharpestTurn);
-  return std::tan(half) / half - 1.0;
+  return corner_over_arc(std::clamp(turn, kOrdinaryTurn, kSharpestTurn)) -
+         corner_over_arc(kOrdinaryTurn);
 }
 
 /// What the contour turned at each corner since the first, and all round at the first again; with
@@ -48,9 +53,9 @@ struct Headings {
 
 }  // namespace
 
-double doubt_of_unseen_bends(const Contour& contour, const std::vector<double>& ways, double near) {
+UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& ways, double near) {
   const Headings headings(contour);
-  double squares = 0.0;
+  UnseenBends sum;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const bool last = i + 1 == ways.size();
     const std::size_t next = last ? 0 : i + 1;
@@ -58,10 +63,11 @@ double doubt_of_unseen_bends(const Contour& contour, const std::vector<double>& 
     if (gap <= near) continue;
     const double turn = headings.turn_at(ways[next]) - headings.turn_at(ways[i]) +
                         (last ? headings.turns.back() : 0.0);
-    const double longer = longer_by_corner(turn) - longer_by_corner(kOrdinaryTurn);
-    squares += std::pow(kLikely * gap * longer, 2);
+    const double longer = kLikely * (gap - near) * longer_by_corner(std::abs(turn));
+    sum.contact_u95 = std::hypot(sum.contact_u95, longer);
+    if (turn > 0.0) sum.stretched_u95 = std::hypot(sum.stretched_u95, longer);
   }
-  return std::sqrt(squares);
+  return sum;
 }
 
 }  // namespace instep

@@ -102,8 +102,8 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   auto points = points_.at(members);
   // What little looks like noise is shape: where a flat side is the smoothest part of all,
   // smoothing by it would leave the other side's bends out, and put this side off its points.
-  if (surroundings.exact) {
-    for (auto& point : points) point.variance = 0.0;
+  for (auto& point : points) {
+    if (is_harmless(point.variance, surroundings.spacing)) point.variance = 0.0;
   }
   auto field = HermitePatch::fit(points, place, radius, kAllowanceInSpace * surroundings.roughness);
   if (!field) return std::nullopt;
@@ -174,8 +174,8 @@ std::optional<SurfacePatch> PatchFitter::fit_finer(const Surroundings& surroundi
   for (std::size_t i = 0; i < members.front.size(); ++i) {
     (i % kAskedOneIn == 0 ? asked : others).push_back(points_.all()[members.front[i]]);
   }
-  const auto most =
-      HeightPatch::fit(others, place, members.outward, members.front_radius, roughness, true);
+  const auto most = HeightPatch::fit(others, place, members.outward, members.front_radius,
+                                     roughness, surroundings.reach <= kCrowdedReach);
   if (!most || !(off_by(*most, asked) < kFiner * off_by(blurred, asked))) return std::nullopt;
   return fit_sheet(surroundings, place, members, roughness);
 }

@@ -1,7 +1,9 @@
 #include "core/girth/unseen_bends.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,7 +41,7 @@ std::vector<double> ways_without(int first, int second) {
 }
 
 double doubt(int first, int second, double near = 0.05) {
-  return doubt_of_unseen_bends(circle(), ways_without(first, second), near);
+  return unseen_bends_of(circle(), ways_without(first, second), near).contact_u95;
 }
 
 /// Tangents at both ends meet in a corner.
@@ -50,7 +52,7 @@ double corner_less_arc(double degrees) {
 
 TEST(UnseenBends, AreNoneWhereAllIsSeen) {
   EXPECT_EQ(doubt(10, 11), 0.0);
-  EXPECT_EQ(doubt_of_unseen_bends(circle(), {}, 0.05), 0.0);
+  EXPECT_EQ(unseen_bends_of(circle(), {}, 0.05).contact_u95, 0.0);
 }
 
 TEST(UnseenBends, AreNoneWhereTheGapIsShortOrHardlyTurns) {
@@ -60,10 +62,12 @@ TEST(UnseenBends, AreNoneWhereTheGapIsShortOrHardlyTurns) {
 }
 
 TEST(UnseenBends, ArePartOfWhatACornerWouldAddBeyondAnOrdinaryTurn) {
-  for (const int degrees : {60, 90, 120}) {
+  for (const int degrees : {60, 90, 105}) {
     const double ordinary = corner_less_arc(36) * degrees / 36.0;
-    EXPECT_NEAR(doubt(20, 20 + degrees), 0.7 * (corner_less_arc(degrees) - ordinary), 1e-5)
-        << degrees;
+    const double longer = 0.9 * (corner_less_arc(degrees) - ordinary);
+    EXPECT_NEAR(doubt(20, 20 + degrees, 0.0), longer, 1e-5) << degrees;
+    const double gap = degrees * kDegree * kRadius;
+    EXPECT_NEAR(doubt(20, 20 + degrees, 0.3 * gap), 0.7 * longer, 1e-5) << degrees;
   }
 }
 
@@ -75,11 +79,11 @@ TEST(UnseenBends, AreTheSameWhereverTheContourBegins) {
 TEST(UnseenBends, OfSeveralGapsAddUpAsIndependentOnes) {
   const double degree = ContourIndex(circle()).length() / 360.0;
   const std::vector<double> ways = {0.0, 90.0 * degree, 180.0 * degree, 270.0 * degree};
-  EXPECT_NEAR(doubt_of_unseen_bends(circle(), ways, 0.05), 2.0 * doubt(20, 110), 1e-9);
+  EXPECT_NEAR(unseen_bends_of(circle(), ways, 0.05).contact_u95, 2.0 * doubt(20, 110), 1e-9);
 }
 
 TEST(UnseenBends, StayBoundedWhereAlmostNothingIsSeen) {
-  const double all = doubt_of_unseen_bends(circle(), {0.1}, 0.05);
+  const double all = unseen_bends_of(circle(), {0.1}, 0.05).contact_u95;
   EXPECT_TRUE(std::isfinite(all));
   EXPECT_LT(all, 0.6 * ContourIndex(circle()).length());
 }
@@ -87,8 +91,22 @@ TEST(UnseenBends, StayBoundedWhereAlmostNothingIsSeen) {
 TEST(UnseenBends, AreTheSameInAnyUnit) {
   auto ways = ways_without(20, 110);
   for (auto& way : ways) way *= 1000.0;
-  const double scaled = doubt_of_unseen_bends(circle(1000.0 * kRadius), ways, 50.0);
+  const double scaled = unseen_bends_of(circle(1000.0 * kRadius), ways, 50.0).contact_u95;
   EXPECT_NEAR(scaled, 1000.0 * doubt(20, 110), 1e-6);
+}
+
+/// A circle the other way round, with the body outside.
+TEST(UnseenBends, InwardsAreNoneOfAStretchedTapes) {
+  Contour inwards;
+  for (auto& place : circle().outward) inwards.outward.push_back(-place);
+  inwards.points = circle().points;
+  std::reverse(inwards.points.begin(), inwards.points.end());
+  std::reverse(inwards.outward.begin(), inwards.outward.end());
+  const auto bends = unseen_bends_of(inwards, ways_without(20, 110), 0.05);
+  EXPECT_NEAR(bends.contact_u95, doubt(20, 110), 1e-9);
+  EXPECT_EQ(bends.stretched_u95, 0.0);
+  const auto outwards = unseen_bends_of(circle(), ways_without(20, 110), 0.05);
+  EXPECT_EQ(outwards.stretched_u95, outwards.contact_u95);
 }
 
 /// Exact points, but none within 12 mm of one edge of the sole.
@@ -108,6 +126,21 @@ TEST(UnseenBends, OfAnEdgeThatNobodySawAreToldByTheGirth) {
     EXPECT_NEAR(girth->contact_mm, truth, *girth->contact_u95_mm) << seed;
     EXPECT_LT(*girth->contact_u95_mm, 5.0) << seed;
   }
+}
+
+TEST(UnseenBends, AreNamedByTheGirth) {
+  const auto thin = test::elliptic_cylinder(60, 10);
+  PointCloud cloud = test::points_by_area(thin, 6000, -30, 30, 1);
+  cloud.normals.clear();
+  std::erase_if(cloud.positions, [](const Eigen::Vector3d& place) {
+    return (place.head<2>() - Eigen::Vector2d(60.0, 0.0)).norm() < 14.0;
+  });
+  const auto plane = TapePlane::through({0, 0, 0}, {10, 0, 1}, {0, 10, 1}).value();
+  const auto girth = girth_by_rbf(cloud, plane);
+  ASSERT_TRUE(girth) << girth.error().line();
+  const std::string said = fmt::format("{}", fmt::join(girth->warnings, "; "));
+  EXPECT_NE(said.find("bend more sharply where no camera saw it"), std::string::npos) << said;
+  EXPECT_EQ(said.find("so few or noisy"), std::string::npos) << said;
 }
 
 }  // namespace

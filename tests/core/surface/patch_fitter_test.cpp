@@ -38,41 +38,6 @@ OrientedPoints plane_points(double sigma) {
   return points;
 }
 
-/// Two sheets as far apart as their points.
-OrientedPoints plate_points() {
-  OrientedPoints points;
-  test::RandomNumbers random(2);
-  for (const double side : {-1.0, 1.0}) {
-    for (int i = 0; i < 2500; ++i) {
-      points.push_back(
-          {{random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.5 * kSpacing * side},
-           side * Vector3d::UnitZ(),
-           0.0});
-    }
-  }
-  return points;
-}
-
-/// A plate over x > 0 and the rim at which it ends.
-OrientedPoints rimmed_plate_points(double thickness) {
-  OrientedPoints points;
-  test::RandomNumbers random(7);
-  const auto about = [&](int step) { return kSpacing * (step + random.uniform(-0.3, 0.3)); };
-  for (int j = -25; j <= 25; ++j) {
-    for (const double side : {-1.0, 1.0}) {
-      for (int i = 0; i < 20; ++i) {
-        points.push_back({{about(i) + 0.5 * kSpacing, about(j), 0.5 * thickness * side},
-                          side * Vector3d::UnitZ(),
-                          0.0});
-      }
-    }
-    for (int k = -1; k <= 1; ++k) {
-      points.push_back({{0.0, about(j), about(k)}, -Vector3d::UnitX(), 0.0});
-    }
-  }
-  return points;
-}
-
 /// Of a hexagonal prism along z, each wall `width` wide; walls begin at edges at whole sixths of a
 /// turn.
 struct Hexagon {
@@ -271,79 +236,6 @@ TEST(PatchFitter, LiesOnAverageNeitherInsideNorOutsideABowl) {
   constexpr double kSecondOrder = kSigma * kSigma / kRadius;
   EXPECT_LT(std::abs(sum / kBowls), 0.5 * kSecondOrder);
   EXPECT_LT(std::sqrt(squares) / kBowls, 0.2 * kSecondOrder) << "tells too little";
-}
-
-TEST(PatchFitter, MakesAFieldInSpaceOfBothSidesOfAThinPlate) {
-  const auto points = plate_points();
-  const auto fitter = fitter_of(points);
-  for (const double side : {-1.0, 1.0}) {
-    const Vector3d place(0.05, -0.1, 0.5 * kSpacing * side);
-    const auto patch = fitter.fit(place);
-    ASSERT_TRUE(patch);
-    ASSERT_TRUE(std::holds_alternative<HermitePatch>(patch->field));
-    EXPECT_NEAR(patch->at(place).value, 0.0, 0.05 * kSpacing);
-    EXPECT_NEAR(patch->at(-place + Vector3d(0.1, -0.2, 0.0)).value, 0.0, 0.05 * kSpacing);
-    EXPECT_LT(patch->at({0.05, -0.1, 0.0}).value, -0.2 * kSpacing);
-    EXPECT_GT(patch->variance, 0.0);
-
-    const auto sheet = patch->sheet_at(place);
-    EXPECT_EQ(sheet.patch, nullptr);
-    EXPECT_EQ(sheet.owner->variance, patch->variance);
-    const auto members = members_of(sheet);
-    EXPECT_EQ(members, std::set<std::size_t>(patch->members.begin(), patch->members.end()));
-    for (const double facing : {-1.0, 1.0}) {
-      EXPECT_GT(std::count_if(members.begin(), members.end(),
-                              [&](auto i) { return points[i].normal.z() * facing > 0.0; }),
-                20);
-    }
-  }
-}
-
-/// Scanned toes over a flat sole: their bends passed for noise where the sole was told to be
-/// smooth, and the surface lay 1.7 mm beside a sole's exact points.
-TEST(PatchFitter, MeetsTheFlatSideOfAThinPartWhoseOtherSideIsBent) {
-  const double harmless = std::pow(0.005 * kSpacing, 2);
-  OrientedPoints points;
-  test::RandomNumbers random(3);
-  for (int i = 0; i < 1000; ++i) {
-    const double x = random.uniform(-0.3, 0.3);
-    const double y = random.uniform(-0.3, 0.3);
-    points.push_back({{x, y, 0.0}, -Vector3d::UnitZ(), harmless});
-    const Vector3d outward = Vector3d(-0.6 * std::cos(60.0 * x), 0.0, 1.0).normalized();
-    points.push_back({{x, y, 0.06 + 0.01 * std::sin(60.0 * x)}, outward, harmless});
-  }
-  const PatchFitter fitter(points, PointIndex(test::positions_of(points)),
-                           {{Vector3d::Zero(), 1e-7}});
-  const auto patch = fitter.fit(Vector3d::Zero()).value();
-  ASSERT_TRUE(std::holds_alternative<HermitePatch>(patch.field));
-  for (const auto member : patch.members) {
-    EXPECT_NEAR(patch.at(points[member].position).value, 0.0, 0.01 * kSpacing);
-  }
-}
-
-/// The nearest points to its rim's edge lie on both sides of the plate, the nearer half of them on
-/// one side and the rim.
-TEST(PatchFitter, FindsTheEdgeOfARimWhereThePatchReachesRoundAThinPart) {
-  const double thickness = 3.5 * kSpacing;
-  const auto points = rimmed_plate_points(thickness);
-  const auto fitter = fitter_of(points);
-  for (const double side : {-1.0, 1.0}) {
-    const Vector3d edge(0.0, 0.03, 0.5 * thickness * side);
-    const auto nearest = fitter.index().nearest(edge, 60);
-    ASSERT_GT(
-        std::count_if(nearest.begin(), nearest.end(),
-                      [&](const auto& one) { return points[one.index].normal.z() * side < 0.0; }),
-        6);
-    const auto patch = fitter.fit(edge);
-    ASSERT_TRUE(patch);
-    const auto* creased = std::get_if<CreasedPatch>(&patch->field);
-    ASSERT_NE(creased, nullptr);
-    EXPECT_NEAR(creased->turn(), 0.5 * std::numbers::pi, 0.02);
-    for (const double off : {0.01, 0.03}) {
-      EXPECT_NEAR(patch->at(edge + Vector3d(off, 0.0, 0.0)).value, 0.0, 1e-6);
-      EXPECT_NEAR(patch->at(edge - Vector3d(0.0, 0.0, off * side)).value, 0.0, 1e-6);
-    }
-  }
 }
 
 /// The patch reaches over the next edges on both sides, the nearer half of its points does not.
