@@ -41,6 +41,7 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
+/// Bends out of sight are the reason of a doubt of which they are this part: half of its square.
 constexpr double kMostOfDoubt = 0.7;
 /// Intervals are wider by as much as the noise is more than was told, up to this.
 constexpr double kMostDistrust = 2.0;

@@ -126,15 +126,9 @@ PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
 
 /// Leaves out the points that are marked.
 void drop(const std::vector<bool>& marked, PlaneBand& band) {
-  std::vector<std::size_t> sources;
-  std::vector<Eigen::Vector3d> places;
-  for (std::size_t i = 0; i < marked.size(); ++i) {
-    if (marked[i]) continue;
-    sources.push_back(band.sources[i]);
-    places.push_back(band.index.points()[i]);
-  }
-  band.sources = std::move(sources);
-  band.index = PointIndex(std::move(places));
+  PlaneSlab rest = without(marked, {std::move(band.sources), band.index.points()});
+  band.sources = std::move(rest.indices);
+  band.index = PointIndex(std::move(rest.places));
 }
 
 void drop_copies(PlaneBand& band) {

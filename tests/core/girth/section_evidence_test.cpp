@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/circle_contour.h"
+
 namespace instep {
 namespace {
 
@@ -16,13 +18,7 @@ constexpr int kCorners = 360;
 
 /// A corner for each degree.
 Contour circle() {
-  Contour contour;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    contour.outward.emplace_back(std::cos(angle), std::sin(angle));
-    contour.points.push_back(kRadius * contour.outward.back());
-  }
-  return contour;
+  return test::circle_contour(kRadius, kCorners);
 }
 
 Vector3d at(double degrees, double radius = kRadius, double height = 0.0) {

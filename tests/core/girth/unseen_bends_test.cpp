@@ -10,6 +10,7 @@
 #include "core/girth/contour_index.h"
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/circle_contour.h"
 
 namespace instep {
 namespace {
@@ -20,13 +21,7 @@ constexpr int kCorners = 3600;
 
 /// Ten corners for each degree.
 Contour circle(double radius = kRadius) {
-  Contour contour;
-  for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kCorners;
-    contour.outward.emplace_back(std::cos(angle), std::sin(angle));
-    contour.points.push_back(radius * contour.outward.back());
-  }
-  return contour;
+  return test::circle_contour(radius, kCorners);
 }
 
 /// A point at each whole degree but between two of them, `first` < `second` < `first` + 360.
