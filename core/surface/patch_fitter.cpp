@@ -256,10 +256,12 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
   if (auto plain = fit_plain(here, place)) return plain;
   const double narrowest = std::max(here.reach, kLeastReach);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
+  double shown = 0.0;  // of roughness, by the patch before, which was wider: it tells it better
   for (int attempt = 1;; ++attempt) {
     const Members members = points_.members_of(here, place, std::max(width, narrowest));
     // Noise hides a roughness whose bandwidth is wider than the patch.
-    const double likely = std::max(here.roughness, here.noise_area / std::pow(members.radius, 5));
+    const double likely =
+        std::max({here.roughness, here.noise_area / std::pow(members.radius, 5), shown});
     const bool nearest_only = members.radius <= here.reach;
     if (here.exact && nearest_only && members.all.size() > points_.nearer_points()) {
       if (auto creased = fit_creased(here, place, points_.nearer_of(members, place), likely))
@@ -284,6 +286,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     const double fitting = kBandwidths * here.bandwidth(sheet.roughness());
     if (attempt == kMostAttempts || width <= narrowest || width <= kTooWide * fitting) return patch;
     width = fitting;
+    shown = sheet.roughness();
   }
 }
 
