@@ -75,7 +75,8 @@ struct Girth {
 /// it does, are dropped with a warning (trust_in()). Where nothing is told of the noise it may
 /// differ along the section, as where one side was seen at a grazing angle
 /// (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is not told
-/// apart.
+/// apart, unless the points crowd and are exact elsewhere (core/surface/scattered_places.h), which
+/// is named in a warning.
 ///
 /// Where the points are noisy and the skin even, the lengths and their intervals are read off one
 /// surface through far more points, laid along that contour (smooth_section()), unless the two

@@ -201,6 +201,14 @@ std::string warning_of(const SkinLayers& layers, double unit_mm) {
          "poses, or scan one layer alone";
 }
 
+std::string warning_of(const std::vector<ScatteredPlace>& scattered, double unit_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.2f mm", unit_mm * most_scatter(scattered));
+  return "in a part of the section the points scatter by " + std::string(figure) +
+         ", elsewhere hardly: see to what the camera sees there, such as an edge, a shine or two "
+         "layers";
+}
+
 /// What whoever reads the girth should know. `doubt`: half of the interval, against the length;
 /// `out_of_sight`: most of it is.
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
@@ -220,6 +228,9 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
           "many points near the plane stand alone and were left out");
   for (auto& disbelief : disbelief_of(band)) girth.warnings.push_back(std::move(disbelief));
+  if (!layers && !band.scattered.empty()) {
+    girth.warnings.push_back(warning_of(band.scattered, band.unit_mm));
+  }
   if (layers) girth.warnings.push_back(warning_of(*layers, band.unit_mm));
   const bool scattered = !layers && band.shown_sigma > kNotableNoise;
   warn_if(scattered,
@@ -245,7 +256,7 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
   girth.contact_u95_mm = band.unit_mm * section.contact_u95;
   girth.band_points = band.points.size() + band.thinned_out;
-  girth.sigma_mm = band.unit_mm * band.sigma;
+  girth.sigma_mm = band.unit_mm * std::max(band.sigma, usual_scatter(band.scattered));
   girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
   return girth;
 }

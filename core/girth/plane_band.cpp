@@ -114,6 +114,7 @@ PlaneBand band_of(PlaneSlab slab, const Probe& found) {
                  .sources = std::move(slab.indices),
                  .seen = {},
                  .uneven = {},
+                 .scattered = {},
                  .roughness = {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
   return band;
@@ -260,8 +261,9 @@ std::vector<Eigen::Vector3d> told_normals(const PointCloud& cloud, const TapePla
 std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePlane& plane,
                                            const PlaneBand& band) {
   const double grains = band.thinned_out > 0 ? kNormalCellInThinned : kNormalCellInGrains;
+  const double sigma = std::max(band.sigma, most_scatter(band.scattered));
   const double side =
-      std::min(std::max(grains * band.grain, kNormalCellInSigmas * band.sigma), kLargestNormalCell);
+      std::min(std::max(grains * band.grain, kNormalCellInSigmas * sigma), kLargestNormalCell);
   CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
   std::vector<Eigen::Vector3d> normals = cells.of_points();
@@ -318,7 +320,7 @@ std::string disbelief_of_noise(const PlaneBand& band) {
 double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source,
                            const Eigen::Vector3d& place) const {
   const double times = uneven.empty() ? 1.0 : times_at(uneven, place);
-  if (!own_sigma) return times * sigma;
+  if (!own_sigma) return std::max(times * sigma, scatter_at(scattered, place));
   return (cloud.was_seen(source) ? told_scale * times : 1.0) * cloud.sigma_mm[source] / unit_mm;
 }
 
@@ -342,6 +344,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   band.shown_sigma = noise.shown;
   band.told_scale = noise.told_scale;
   band.uneven = std::move(noise.uneven);
+  band.scattered = std::move(noise.scattered);
   band.own_sigma = !sigma_mm && cloud.has_sigma();
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));

@@ -35,6 +35,7 @@ struct PlaneBand {
   bool normals_dropped = false;           ///< those that were told contradict each other
   double copies_within = 0.0;             ///< points so near to another were left out; 0 if none
   std::vector<LocalNoise> uneven;         ///< where noise differs, untold, from place to place
+  std::vector<ScatteredPlace> scattered;  ///< where points scatter that are exact elsewhere
   std::vector<LocalRoughness> roughness;  ///< in the unit
 
   Eigen::Vector2d to_plane(const Eigen::Vector2d& place) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/surface/scattered_places.h"
 #include "core/surface/uneven_noise.h"
 
 namespace instep {
@@ -24,17 +25,23 @@ struct NoiseEstimate {
   double told_scale = 1.0;  ///< by which what was told has to be raised; 1 where it can be believed
   /// Against that, or where nothing is told against `sigma`, where one for all cannot be.
   std::vector<LocalNoise> uneven;
+  /// Where points that are exact elsewhere scatter, beside the places where they do not; nothing
+  /// where they scatter nowhere.
+  std::vector<ScatteredPlace> scattered;
   std::vector<LocalRoughness> roughness;
 };
 
 /// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
-/// are used, or every third of those where these are all of exact points), each taken as heights
-/// over its own tangent plane: restricted maximum likelihood with the kernel r^3, which tells white
-/// noise from wandering shape by its scale. The noise is the middle one over the neighbourhoods, so
-/// that creases and a few stray ones do not count. Where they plainly contradict one noise for all
-/// (uneven_noise()), each has its own, and the one to use for all is their root mean square; so
-/// where a dense part that is exact has most of the points. That needs `places` in the order in
-/// which they lie round the body.
+/// are used, or every third of those where these are all of exact points and wide), each taken as
+/// heights over its own tangent plane: restricted maximum likelihood with the kernel r^3, which
+/// tells white noise from wandering shape by its scale. The noise is the middle one over the
+/// neighbourhoods, so that creases and a few stray ones do not count. Where they plainly contradict
+/// one noise for all (uneven_noise()), each has its own, and the one to use for all is their root
+/// mean square; so where a dense part that is exact has most of the points. That needs `places` in
+/// the order in which they lie round the body.
+///
+/// Of a crowd that is exact as a rule a single neighbourhood can tell that its points are not: in
+/// one so small neither a crease nor a bend passes for noise.
 ///
 /// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
 /// points show less, for part of their noise may be common to neighbours; but where three quarters

@@ -26,6 +26,7 @@ PlaneBand band_of(const OrientedPoints& points, double spacing, std::vector<bool
           .spacing = spacing,
           .grain = kGrain,
           .uneven = {},
+          .scattered = {},
           .roughness = {}};
 }
 

@@ -44,6 +44,7 @@ SectionEvidence evidence_of(const std::vector<Place>& places) {
                  .sources = {},
                  .seen = {},
                  .uneven = {},
+                 .scattered = {},
                  .roughness = {}};
   for (const auto& place : places) {
     band.points.push_back({place.position, place.outward, 0.0});

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/point_index.h"
+#include "core/surface/kriging_likelihood.h"
+#include "core/surface/tangent_view.h"
+
+namespace instep {
+
+/// The heights round one point of a cloud over their own tangent plane, and what they tell of noise
+/// and shape: restricted maximum likelihood with the kernel r^3, curvature taken out, which tells
+/// white noise from wandering shape by its scale.
+///
+/// Lengths in a unit in which the body is about one long; a roughness is that of LocalRoughness.
+struct Neighbourhood {
+  std::size_t point;  ///< at its middle
+  double radius;
+  double spacing;                ///< between the points in view
+  double thickness;              ///< of the view, and
+  bool crowded;                  ///< whether it shows a crowd: see TangentView
+  KrigingLikelihood likelihood;  ///< in units of the radius
+  double variance;               ///< the noise that fits best if the roughness may be anything
+
+  /// No noise but that of rounding.
+  bool is_exact() const;
+  /// Twice the negative log likelihood, up to what depends on neither.
+  double misfit(double of_variance, double of_roughness) const;
+  /// The roughness that fits best at a given noise; the likelihood is flat where noise hides the
+  /// shape, so it is held near `usual`, if that is known.
+  double likely_roughness(double at_variance, std::optional<double> usual) const;
+};
+
+/// As `view` shows them, of the points round `point`. Nothing of too few. O(kMostInView^3).
+std::optional<Neighbourhood> neighbourhood_of(const TangentView& view, std::size_t point);
+
+std::optional<Neighbourhood> neighbourhood_of(const std::vector<Eigen::Vector3d>& points,
+                                              const PointIndex& index, std::size_t point);
+
+/// Whether one polynomial passes through all points: none of them is off it by noise. Costs far
+/// less than a neighbourhood.
+bool is_plain(const TangentView& view);
+
+/// The roughness of a plain view, which half of its points tell. Nothing of too few.
+std::optional<double> roughness_of_plain(const TangentView& view);
+
+/// Least variance that stands for none.
+inline constexpr double kLeastNoiseVariance = 1e-24;
+
+}  // namespace instep
