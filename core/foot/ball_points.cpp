@@ -107,7 +107,7 @@ std::optional<Landmark> find_ball_lateral(const FootOutline& outline) {
 std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare) {
   constexpr double kSlabMm = 15.0;
-  constexpr double kSmoothingMm = 9.0;
+  constexpr double kSectionSmoothingMm = 9.0;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d across = tibiale.position_mm - fibulare.position_mm;
   across.z() = 0.0;
@@ -121,7 +121,7 @@ std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark
   }
   const SkinBorder section(
       slab, {along, up, across, across.dot(fibulare.position_mm), across.dot(tibiale.position_mm)},
-      kSmoothingMm);
+      kSectionSmoothingMm);
   const auto top = section.at(place);
   if (!top) return std::nullopt;
   return Landmark{section.position(*top), 0.8, "highest point of the ball's section"};
