@@ -52,6 +52,12 @@ TapePlane plane_of_band() {
   return TapePlane::through({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).value();
 }
 
+tl::unexpected<Error> no_surface() {
+  return fail(ErrorCode::kInsufficientData,
+              "the points near the tape plane form no surface that a mesh could follow",
+              "scan again, or use the rbf method");
+}
+
 /// The lines in which the plane cuts the mesh, with its holes bridged as far as is allowed.
 Result<std::vector<SectionLine>> section_of(const TriangleMesh& mesh) {
   std::vector<Eigen::Vector2d> crossings;
@@ -59,11 +65,7 @@ Result<std::vector<SectionLine>> section_of(const TriangleMesh& mesh) {
   for (const auto& piece : pieces) {
     crossings.insert(crossings.end(), piece.points.begin(), piece.points.end());
   }
-  if (pieces.empty() || pieces.size() > kMostPieces) {
-    return fail(ErrorCode::kInsufficientData,
-                "the points near the tape plane form no surface that a mesh could follow",
-                "scan again, or use the rbf method");
-  }
+  if (pieces.empty() || pieces.size() > kMostPieces) return no_surface();
   const double tape = perimeter(convex_hull(std::move(crossings)));
   auto lines = cut(mesh, plane_of_band(), kWidestBridge * tape);
   if (!lines.front().closed) {
@@ -123,8 +125,10 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
     loops.push_back(std::move(line.points));
   }
   girth.contour = choose_loop(std::move(loops), girth.warnings);
+  const auto hull = convex_hull(girth.contour);
+  if (!is_ring(hull)) return no_surface();
   girth.contact_mm = perimeter(girth.contour);
-  girth.stretched_mm = perimeter(convex_hull(girth.contour));
+  girth.stretched_mm = perimeter(hull);
   girth.points = cloud.size();
   girth.band_points = band->points.size();
   girth.sigma_mm = band->unit_mm * band->sigma;

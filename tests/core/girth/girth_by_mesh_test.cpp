@@ -223,5 +223,25 @@ TEST(GirthByMesh, RefusesACrowdWithoutASurface) {
   EXPECT_EQ(girth.error().code, ErrorCode::kInsufficientData);
 }
 
+/// Two cones that meet in one point of the plane: the mesh was cut there and nowhere else, and the
+/// girth was nought.
+TEST(GirthByMesh, RefusesASectionWithoutExtent) {
+  PointCloud cloud;
+  cloud.positions.emplace_back(0, 0, 0);
+  for (int row = 1; row <= 10; ++row) {
+    const int count = 6 * row;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / count;
+      for (const double side : {-1.0, 1.0}) {
+        cloud.positions.emplace_back(3.0 * row * std::cos(angle), 3.0 * row * std::sin(angle),
+                                     6.0 * side * row);
+      }
+    }
+  }
+  const auto girth = girth_by_mesh(cloud, level_plane(0));
+  ASSERT_FALSE(girth);
+  EXPECT_EQ(girth.error().code, ErrorCode::kInsufficientData);
+}
+
 }  // namespace
 }  // namespace instep
