@@ -15,7 +15,7 @@ using test::require;
 
 /// Rounding, against the length of a tape.
 constexpr double kRounding = 1e-9;
-/// Of a length, what rbf may add to its contour or take off it.
+/// Of a contour, hollows and all, what rbf may add to its lengths or take off them.
 constexpr double kUnshownWaves = 1.1e-3;
 
 /// The shortest tape round everything that is there, seen along the plane's normal.
@@ -49,7 +49,8 @@ void check_girth(const Girth& girth, const std::string& method) {
     require(corner.allFinite(), method + " gives a contour of numbers");
   }
   const double hull = perimeter(convex_hull(girth.contour));
-  require(std::abs(hull - girth.stretched_mm) <= kUnshownWaves * hull + kRounding,
+  const double unshown = kUnshownWaves * perimeter(girth.contour);
+  require(std::abs(hull - girth.stretched_mm) <= unshown + kRounding,
           method + " gives the contour that it measured");
 }
 
