@@ -46,7 +46,7 @@ struct Girth {
   /// Points near the plane that took part, and those of an exact crowd that would have told the
   /// same again.
   std::size_t band_points = 0;
-  double sigma_mm = 0.0;  ///< noise that was used: of the usual point near the plane
+  double sigma_mm = 0.0;  ///< noise that was used: the usual one near the plane, or its mean
   /// Longest stretch of the section without a seen point under it.
   double largest_gap_mm = 0.0;
   std::vector<std::string> warnings;
@@ -76,7 +76,7 @@ struct Girth {
 /// differ along the section, as where one side was seen at a grazing angle
 /// (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is not told
 /// apart, unless the points crowd and are exact elsewhere (core/surface/scattered_places.h), which
-/// is named in a warning.
+/// is named in a warning, and the interval reaches as far as if it were two layers.
 ///
 /// Where the points are noisy and the skin even, the lengths and their intervals are read off one
 /// surface through far more points, laid along that contour (smooth_section()), unless the two

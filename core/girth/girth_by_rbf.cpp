@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "core/geometry/polygon.h"
@@ -188,7 +189,9 @@ void widen(const PlaneBand& band, const UnseenBends& bends, const std::optional<
            MeasuredSection& section) {
   // Noise that is not what was told of it is hardly independent from point to point either.
   const double distrust = std::min(band.told_scale, kMostDistrust);
-  const double reach = layers ? reach_of(*layers) : 0.0;
+  // What scatters in a part may be ribs, or two layers and the skin either of them.
+  const double reach =
+      layers ? reach_of(*layers) : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
   section.contact_u95 = std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach;
   section.stretched_u95 = std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach;
 }
@@ -256,7 +259,7 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
   girth.contact_u95_mm = band.unit_mm * section.contact_u95;
   girth.band_points = band.points.size() + band.thinned_out;
-  girth.sigma_mm = band.unit_mm * std::max(band.sigma, usual_scatter(band.scattered));
+  girth.sigma_mm = band.unit_mm * std::max(band.sigma, mean_scatter(band.scattered));
   girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
   return girth;
 }

@@ -282,13 +282,12 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   band.normals_dropped = !normals.empty() && trust == NormalTrust::kNone;
   if (trust == NormalTrust::kNone) normals = shown_normals(cloud, plane, band);
   const double least = 1e-9 * band.spacing;
-  const bool told = trust == NormalTrust::kSlopes && !righted &&
-                    is_harmless(band.sigma * band.sigma, band.spacing) &&
-                    band.spacing >= kFinestGrain;
+  const bool slopes = trust == NormalTrust::kSlopes && !righted && band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const double sigma =
         std::max(band.sigma_of(cloud, band.sources[i], band.index.points()[i]), least);
+    const bool told = slopes && is_harmless(sigma * sigma, band.spacing);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma, told});
   }
 }

@@ -54,7 +54,8 @@ struct PlaneBand {
 /// strays, as many points are kept as the finest grain needs (core/geometry/crowding_points.h).
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
-/// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place.
+/// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place,
+/// or none but in parts that scatter.
 /// Where they plainly show more than they are told to have, what is told of points that were seen
 /// is raised to that, everywhere or in those places that do.
 ///

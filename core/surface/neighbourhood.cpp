@@ -64,9 +64,7 @@ std::optional<Neighbourhood> neighbourhood_of(const TangentView& view, std::size
   auto likelihood = likelihood_of(view.points, radius);
   if (!likelihood) return std::nullopt;
   const double variance = radius * radius * likeliest_variance(*likelihood);
-  return Neighbourhood{point,          radius,       view.spacing(),
-                       view.thickness, view.crowded, std::move(*likelihood),
-                       variance};
+  return Neighbourhood{point, radius, std::move(*likelihood), variance};
 }
 
 std::optional<Neighbourhood> neighbourhood_of(const std::vector<Eigen::Vector3d>& points,

@@ -19,9 +19,6 @@ namespace instep {
 struct Neighbourhood {
   std::size_t point;  ///< at its middle
   double radius;
-  double spacing;                ///< between the points in view
-  double thickness;              ///< of the view, and
-  bool crowded;                  ///< whether it shows a crowd: see TangentView
   KrigingLikelihood likelihood;  ///< in units of the radius
   double variance;               ///< the noise that fits best if the roughness may be anything
 
@@ -46,8 +43,5 @@ bool is_plain(const TangentView& view);
 
 /// The roughness of a plain view, which half of its points tell. Nothing of too few.
 std::optional<double> roughness_of_plain(const TangentView& view);
-
-/// Least variance that stands for none.
-inline constexpr double kLeastNoiseVariance = 1e-24;
 
 }  // namespace instep

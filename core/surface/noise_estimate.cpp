@@ -8,6 +8,7 @@
 #include "core/median.h"
 #include "core/surface/local_mean.h"
 #include "core/surface/neighbourhood.h"
+#include "core/surface/tangent_view.h"
 
 namespace instep {
 namespace {
@@ -28,6 +29,8 @@ constexpr double kTooWideToAccuse = 0.2;
 constexpr std::size_t kFewestOutvoted = 4;
 constexpr double kPlainlyWider = 2.0;
 constexpr double kLeastRoughness = 1e-12;
+constexpr double kLeastVariance = 1e-24;
+
 /// The places that are asked, if all are.
 std::vector<std::size_t> chosen_of(const std::vector<std::size_t>& places) {
   const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
@@ -84,7 +87,7 @@ std::vector<NoiseWitness> witnesses_of(const std::vector<Eigen::Vector3d>& point
   std::vector<NoiseWitness> witnesses;
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
     const auto& here = neighbourhoods[i];
-    const double own = std::max(here.variance, kLeastNoiseVariance);
+    const double own = std::max(here.variance, kLeastVariance);
     NoiseWitness witness{points[here.point], expected[i], own, 0.0};
     if (own > expected[i] || !only_more) {
       const double gain = here.misfit(expected[i], roughnesses[i]) -
@@ -119,7 +122,7 @@ std::optional<double> roughness_if_exact(const std::vector<Eigen::Vector3d>& poi
   if (is_plain(view)) return roughness_of_plain(view);
   const auto here = neighbourhood_of(view, point);
   if (!here || !here->is_exact()) return std::nullopt;
-  return here->likely_roughness(std::max(here->variance, kLeastNoiseVariance), std::nullopt);
+  return here->likely_roughness(std::max(here->variance, kLeastVariance), std::nullopt);
 }
 
 /// What is expected of each, in variances.
@@ -128,7 +131,7 @@ std::vector<double> expected_noise(const std::vector<Neighbourhood>& neighbourho
   std::vector<double> variances;
   for (const auto& here : neighbourhoods) {
     const double sigma = told.empty() ? estimate.sigma : estimate.told_scale * told[here.point];
-    variances.push_back(std::max(sigma * sigma, kLeastNoiseVariance));
+    variances.push_back(std::max(sigma * sigma, kLeastVariance));
   }
   return variances;
 }
@@ -156,52 +159,62 @@ bool are_outvoted(const std::vector<Neighbourhood>& neighbourhoods, double least
   return median(std::move(scattered)) > kPlainlyWider * median(std::move(quiet));
 }
 
-bool are_exact_as_a_rule(const std::vector<Neighbourhood>& neighbourhoods) {
-  const auto exact = std::count_if(neighbourhoods.begin(), neighbourhoods.end(),
-                                   [](const auto& here) { return plain_scatter(here) == 0.0; });
-  return 2 * exact > static_cast<std::ptrdiff_t>(neighbourhoods.size());
-}
-
 /// Of each neighbourhood: its noise (a variance) and the roughness that goes with it.
 struct NoiseAndShape {
   std::vector<double> noise;
   std::vector<double> roughness;
 };
 
+/// The noise of each place, where one for all plainly will not do. `here`: as expected; the noise
+/// that the answer is against afterwards.
+std::vector<LocalNoise> uneven_among(const std::vector<Eigen::Vector3d>& points,
+                                     const std::vector<Neighbourhood>& neighbourhoods,
+                                     const std::vector<double>& told, NoiseAndShape& here,
+                                     NoiseEstimate& estimate) {
+  auto witnesses = witnesses_of(points, neighbourhoods, here.noise, here.roughness, !told.empty());
+  if (!told.empty()) {
+    hush_wide(neighbourhoods, witnesses);
+    return noise_beyond_told(witnesses);
+  }
+  auto uneven = uneven_noise(witnesses);
+  const double least = least_noise(witnesses);
+  if (!uneven.empty() || !are_outvoted(neighbourhoods, least)) return uneven;
+  // As if the least noise were told of all.
+  const std::vector<double> noise(here.noise.size(), least * least);
+  uneven = noise_beyond_told(
+      witnesses_of(points, neighbourhoods, noise, likely_roughnesses(neighbourhoods, noise), true));
+  if (!uneven.empty()) {
+    here.noise = noise;
+    estimate.sigma = least;
+  }
+  return uneven;
+}
+
 /// What is used, and in `estimate` what that is against the usual.
-NoiseAndShape set_noise(const std::vector<Eigen::Vector3d>& points,
+NoiseAndShape set_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
+                        const std::vector<std::size_t>& places,
                         const std::vector<Neighbourhood>& neighbourhoods,
                         const std::vector<double>& told, NoiseEstimate& estimate) {
-  auto noise = expected_noise(neighbourhoods, told, estimate);
-  auto roughness = likely_roughnesses(neighbourhoods, noise);
-  auto witnesses = witnesses_of(points, neighbourhoods, noise, roughness, !told.empty());
-  if (!told.empty()) hush_wide(neighbourhoods, witnesses);
-  auto uneven = told.empty() ? uneven_noise(witnesses) : noise_beyond_told(witnesses);
-  if (told.empty() && uneven.empty() && estimate.scattered.empty() &&
-      are_outvoted(neighbourhoods, least_noise(witnesses))) {
-    // As if the least noise were told of all.
-    const std::vector<double> least(noise.size(), std::pow(least_noise(witnesses), 2));
-    uneven = noise_beyond_told(witnesses_of(points, neighbourhoods, least,
-                                            likely_roughnesses(neighbourhoods, least), true));
-    if (!uneven.empty()) {
-      noise = least;
-      estimate.sigma = least_noise(witnesses);
-    }
+  NoiseAndShape here{expected_noise(neighbourhoods, told, estimate), {}};
+  here.roughness = likely_roughnesses(neighbourhoods, here.noise);
+  auto uneven = uneven_among(points, neighbourhoods, told, here, estimate);
+  if (told.empty()) {
+    estimate.scattered = scattered_places(points, index, places, estimate.shown);
   }
-  if (uneven.empty()) {
-    if (estimate.scattered.empty()) return {std::move(noise), std::move(roughness)};
-    for (std::size_t i = 0; i < noise.size(); ++i) {
-      const double scatter = scatter_at(estimate.scattered, points[neighbourhoods[i].point]);
-      noise[i] = std::max(noise[i], scatter * scatter);
+  if (uneven.empty() && estimate.scattered.empty()) return here;
+  if (!uneven.empty()) {
+    for (std::size_t i = 0; i < here.noise.size(); ++i) {
+      here.noise[i] *= std::pow(uneven[i].times, 2);
     }
-    roughness = likely_roughnesses(neighbourhoods, noise);
-    return {std::move(noise), std::move(roughness)};
+    const double usual = set_uneven(std::move(uneven), estimate);
+    if (!told.empty()) estimate.told_scale *= usual;
   }
-  for (std::size_t i = 0; i < noise.size(); ++i) noise[i] *= std::pow(uneven[i].times, 2);
-  const double usual = set_uneven(std::move(uneven), estimate);
-  if (!told.empty()) estimate.told_scale *= usual;
-  roughness = likely_roughnesses(neighbourhoods, noise);
-  return {std::move(noise), std::move(roughness)};
+  for (std::size_t i = 0; i < here.noise.size(); ++i) {
+    const double scatter = scatter_at(estimate.scattered, points[neighbourhoods[i].point]);
+    here.noise[i] = std::max(here.noise[i], scatter * scatter);
+  }
+  here.roughness = likely_roughnesses(neighbourhoods, here.noise);
+  return here;
 }
 
 }  // namespace
@@ -222,10 +235,7 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
   if (neighbourhoods.empty()) return estimate;
   estimate.shown = std::sqrt(median(std::move(variances)));
   if (told.empty()) estimate.sigma = estimate.shown;
-  if (told.empty() && are_exact_as_a_rule(neighbourhoods)) {
-    estimate.scattered = scattered_places(points, index, places);
-  }
-  auto [noise, roughness] = set_noise(points, neighbourhoods, told, estimate);
+  auto [noise, roughness] = set_noise(points, index, places, neighbourhoods, told, estimate);
   const double usual = std::max(median(std::move(roughness)), 1e-300);
   for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
     estimate.roughness.push_back(

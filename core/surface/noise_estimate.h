@@ -32,7 +32,7 @@ struct NoiseEstimate {
 };
 
 /// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
-/// are used, or every third of those where these are all of exact points and wide), each taken as
+/// are used, or every third of those where these are all of exact points), each taken as
 /// heights over its own tangent plane: restricted maximum likelihood with the kernel r^3, which
 /// tells white noise from wandering shape by its scale. The noise is the middle one over the
 /// neighbourhoods, so that creases and a few stray ones do not count. Where they plainly contradict
@@ -40,8 +40,8 @@ struct NoiseEstimate {
 /// mean square; so where a dense part that is exact has most of the points. That needs `places` in
 /// the order in which they lie round the body.
 ///
-/// Of a crowd that is exact as a rule a single neighbourhood can tell that its points are not: in
-/// one so small neither a crease nor a bend passes for noise.
+/// Of a crowd that is exact as a rule a single neighbourhood can tell that its points are not; more
+/// of them are asked then (scattered_places()).
 ///
 /// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
 /// points show less, for part of their noise may be common to neighbours; but where three quarters

@@ -13,7 +13,9 @@ namespace instep {
 struct TangentView {
   Eigen::Matrix3Xd points;
   double thickness = std::numeric_limits<double>::infinity();  ///< against the width
-  bool crowded = false;  ///< the points are so near that all in a small view show little but a bend
+  /// The 60 nearest points, whatever of them is in view, reach so little that a crease or a bend
+  /// among them does not pass for noise.
+  bool crowded = false;
 
   double radius() const { return points.size() > 0 ? points.colwise().norm().maxCoeff() : 0.0; }
   /// Between points, as evenly spread as they may be.

@@ -65,7 +65,7 @@ struct Belt {
     });
   }
 
-  std::vector<ScatteredPlace> scattered() const { return scattered_places(points, index, places); }
+  std::vector<ScatteredPlace> scattered() const { return scattered_places(points, index, places, 0.0); }
 };
 
 TEST(ScatteredPlaces, AreFoundInAFiftiethOfAnExactCrowd) {
@@ -113,8 +113,8 @@ TEST(ScatteredPlaces, GiveAPointTheMoreOfTheTwoNearest) {
   EXPECT_EQ(scatter_at(known, {1.9, 0, 0}), 0.5);
   EXPECT_EQ(scatter_at({{{0, 0, 0}, 0.5}}, {0, 0, 0}), 0.0);
   EXPECT_EQ(most_scatter(known), 0.5);
-  EXPECT_DOUBLE_EQ(usual_scatter(known), std::sqrt(0.29 / 3.0));
-  EXPECT_EQ(usual_scatter({}), 0.0);
+  EXPECT_DOUBLE_EQ(mean_scatter(known), 0.7 / 3.0);
+  EXPECT_EQ(mean_scatter({}), 0.0);
 }
 
 }  // namespace
