@@ -21,9 +21,9 @@ struct ScatteredPlace {
 /// of these one in 24 is asked, so that the views see all of it. A polynomial through a view costs
 /// little, else O(kMostInView^3) each.
 ///
-/// Not told: parts of less than a fiftieth of the section, one in four; noise of more than some
-/// three spacings, of which no view looks flat. Taken for noise: two layers that lie nearly as
-/// close as the points, ribs or a ridge as narrow as two or three spacings.
+/// Not told: many parts of less than a fiftieth of the section; noise of more than some two
+/// spacings, of which no view looks flat. Taken for noise: two layers that lie nearly as close as
+/// the points, ribs or a ridge as narrow as two or three spacings.
 std::vector<ScatteredPlace> scattered_places(const std::vector<Eigen::Vector3d>& points,
                                              const PointIndex& index,
                                              const std::vector<std::size_t>& places, double usual);
