@@ -15,6 +15,7 @@
 #include "core/girth/section_gaps.h"
 #include "core/girth/skin_layers.h"
 #include "core/girth/smooth_section.h"
+#include "core/girth/unfollowed_skin.h"
 #include "core/girth/unseen_bends.h"
 #include "core/surface/blended_surface.h"
 
@@ -184,16 +185,37 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::ve
   return *smooth;
 }
 
-/// By what the fitted surface does not know of.
-void widen(const PlaneBand& band, const UnseenBends& bends, const std::optional<SkinLayers>& layers,
-           MeasuredSection& section) {
+/// What the fitted surface does not know of a section.
+struct Unknown {
+  UnseenBends bends;
+  std::optional<SkinLayers> layers;
+  UnfollowedSkin skin;
+};
+
+Unknown unknown_of(const PlaneBand& band, const std::vector<Loop>& loops,
+                   const BlendedSurface& surface, const SectionEvidence& evidence) {
+  const double near = kEvidenceInGrains * band.grain;
+  const Contour& contour = loops.front().contour;
+  Unknown unknown{
+      unseen_bends_of(contour, evidence.ways, near), layers_near_plane(band, surface, near), {}};
+  if (unknown.layers) return unknown;
+  std::vector<const ContourIndex*> indices;
+  for (const auto& loop : loops) indices.push_back(&loop.index);
+  unknown.skin = unfollowed_skin(band, contour, indices);
+  return unknown;
+}
+
+void widen(const PlaneBand& band, const Unknown& unknown, MeasuredSection& section) {
   // Noise that is not what was told of it is hardly independent from point to point either.
   const double distrust = std::min(band.told_scale, kMostDistrust);
   // What scatters in a part may be ribs, or two layers and the skin either of them.
-  const double reach =
-      layers ? reach_of(*layers) : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  section.contact_u95 = std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach;
-  section.stretched_u95 = std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach;
+  const double reach = unknown.layers ? reach_of(*unknown.layers)
+                                      : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
+  const auto& [bends, layers, skin] = unknown;
+  section.contact_u95 =
+      std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach + skin.contact;
+  section.stretched_u95 =
+      std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach + skin.stretched;
 }
 
 std::string warning_of(const SkinLayers& layers, double unit_mm) {
@@ -212,11 +234,20 @@ std::string warning_of(const std::vector<ScatteredPlace>& scattered, double unit
          "layers";
 }
 
-/// What whoever reads the girth should know. `doubt`: half of the interval, against the length;
-/// `out_of_sight`: most of it is.
+std::string warning_of(const UnfollowedSkin& skin, double unit_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * skin.off);
+  return "points up to " + std::string(figure) +
+         " beside the section hang together with it, but no skin through them was found: a thin "
+         "part, or points that scatter there; scan from nearer, so that the points lie closer, or "
+         "move the plane";
+}
+
+/// What whoever reads the girth should know.
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
-                  const SectionEvidence& evidence, const std::optional<SkinLayers>& layers,
-                  double doubt, bool out_of_sight, Girth& girth) {
+                  const SectionEvidence& evidence, const Unknown& unknown,
+                  const MeasuredSection& section, Girth& girth) {
+  const auto& [bends, layers, skin] = unknown;
   const auto warn_if = [&](bool so, const char* warning) {
     if (so) girth.warnings.emplace_back(warning);
   };
@@ -224,7 +255,8 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
     girth.warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
   }
   warn_if(has_notable_gap(band, evidence), kBridgedWarning);
-  warn_if(leaves_points_unexplained(band, loops, evidence),
+  if (skin.is_any()) girth.warnings.push_back(warning_of(skin, band.unit_mm));
+  warn_if(!skin.is_any() && leaves_points_unexplained(band, loops, evidence),
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
   const auto points = static_cast<double>(band.points.size() + band.strays);
@@ -242,7 +274,8 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
       !scattered && !layers && band.told_scale == 1.0 && band.sigma > kNotableNoise,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
-  warn_if(doubt > kNotableDoubt,
+  const bool out_of_sight = bends.stretched_u95 > kMostOfDoubt * section.stretched_u95;
+  warn_if(!skin.is_any() && section.stretched_u95 > kNotableDoubt * loops.front().contour.length(),
           out_of_sight ? "the section may bend more sharply where no camera saw it, so that the "
                          "girth is uncertain: scan the body from there too"
                        : "the points are so few or noisy that the girth is uncertain");
@@ -262,6 +295,18 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   girth.sigma_mm = band.unit_mm * std::max(band.sigma, mean_scatter(band.scattered));
   girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
   return girth;
+}
+
+tl::unexpected<Error> too_doubtful(const Unknown& unknown) {
+  if (unknown.skin.is_any()) {
+    return fail(ErrorCode::kInsufficientData,
+                "points beside the section at the tape plane hang together with it, but no skin "
+                "through them was found: a part too thin for them, or points that scatter there",
+                "scan from nearer, so that the points lie closer, or move the plane");
+  }
+  return fail(ErrorCode::kInsufficientData,
+              "the points near the tape plane are too few or too noisy to tell the girth",
+              "scan again, with more or better frames");
 }
 
 /// For normals that let no section close, as those of which one stretch points inwards.
@@ -309,20 +354,13 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   }
 
   auto section = measured(slabs, *band, loops, surface, evidence);
-  const auto layers = layers_near_plane(*band, surface, near);
-  const UnseenBends bends = unseen_bends_of(contour, evidence.ways, near);
-  widen(*band, bends, layers, section);
-  const double doubt = section.stretched_u95 / length;
-  if (!(doubt <= kMostDoubt)) {
-    return fail(ErrorCode::kInsufficientData,
-                "the points near the tape plane are too few or too noisy to tell the girth",
-                "scan again, with more or better frames");
-  }
+  const Unknown unknown = unknown_of(*band, loops, surface, evidence);
+  widen(*band, unknown, section);
+  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknown);
 
-  const bool out_of_sight = bends.stretched_u95 > kMostOfDoubt * section.stretched_u95;
   Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();
-  add_warnings(*band, loops, evidence, layers, doubt, out_of_sight, girth);
+  add_warnings(*band, loops, evidence, unknown, section, girth);
   return girth;
 }
 
