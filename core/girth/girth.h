@@ -85,7 +85,10 @@ struct Girth {
 /// depth map, is not in them.
 ///
 /// Points in two layers (core/girth/skin_layers.h), as of a skin and a sock or from cameras with
-/// wrong poses, are named in a warning, and the interval reaches both.
+/// wrong poses, are named in a warning, and the interval reaches both. Points that lead away from
+/// the section though no skin through them was found (core/girth/unfollowed_skin.h), as of a part
+/// too thin for them or of what touches the body, are named too, and the interval reaches round
+/// them.
 ///
 /// Deterministic: the same cloud gives the same bytes.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,

@@ -43,7 +43,7 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
-/// Bends out of sight are the reason of a doubt of which they are this part: half of its square.
+/// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
 /// Intervals are wider by as much as the noise is more than was told, up to this.
 constexpr double kMostDistrust = 2.0;
@@ -198,6 +198,7 @@ Unknown unknown_of(const PlaneBand& band, const std::vector<Loop>& loops,
   const Contour& contour = loops.front().contour;
   Unknown unknown{
       unseen_bends_of(contour, evidence.ways, near), layers_near_plane(band, surface, near), {}};
+  // What lies off the one layer is the other one, which counts already.
   if (unknown.layers) return unknown;
   std::vector<const ContourIndex*> indices;
   for (const auto& loop : loops) indices.push_back(&loop.index);
@@ -237,10 +238,13 @@ std::string warning_of(const std::vector<ScatteredPlace>& scattered, double unit
 std::string warning_of(const UnfollowedSkin& skin, double unit_mm) {
   char figure[32];
   std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * skin.off);
-  return "points up to " + std::string(figure) +
-         " beside the section hang together with it, but no skin through them was found: a thin "
-         "part, or points that scatter there; scan from nearer, so that the points lie closer, or "
-         "move the plane";
+  return "points lead " + std::string(figure) +
+         " away from the section, but no skin through them was found: a part too thin for them, or "
+         "something that touches the body; take it away, or scan from nearer";
+}
+
+bool is_most_of(double doubt, const MeasuredSection& section) {
+  return doubt > kMostOfDoubt * section.stretched_u95;
 }
 
 /// What whoever reads the girth should know.
@@ -274,8 +278,9 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
       !scattered && !layers && band.told_scale == 1.0 && band.sigma > kNotableNoise,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
-  const bool out_of_sight = bends.stretched_u95 > kMostOfDoubt * section.stretched_u95;
-  warn_if(!skin.is_any() && section.stretched_u95 > kNotableDoubt * loops.front().contour.length(),
+  const bool out_of_sight = is_most_of(bends.stretched_u95, section);
+  warn_if(!is_most_of(skin.stretched, section) &&
+              section.stretched_u95 > kNotableDoubt * loops.front().contour.length(),
           out_of_sight ? "the section may bend more sharply where no camera saw it, so that the "
                          "girth is uncertain: scan the body from there too"
                        : "the points are so few or noisy that the girth is uncertain");
@@ -297,12 +302,12 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   return girth;
 }
 
-tl::unexpected<Error> too_doubtful(const Unknown& unknown) {
-  if (unknown.skin.is_any()) {
+tl::unexpected<Error> too_doubtful(const Unknown& unknown, const MeasuredSection& section) {
+  if (is_most_of(unknown.skin.stretched, section)) {
     return fail(ErrorCode::kInsufficientData,
-                "points beside the section at the tape plane hang together with it, but no skin "
-                "through them was found: a part too thin for them, or points that scatter there",
-                "scan from nearer, so that the points lie closer, or move the plane");
+                "points lead away from the section at the tape plane, but no skin through them was "
+                "found: a part too thin for them, or something that touches the body",
+                "take it away, scan from nearer, or move the plane");
   }
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane are too few or too noisy to tell the girth",
@@ -356,7 +361,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   auto section = measured(slabs, *band, loops, surface, evidence);
   const Unknown unknown = unknown_of(*band, loops, surface, evidence);
   widen(*band, unknown, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknown);
+  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknown, section);
 
   Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();

@@ -18,12 +18,16 @@ constexpr double kOffInDeviations = 5.0;
 /// Beyond an edge between the plane and a point skin may run aside by so much of its height.
 constexpr double kAsideBeyondEdge = 2.0;
 /// Skin that leans more, against upright, does not tell where it meets the plane.
-constexpr double kMostLean = 2.5;
-/// Points beside the section may be sparser than a grain, up to this, in grains.
-constexpr double kSparsest = 4.0;
-/// How far from a point its spacing reaches: as many others.
+constexpr double kTooLeaning = 2.5;
+/// Skin that hangs together with the section begins this near to it, in grains, or, where its
+/// points are sparser than the section's, in their reaches.
+constexpr double kBegins = 1.5;
+constexpr double kSparseBegins = 1.25;
+/// So many neighbours lie within the reach of a point on it; of strays, which fill the air, they
+/// lie further off than this, in grains.
 constexpr std::size_t kNeighbours = 6;
-/// In spacings: from the plane; to the next point of one skin, and to the section.
+constexpr double kWidestReach = 4.0;
+/// In reaches: from the plane, and from one point of a skin to the next.
 constexpr double kClose = 0.4;
 constexpr double kStep = 2.5;
 /// Fewer points that hang together may be strays.
@@ -34,7 +38,7 @@ struct Beside {
   Eigen::Vector3d position;
   double off = 0.0;       ///< from the section
   bool followed = false;  ///< by another loop
-  double spacing = 0.0;   ///< of those round it
+  double reach = 0.0;     ///< to its neighbours, a grain at least
 };
 
 bool may_lie_on(const ContourIndex& contour, const OrientedPoint& point, double grain) {
@@ -47,7 +51,7 @@ std::vector<Beside> off_the_section(const PlaneBand& band,
                                     const std::vector<const ContourIndex*>& loops) {
   std::vector<Beside> beside;
   for (const auto& point : band.points) {
-    if (std::abs(point.normal.z()) > kMostLean * point.normal.head<2>().norm()) continue;
+    if (std::abs(point.normal.z()) > kTooLeaning * point.normal.head<2>().norm()) continue;
     if (may_lie_on(*loops.front(), point, band.grain)) continue;
     const bool followed = std::any_of(
         loops.begin() + 1, loops.end(),
@@ -64,48 +68,57 @@ PointIndex index_of(const std::vector<Beside>& points) {
   return PointIndex(std::move(positions));
 }
 
-/// Those of the points that lie close to the plane, with their spacings.
+/// Those of the points that lie close to the plane and have neighbours.
 std::vector<Beside> close_to_plane(std::vector<Beside> points, double grain) {
   const PointIndex index = index_of(points);
   for (auto& point : points) {
     const auto nearest = index.nearest(point.position, kNeighbours + 1);
-    const double reach = std::sqrt(nearest.back().squared_distance);
-    point.spacing = std::clamp(reach, grain, kSparsest * grain);
+    point.reach = std::max(std::sqrt(nearest.back().squared_distance), grain);
   }
-  std::erase_if(points, [](const Beside& point) {
-    return std::abs(point.position.z()) > kClose * point.spacing;
+  std::erase_if(points, [&](const Beside& point) {
+    return point.reach > kWidestReach * grain ||
+           std::abs(point.position.z()) > kClose * point.reach;
   });
   return points;
 }
 
-/// All that chains of neighbours join to one that was not found before, which comes first.
-std::vector<std::size_t> chained_to(std::size_t first, const std::vector<Beside>& points,
-                                    const PointIndex& index, std::vector<bool>& found) {
-  std::vector<std::size_t> chained = {first};
+/// All that chains of neighbours join to one that was not found before.
+std::vector<Beside> chained_to(std::size_t first, const std::vector<Beside>& points,
+                               const PointIndex& index, std::vector<bool>& found) {
+  std::vector<Beside> chained = {points[first]};
   found[first] = true;
   for (std::size_t next = 0; next < chained.size(); ++next) {
-    const Beside& here = points[chained[next]];
-    for (const auto& neighbour : index.around(here.position, kStep * here.spacing)) {
-      if (found[neighbour.index]) continue;
+    const Beside here = chained[next];
+    for (const auto& neighbour : index.around(here.position, kStep * here.reach)) {
+      const Beside& other = points[neighbour.index];
+      const bool near = neighbour.squared_distance <= std::pow(kStep * other.reach, 2);
+      if (!near || found[neighbour.index]) continue;
       found[neighbour.index] = true;
-      chained.push_back(neighbour.index);
+      chained.push_back(other);
     }
   }
   return chained;
 }
 
-/// The points on skin that begins at the section.
-std::vector<Beside> hanging_together(const std::vector<Beside>& points) {
-  const PointIndex index = index_of(points);
-  std::vector<bool> found(points.size(), false);
-  std::vector<Beside> hanging;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (found[i] || points[i].followed || points[i].off > kStep * points[i].spacing) continue;
-    const auto chained = chained_to(i, points, index, found);
-    if (chained.size() < kFewest) continue;
-    for (const std::size_t member : chained) hanging.push_back(points[member]);
+/// Whether a chain is skin that begins at the section.
+bool begins_at_section(const std::vector<Beside>& chained, double grain) {
+  return chained.size() >= kFewest &&
+         std::any_of(chained.begin(), chained.end(), [&](const Beside& point) {
+           return !point.followed &&
+                  point.off <= std::max(kBegins * grain, kSparseBegins * point.reach);
+         });
+}
+
+/// From where a chain is nearest to the section to its far end, which lies beyond its last point.
+double extent_of(const std::vector<Beside>& chained) {
+  const auto root =
+      std::min_element(chained.begin(), chained.end(),
+                       [](const Beside& a, const Beside& b) { return a.off < b.off; });
+  double extent = 0.0;
+  for (const auto& point : chained) {
+    extent = std::max(extent, (point.position - root->position).norm() + 0.5 * point.reach);
   }
-  return hanging;
+  return root->off + extent;
 }
 
 }  // namespace
@@ -114,20 +127,28 @@ UnfollowedSkin unfollowed_skin(const PlaneBand& band, const Contour& section,
                                const std::vector<const ContourIndex*>& loops) {
   auto beside = off_the_section(band, loops);
   if (beside.size() < kFewest) return {};
-  const auto hanging = hanging_together(close_to_plane(std::move(beside), band.grain));
-  if (hanging.empty()) return {};
+  beside = close_to_plane(std::move(beside), band.grain);
+  const PointIndex index = index_of(beside);
+
   UnfollowedSkin skin;
-  double seen = 0.0;
+  double widest_reach = 0.0;
   std::vector<Eigen::Vector2d> with_skin = section.points;
-  for (const auto& point : hanging) {
-    seen = std::max(seen, point.off);
-    skin.off = std::max(skin.off, point.off + 0.5 * point.spacing);
-    with_skin.emplace_back(point.position.head<2>());
+  std::vector<bool> found(beside.size(), false);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    if (found[i]) continue;
+    const auto chained = chained_to(i, beside, index, found);
+    if (!begins_at_section(chained, band.grain)) continue;
+    skin.contact += 2.0 * extent_of(chained);
+    for (const auto& point : chained) {
+      skin.off = std::max(skin.off, point.off);
+      widest_reach = std::max(widest_reach, point.reach);
+      with_skin.emplace_back(point.position.head<2>());
+    }
   }
   const double longer =
       perimeter(convex_hull(std::move(with_skin))) - perimeter(convex_hull(section.points));
-  skin.contact = 2.0 * skin.off;
-  skin.stretched = skin.off / seen * longer;
+  // Half a reach beyond the last point, there and back again.
+  if (longer > 0.0) skin.stretched = longer + widest_reach;
   return skin;
 }
 

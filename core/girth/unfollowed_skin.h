@@ -9,19 +9,20 @@ namespace instep {
 
 /// Skin that hangs together with a section but that no traced loop follows, as a fin or a rib that
 /// is thin against the points' distances and was cut off at its root: how much longer the section
-/// is with it. In the band's unit; nothing where all is followed.
+/// may be with it, at most. In the band's unit; nothing where all is followed.
 struct UnfollowedSkin {
-  double off = 0.0;        ///< how far it leads away from the section
-  double contact = 0.0;    ///< there and back again
+  double off = 0.0;        ///< how far its points lie from the section
+  double contact = 0.0;    ///< along all of it and back again
   double stretched = 0.0;  ///< of a tape round it as well
 
   bool is_any() const { return off > 0.0; }
 };
 
-/// Skin is told by points close to the plane that lie off all loops by more than noise or an edge
-/// between the plane and them explains and that hang together with the section, and its end lies
-/// a spacing beyond the last of them. Strays are too few, and other bodies stand off. Where such
-/// points lead on to another loop, that counts with them.
+/// Skin is told by points close to the plane that lie off all loops by more than noise, or an edge
+/// between the plane and them, explains, that have as many neighbours as skin has, and that begin
+/// no further from the section than points on it from each other. So strays do not count, nor other
+/// bodies but such as touch it; those cannot be told from a part of it. Where such points lead on
+/// to another loop, that counts with them.
 ///
 /// `section`: the contour. `loops`: the indices of all that are followed, that of the section
 /// first. O(points), and n log n for the n that lie beside the section.

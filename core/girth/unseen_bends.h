@@ -15,8 +15,9 @@ struct UnseenBends {
 
 /// A stretch without points may be an arc, as the surface bridges it, or as long as the corner in
 /// which its ends' directions meet. Most of that difference counts, as far as it is more than that
-/// of a turn by 36 degrees, which smooth bodies make too. Several stretches add up as independent
-/// ones.
+/// of a turn by 36 degrees, which smooth bodies make too. A stretch longer than half a circle over
+/// its ends is a spur that the surface made up: it may all be too long. Several stretches add up as
+/// independent ones.
 ///
 /// `ways`: along the corners of the contour, as ContourIndex counts it, to each place where a point
 /// lies, in order; also of points that stand for skin that nobody saw. Of each stretch only what is

@@ -80,7 +80,23 @@ TEST(UnseenBends, OfSeveralGapsAddUpAsIndependentOnes) {
 TEST(UnseenBends, StayBoundedWhereAlmostNothingIsSeen) {
   const double all = unseen_bends_of(circle(), {0.1}, 0.05).contact_u95;
   EXPECT_TRUE(std::isfinite(all));
-  EXPECT_LT(all, 0.6 * ContourIndex(circle()).length());
+  EXPECT_LT(all, 1.6 * ContourIndex(circle()).length());
+}
+
+/// The circle with a spike on it that is 0.2 high, of which no point tells.
+TEST(UnseenBends, IncludeASpurThatNobodySaw) {
+  Contour spiked = circle();
+  for (int i = -5; i <= 5; ++i) {
+    const auto corner = static_cast<std::size_t>(900 + i);
+    spiked.points[corner] *= 1.0 + 0.2 * (1.0 - std::abs(i) / 5.0) / kRadius;
+  }
+  const double degree = ContourIndex(circle()).length() / 360.0;
+  const double longer = ContourIndex(spiked).length() - ContourIndex(circle()).length();
+  std::vector<double> ways;
+  for (int i = 0; i < 360; ++i) ways.push_back(i * degree + (i > 90 ? longer : 0.0));
+  std::erase_if(ways, [&](double way) { return std::abs(way - 90 * degree) < 0.5 * degree; });
+  EXPECT_NEAR(unseen_bends_of(spiked, ways, 0.05).contact_u95, longer, 0.02);
+  EXPECT_NEAR(unseen_bends_of(spiked, ways, 0.5).contact_u95, 0.0, 1e-12);
 }
 
 TEST(UnseenBends, AreTheSameInAnyUnit) {
