@@ -17,11 +17,13 @@ namespace instep {
 /// point; r^5, and after it r^7 with a cubic polynomial, where exact points are likelier by it)
 /// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane: as
 /// heights, points need no others put off the surface (eq. 5) and no normals but for the side, and
-/// the system (HeightKriging), centred and in unit scale, is half as large. Told normals of exact
-/// points count as slopes, as exact as is likeliest for them. The roughness is the
-/// likeliest one (restricted maximum likelihood) given the points and a prior; a point's smoothing
-/// is its variance against four times that, since a length is asked for in the end, over which
-/// noise averages out but flattened bends add up.
+/// the system (HeightKriging), centred and in unit scale, is half as large. Bodies bend more round
+/// their girths than along them, along z or nearly so in the frame of a tape plane: of noisy
+/// points a distance along z counts for less in r. Told normals of exact points count as slopes, as
+/// exact as is likeliest for them. The roughness is the likeliest one (restricted maximum
+/// likelihood) given the points and a prior; a point's smoothing is its variance against twice
+/// that, since a length is asked for in the end, over which noise averages out but flattened bends
+/// add up.
 class HeightPatch {
  public:
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:
@@ -90,7 +92,7 @@ class HeightPatch {
   void set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights);
 
   Eigen::Vector3d centre_;
-  Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards
+  Eigen::Matrix3d axes_;  ///< rows: round the body, along it (shortened where noisy), outwards
   double radius_ = 1.0;
   bool exact_ = false;
   std::optional<HeightKriging> kriging_;

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+
+#include "core/surface/height_patch.h"
+#include "tests/support/oriented_points.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Skin whose outward direction is x, so that y leads round the body and z along it, with waves in
+/// one of the two directions.
+struct WavySkin {
+  Vector3d waves;  ///< radians for each unit
+
+  double rise_at(const Vector3d& place) const { return 0.05 * std::sin(waves.dot(place)); }
+
+  HeightPatch patch(double sigma, std::uint64_t seed) const {
+    auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitX(), 1.0, 60, sigma, seed);
+    for (auto& point : points) point.position.x() += rise_at(point.position);
+    return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05).value();
+  }
+
+  /// Root mean square, amid a patch, over some draws.
+  double error(double sigma) const {
+    constexpr std::uint64_t kDraws = 40;
+    double squares = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
+      const HeightPatch fitted = patch(sigma, seed);
+      for (const double y : {-0.3, 0.0, 0.3}) {
+        for (const double z : {-0.3, 0.0, 0.3}) {
+          const Vector3d place(0.0, y, z);
+          squares += std::pow(fitted.at(place).value + rise_at(place), 2);
+          ++count;
+        }
+      }
+    }
+    return std::sqrt(squares / count);
+  }
+};
+
+const WavySkin kBentRound{{0.0, 5.0, 0.0}};
+const WavySkin kBentAlong{{0.0, 0.0, 5.0}};
+
+TEST(BentRound, NoisySkinIsToldBetterThanSkinThatBendsAlong) {
+  EXPECT_LT(kBentRound.error(0.02), 0.9 * kBentAlong.error(0.02));
+}
+
+/// The same points turned about the outward direction.
+TEST(BentRound, ExactSkinIsToldAsWellAsSkinThatBendsAlong) {
+  const Eigen::Matrix3d quarter =
+      Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX()).toRotationMatrix();
+  auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitX(), 1.0, 60, 0.0, 1);
+  for (auto& point : points) point.position.x() += kBentRound.rise_at(point.position);
+  auto turned = points;
+  for (auto& point : turned) point.position = quarter * point.position;
+  const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05);
+  const auto other = HeightPatch::fit(turned, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05);
+  ASSERT_TRUE(patch && other);
+  for (const double y : {-0.4, 0.1, 0.5}) {
+    const Vector3d place(0.0, y, 0.2);
+    EXPECT_NEAR(other->at(quarter * place).value, patch->at(place).value, 1e-9);
+  }
+}
+
+TEST(BentRound, GradientOfNoisySkinIsThatOfItsValue) {
+  const HeightPatch patch = kBentRound.patch(0.02, 3);
+  const auto value = [&](const Vector3d& place) { return patch.at(place).value; };
+  for (const double y : {-0.4, 0.1, 0.5}) {
+    const Vector3d place(0.02, y, 0.2);
+    const Vector3d expected = test::slope_by_differences(value, place, 1e-5);
+    EXPECT_NEAR((patch.at(place).gradient - expected).norm(), 0.0, 1e-7);
+  }
+}
+
+/// Moving a point's height moves a sum of heights by its influence.
+TEST(BentRound, InfluenceOfNoisyPointsIsThatOnTheSum) {
+  auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitX(), 1.0, 40, 0.05, 4);
+  const auto fit = [&] {
+    return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05).value();
+  };
+  const HeightPatch before = fit();
+  const Vector3d place(0.0, 0.1, -0.2);
+  const auto sums = before.sums({place}, Eigen::MatrixXd::Ones(1, 1));
+  constexpr double kMove = 1e-6;
+  for (const std::size_t moved : {0U, 7U, 31U}) {
+    points[moved].position.x() += kMove;
+    const double rise = before.at(place).value - fit().at(place).value;
+    EXPECT_NEAR(rise / kMove, sums.influence(static_cast<Eigen::Index>(moved), 0), 1e-4);
+    points[moved].position.x() -= kMove;
+  }
+}
+
+}  // namespace
+}  // namespace instep
