@@ -20,6 +20,7 @@ struct Wishes {
   std::vector<std::string> parts;
   bool verbose = false;
   std::uint64_t drawn = 2000;
+  std::uint64_t draws = 32;
   std::string csv;
 
   bool wants(const std::string& part) const {
@@ -27,11 +28,11 @@ struct Wishes {
   }
 };
 
-std::vector<test::CaseClass> all_classes() {
+std::vector<test::CaseClass> all_classes(std::uint64_t draws) {
   auto classes = test::smooth_classes();
   for (auto& foot : test::simulated_foot_classes()) classes.push_back(std::move(foot));
-  for (auto& last : test::last_classes()) classes.push_back(std::move(last));
-  for (auto& foot : test::foot_classes()) classes.push_back(std::move(foot));
+  for (auto& last : test::last_classes(draws)) classes.push_back(std::move(last));
+  for (auto& foot : test::foot_classes(draws)) classes.push_back(std::move(foot));
   return classes;
 }
 
@@ -58,7 +59,7 @@ void report(const Wishes& wishes) {
   CaseCsv csv(wishes.csv);
   std::vector<test::Outcome> noisy;
   bool headed = false;
-  for (const auto& chosen : all_classes()) {
+  for (const auto& chosen : all_classes(wishes.draws)) {
     if (!wishes.wants(chosen.part)) continue;
     if (!headed) print_heading("classes");
     headed = true;
@@ -82,6 +83,10 @@ int main(int count, char** words) {
           {"rings", "shapes", "noise", "holes", "simulated", "lasts", "feet", "drawn"}));
   app.add_flag("-v,--verbose", wishes.verbose, "Print each case");
   app.add_option("--cases", wishes.drawn, "How many cases to draw")->capture_default_str();
+  app.add_option("--draws", wishes.draws,
+                 "How often to draw the points and noise of each last and scanned foot")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   std::string plots;
   app.add_option("--plots", plots, "Only draw the plots, as SVG files in this folder");
   app.add_option("--csv", wishes.csv, "Write a line for each case to this file");

@@ -22,7 +22,7 @@ struct Wanted {
   double sigma_mm = 0.0;
   Noise noise = Noise::kNone;
   bool normals_told = false;
-  std::uint64_t seeds = 8;
+  std::uint64_t draws;
 };
 
 PointCloud made(PointCloud cloud, const Wanted& wanted, std::uint64_t seed) {
@@ -62,7 +62,7 @@ Cases last_cases(const Wanted& wanted, Pattern pattern) {
   for (const auto& file : files_of(sections)) {
     const auto vertices = read_shape(trial_data() / "lasts" / file).cloud;
     const bool all_alike = wanted.count >= vertices.size() && wanted.noise == Noise::kNone;
-    for (std::uint64_t seed = 1; seed <= (all_alike ? 1 : wanted.seeds); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (all_alike ? 1 : wanted.draws); ++seed) {
       // An even choice takes one point after the other: all but one in a random order.
       const auto crowd = pattern == Pattern::kEven
                              ? chosen(vertices, vertices.size() - 1, Pattern::kRandom, seed)
@@ -86,7 +86,7 @@ Cases foot_cases(const Wanted& wanted, Pattern pattern) {
   for (const auto& file : files_of(sections)) {
     if (!file.ends_with(".stl")) continue;
     const auto mesh = read_shape(trial_data() / "feet" / file, 1000.0).mesh;
-    for (std::uint64_t seed = 1; seed <= wanted.seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= wanted.draws; ++seed) {
       const std::size_t crowd = wanted.count * (pattern == Pattern::kRandom ? 1 : kCrowd);
       const auto cloud =
           made(chosen(oriented_points_on(mesh, crowd, 0.0, seed), wanted.count, pattern, seed),
@@ -112,7 +112,7 @@ CaseClass foot_class(const std::string& name, const Bar& bar, const Wanted& want
 
 }  // namespace
 
-std::vector<CaseClass> last_classes() {
+std::vector<CaseClass> last_classes(std::uint64_t draws) {
   std::vector<CaseClass> classes;
   if (!std::filesystem::exists(trial_data())) return classes;
   const auto bar = [](double mean, std::optional<double> worst = {}) {
@@ -124,41 +124,48 @@ std::vector<CaseClass> last_classes() {
     const char* normals = told ? "" : ", bare";
     for (const auto& [count, limit] : exact) {
       classes.push_back(last_class(fmt::format(", {} points{}", count, normals), limit,
-                                   {.count = count, .normals_told = told}));
+                                   {.count = count, .normals_told = told, .draws = draws}));
     }
     for (const auto& [count, limit] : {exact[1], exact[2]}) {
       classes.push_back(last_class(fmt::format(", {} even points{}", count, normals), limit,
-                                   {.count = count, .normals_told = told}, Pattern::kEven));
+                                   {.count = count, .normals_told = told, .draws = draws},
+                                   Pattern::kEven));
     }
     for (const auto& [count, limit] :
          {std::pair{14240U, bar(0.35)}, {3560U, Bar{}}, {902U, Bar{}}}) {
-      classes.push_back(last_class(
-          fmt::format(", {} points, 0.5 mm{}", count, normals), limit,
-          {.count = count, .sigma_mm = 0.5, .noise = Noise::kAlongNormals, .normals_told = told}));
+      classes.push_back(last_class(fmt::format(", {} points, 0.5 mm{}", count, normals), limit,
+                                   {.count = count,
+                                    .sigma_mm = 0.5,
+                                    .noise = Noise::kAlongNormals,
+                                    .normals_told = told,
+                                    .draws = draws}));
     }
   }
   return classes;
 }
 
-std::vector<CaseClass> foot_classes() {
+std::vector<CaseClass> foot_classes(std::uint64_t draws) {
   std::vector<CaseClass> classes;
   if (!std::filesystem::exists(trial_data())) return classes;
   const auto bar = [](double mean) { return Bar{.mean_mm = mean, .worst_mm = {}, .bias_mm = {}}; };
   for (const auto& [count, mean] : {std::pair{17040U, 0.2}, {4260U, 0.2}, {1080U, 0.3}}) {
-    classes.push_back(foot_class(fmt::format(", {} points", count), bar(mean), {.count = count}));
+    classes.push_back(
+        foot_class(fmt::format(", {} points", count), bar(mean), {.count = count, .draws = draws}));
   }
   for (const auto& [count, mean] : {std::pair{17040U, 0.25}, {4260U, 0.45}, {1080U, 0.65}}) {
-    classes.push_back(foot_class(fmt::format(", {} points, 0.5 mm", count), bar(mean),
-                                 {.count = count, .sigma_mm = 0.5, .noise = Noise::kAlongNormals}));
+    classes.push_back(foot_class(
+        fmt::format(", {} points, 0.5 mm", count), bar(mean),
+        {.count = count, .sigma_mm = 0.5, .noise = Noise::kAlongNormals, .draws = draws}));
   }
   for (const std::size_t count : {17040U, 4260U, 1080U}) {
-    classes.push_back(foot_class(fmt::format(", {} points, 0.5 mm all round", count), Bar{},
-                                 {.count = count, .sigma_mm = 0.5, .noise = Noise::kAllRound}));
+    classes.push_back(
+        foot_class(fmt::format(", {} points, 0.5 mm all round", count), Bar{},
+                   {.count = count, .sigma_mm = 0.5, .noise = Noise::kAllRound, .draws = draws}));
   }
   for (const double sigma : {0.0, 0.3}) {
     classes.push_back(
         foot_class(fmt::format(", 200000 random points, {:.1f} mm", sigma), Bar{},
-                   {.count = 200000, .sigma_mm = sigma, .noise = Noise::kAlongNormals, .seeds = 1},
+                   {.count = 200000, .sigma_mm = sigma, .noise = Noise::kAlongNormals, .draws = 1},
                    Pattern::kRandom));
   }
   return classes;
