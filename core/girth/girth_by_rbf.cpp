@@ -51,6 +51,10 @@ constexpr double kMostDistrust = 2.0;
 constexpr double kNotableUnexplained = 0.02;
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
+/// Of points that lead away from a section.
+constexpr const char* kNoSkinFound =
+    ", but no skin through them was found: a part too thin for them, or something that touches the "
+    "body";
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 /// One in so many points, the nearest to the plane, is a start at least.
@@ -238,9 +242,8 @@ std::string warning_of(const std::vector<ScatteredPlace>& scattered, double unit
 std::string warning_of(const UnfollowedSkin& skin, double unit_mm) {
   char figure[32];
   std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * skin.off);
-  return "points lead " + std::string(figure) +
-         " away from the section, but no skin through them was found: a part too thin for them, or "
-         "something that touches the body; take it away, or scan from nearer";
+  return "points lead " + std::string(figure) + " away from the section" + kNoSkinFound +
+         "; take it away, or scan from nearer";
 }
 
 bool is_most_of(double doubt, const MeasuredSection& section) {
@@ -305,8 +308,7 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
 tl::unexpected<Error> too_doubtful(const Unknown& unknown, const MeasuredSection& section) {
   if (is_most_of(unknown.skin.stretched, section)) {
     return fail(ErrorCode::kInsufficientData,
-                "points lead away from the section at the tape plane, but no skin through them was "
-                "found: a part too thin for them, or something that touches the body",
+                std::string("points lead away from the section at the tape plane") + kNoSkinFound,
                 "take it away, scan from nearer, or move the plane");
   }
   return fail(ErrorCode::kInsufficientData,

@@ -26,8 +26,8 @@ constexpr double kRoughnessStep = 1.0 / 1.5;
 constexpr double kAllowance = 2.0;
 /// Bodies bend more round their girths than along them, feet and lasts 1.45 to 1.9 times by the
 /// second derivatives of their patches, which go by the square of this: where there is noise,
-/// distances along count for so much less. Sparse noisy feet and lasts err 2 to 5 % less for it. So
-/// do sparse exact ones, but where a gap parts two sheets the surface over it would bulge.
+/// distances along count for so much less. Sparse noisy feet and lasts err 1 to 4 % less for it. So
+/// would sparse exact ones, but where a gap parts two sheets the surface over it would bulge.
 constexpr double kBentRound = 1.2;
 /// Variance that the polynomial's coefficients have beforehand, for comparing models.
 constexpr double kCoefficientVariance = 0.1;

@@ -18,7 +18,7 @@ namespace instep {
 /// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane: as
 /// heights, points need no others put off the surface (eq. 5) and no normals but for the side, and
 /// the system (HeightKriging), centred and in unit scale, is half as large. Bodies bend more round
-/// their girths than along them, along z or nearly so in the frame of a tape plane: of noisy
+/// their girths than along them, which is z or nearly so in the frame of a tape plane: of noisy
 /// points a distance along z counts for less in r. Told normals of exact points count as slopes, as
 /// exact as is likeliest for them. The roughness is the likeliest one (restricted maximum
 /// likelihood) given the points and a prior; a point's smoothing is its variance against twice

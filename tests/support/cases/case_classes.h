@@ -35,7 +35,7 @@ std::vector<CaseClass> simulated_foot_classes();
 
 /// The lasts and feet of the trial data, each class with so many draws of its points and noise;
 /// none where the data is absent. Means over eight draws differ from those over 64 by up to a
-/// quarter.
+/// fifth.
 std::vector<CaseClass> last_classes(std::uint64_t draws);
 std::vector<CaseClass> foot_classes(std::uint64_t draws);
 

@@ -1,10 +1,11 @@
+#include "core/surface/height_patch.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
-#include "core/surface/height_patch.h"
 #include "tests/support/oriented_points.h"
 
 namespace instep {
@@ -47,12 +48,12 @@ struct WavySkin {
 const WavySkin kBentRound{{0.0, 5.0, 0.0}};
 const WavySkin kBentAlong{{0.0, 0.0, 5.0}};
 
-TEST(BentRound, NoisySkinIsToldBetterThanSkinThatBendsAlong) {
+TEST(HeightPatchBentRound, NoisySkinIsToldBetterThanSkinThatBendsAlong) {
   EXPECT_LT(kBentRound.error(0.02), 0.9 * kBentAlong.error(0.02));
 }
 
 /// The same points turned about the outward direction.
-TEST(BentRound, ExactSkinIsToldAsWellAsSkinThatBendsAlong) {
+TEST(HeightPatchBentRound, ExactSkinIsToldAsWellAsSkinThatBendsAlong) {
   const Eigen::Matrix3d quarter =
       Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX()).toRotationMatrix();
   auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitX(), 1.0, 60, 0.0, 1);
@@ -68,7 +69,7 @@ TEST(BentRound, ExactSkinIsToldAsWellAsSkinThatBendsAlong) {
   }
 }
 
-TEST(BentRound, GradientOfNoisySkinIsThatOfItsValue) {
+TEST(HeightPatchBentRound, GradientOfNoisySkinIsThatOfItsValue) {
   const HeightPatch patch = kBentRound.patch(0.02, 3);
   const auto value = [&](const Vector3d& place) { return patch.at(place).value; };
   for (const double y : {-0.4, 0.1, 0.5}) {
@@ -79,7 +80,7 @@ TEST(BentRound, GradientOfNoisySkinIsThatOfItsValue) {
 }
 
 /// Moving a point's height moves a sum of heights by its influence.
-TEST(BentRound, InfluenceOfNoisyPointsIsThatOnTheSum) {
+TEST(HeightPatchBentRound, InfluenceOfNoisyPointsIsThatOnTheSum) {
   auto points = test::disc_points(Vector3d::Zero(), Vector3d::UnitX(), 1.0, 40, 0.05, 4);
   const auto fit = [&] {
     return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05).value();
