@@ -23,10 +23,11 @@ struct RibbonPoint {
 /// from all points of the ribbon, where a patch has some tens of them.
 ///
 /// What the heights may do is paid for: bends along the line by their squared second differences,
-/// and what is more than a parabola off the plane by its squared third derivative. Both prices, and
-/// the noise, are the likeliest ones (restricted maximum likelihood; Wood, Generalized Additive
-/// Models, 2017, 6.2), which is kriging with a prior of that form: the same reading gives the
-/// variance of what is read off. Points that lie apart count less (Huber's weights).
+/// and what is more than a parabola off the plane by its squared third derivative, little where
+/// that is the same all round the line and more the faster it changes. Both prices, and the noise,
+/// are the likeliest ones (restricted maximum likelihood; Wood, Generalized Additive Models, 2017,
+/// 6.2), which is kriging with a prior of that form: the same reading gives the variance of what is
+/// read off. Points that lie apart count less (Huber's weights).
 ///
 /// An immutable value; results scale with the unit of way and height.
 class RibbonSpline {

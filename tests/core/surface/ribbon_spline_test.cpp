@@ -71,6 +71,25 @@ TEST(RibbonSpline, TellsItsSlope) {
   }
 }
 
+/// Skin that bends off the plane more than a parabola does, alike all round, as an ellipsoid's:
+/// each stretch by itself hides it in the noise, all of them together tell it.
+TEST(RibbonSpline, KnowsWhatIsTheSameAllRound) {
+  constexpr int kDraws = 30;
+  const auto barrel = [](double way, double off) {
+    const double wave = 0.003 * std::sin(4.0 * std::numbers::pi * way / kLength);
+    return wave + 0.35 * (std::sqrt(1.0 - 0.116 * off * off) - 1.0);
+  };
+  double off = 0.0;
+  for (std::uint64_t draw = 0; draw < kDraws; ++draw) {
+    const auto spline =
+        RibbonSpline::through(drawn(barrel, 5000, 0.0008, 200 + draw), kLength, kKnots);
+    ASSERT_TRUE(spline);
+    off += mean_height(*spline) / kDraws;
+  }
+  // A parabola is 0.00005 off.
+  EXPECT_NEAR(off, 0.0, 0.00002);
+}
+
 /// The variance it tells is that of what is seen over many draws.
 TEST(RibbonSpline, KnowsTheVarianceOfASum) {
   constexpr int kDraws = 200;
