@@ -14,8 +14,11 @@ namespace {
 
 /// How much unseen waves count against all else, so that intervals hold: between exact points, and
 /// where noise hides them.
-constexpr double kUnseenWaves = 1.2;
+constexpr double kUnseenWaves = 1.8;
 constexpr double kUnseenUnderNoise = 1.7;
+/// How many of the unseen waves there are, by the middle of scanned feet and lasts, where all the
+/// bending of exact points is at their own scale.
+constexpr double kLikelyWaves = 1.6;
 constexpr double kDeviations = 1.96;
 /// A surface through points wanders no further between them, against the radius of a patch, however
 /// rough a crease within it seems.
@@ -140,8 +143,8 @@ void add_waves(const Stretch& stretch, double noise, double wandering, Sums& sum
   const double unseen = 0.5 * across * stretch.length * std::min(wandering, kSteepestWaves);
   sums.unseen_waves += (patch.is_exact() ? kUnseenWaves : kUnseenUnderNoise) * unseen;
   if (unseen < kLeastWaves * stretch.length) return;
-  const double bending = patch.fine_bending();
-  sums.likely_waves += bending * bending * unseen;
+  const double likely = patch.is_exact() ? kLikelyWaves * patch.fine_bending() : 1.0;
+  sums.likely_waves += likely * unseen;
 }
 
 void add(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {

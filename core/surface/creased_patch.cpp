@@ -188,28 +188,30 @@ class QuadraticSheet {
  public:
   QuadraticSheet(const std::vector<OrientedPoint>& points, const Eigen::Vector3d& outward,
                  const Eigen::Vector3d& centre, double radius)
-      : centre_(centre), radius_(radius) {
-    axes_.row(0) = outward.unitOrthogonal();
-    axes_.row(1) = outward.cross(axes_.row(0));
-    axes_.row(2) = outward;
-    terms_ = least_squares(samples_over(points, axes_, centre, radius));
-  }
+      : base_(axes_over(outward), centre, radius),
+        terms_(least_squares(samples_over(points, base_))) {}
 
   FieldValue at(const Eigen::Vector3d& position) const {
-    const Eigen::Vector3d local = axes_ * (position - centre_) / radius_;
-    const double x = local.x();
-    const double y = local.y();
+    const auto spot = base_.see(position);
+    const double x = spot.place.x();
+    const double y = spot.place.y();
     const double height = terms_[0] + x * (terms_[1] + x * terms_[3] + y * terms_[4]) +
                           y * (terms_[2] + y * terms_[5]);
-    const Eigen::Vector3d gradient(-terms_[1] - 2.0 * x * terms_[3] - y * terms_[4],
-                                   -terms_[2] - x * terms_[4] - 2.0 * y * terms_[5], 1.0);
-    return {radius_ * (local.z() - height), axes_.transpose() * gradient};
+    const Eigen::Vector2d slope(terms_[1] + 2.0 * x * terms_[3] + y * terms_[4],
+                                terms_[2] + x * terms_[4] + 2.0 * y * terms_[5]);
+    return {base_.radius() * (spot.height - height), base_.gradient(slope, spot)};
   }
 
  private:
-  Eigen::Vector3d centre_;
-  double radius_;
-  Eigen::Matrix3d axes_;  ///< rows: two directions on the plane, and outwards
+  static Eigen::Matrix3d axes_over(const Eigen::Vector3d& outward) {
+    Eigen::Matrix3d axes;
+    axes.row(0) = outward.unitOrthogonal();
+    axes.row(1) = outward.cross(axes.row(0));
+    axes.row(2) = outward;
+    return axes;
+  }
+
+  HeightBase base_;
   Quadratic terms_;
 };
 

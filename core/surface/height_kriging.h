@@ -11,7 +11,7 @@
 namespace instep {
 
 /// The paper's system (eqs. 6 and 7, phi = r^3, r^5 or r^7, a smoothing for each point) for heights
-/// over a plane, with a polynomial; read as kriging: once the polynomial is taken out, heights
+/// over a base, with a polynomial; read as kriging: once the polynomial is taken out, heights
 /// wander with covariance roughness * phi and carry noise on top.
 ///
 /// It is solved on the null space of the polynomial block, where it is positive definite and by as

@@ -13,6 +13,8 @@ namespace {
 
 /// Fewer points than this carry a plane only.
 constexpr std::size_t kFewestForQuadratic = 9;
+/// And fewer than this are left over beside creases, or tell too little of how the base is bent.
+constexpr std::size_t kFewestForBend = 24;
 /// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
 constexpr double kLeastSmoothing = 1e-10;
 /// Standard deviation of the logarithm of the roughness round its likely value.
@@ -70,6 +72,18 @@ Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward, double bent_round) {
   const double lift = axes(1, 2) * axes(1, 2);
   axes.row(1) *= std::sqrt(1.0 - lift + lift / (bent_round * bent_round));
   return axes;
+}
+
+/// Of exact points one that is bent round the body as the quadratic that fits best: without, their
+/// few lines along a body seem nearer to each other the further round it they lie. Told slopes tell
+/// bends as well on the plane, and where a gap parts two sheets a bent surface bulges further over
+/// it. Noisy ones gain nothing, and in rows may be bent by their noise.
+HeightBase base_of(const std::vector<OrientedPoint>& points, const HeightBase& plane) {
+  const HeightSamples samples = samples_over(points, plane);
+  if (points.size() < kFewestForBend || samples.has_slopes()) return plane;
+  const Quadratic trend = least_squares(samples);
+  const double bend = -2.0 * trend[3] / std::pow(1.0 + trend[1] * trend[1], 1.5);
+  return std::isfinite(bend) ? plane.bent(bend) : plane;
 }
 
 /// What the polynomial adds to twice the negative log likelihood, with its coefficients integrated
@@ -164,12 +178,11 @@ std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& po
                                             const Eigen::Vector3d& outward, double radius,
                                             double roughness, bool crowded) {
   if (points.size() < 4 || !(radius > 0.0)) return std::nullopt;
-  HeightPatch patch;
-  patch.centre_ = centre;
-  patch.radius_ = radius;
-  patch.exact_ = are_exact(points, radius);
-  patch.axes_ = axes_with(outward, patch.exact_ ? 1.0 : kBentRound);
-  HeightSamples samples = samples_over(points, patch.axes_, centre, radius);
+  const bool exact = are_exact(points, radius);
+  const HeightBase plane(axes_with(outward, exact ? 1.0 : kBentRound), centre, radius);
+  HeightPatch patch(exact ? base_of(points, plane) : plane);
+  patch.exact_ = exact;
+  HeightSamples samples = samples_over(points, patch.base_);
   Quadratic trend = Quadratic::Zero();
   if (points.size() > kMostHeightSamples) {
     trend = least_squares(samples);
@@ -216,12 +229,11 @@ HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& position
                                     const Eigen::MatrixXd& shares) const {
   Eigen::Matrix2Xd places(2, shares.rows());
   for (Eigen::Index i = 0; i < shares.rows(); ++i) {
-    const Eigen::Vector3d arm = positions[static_cast<std::size_t>(i)] - centre_;
-    places.col(i) = axes_.topRows<2>() * arm / radius_;
+    places.col(i) = base_.see(positions[static_cast<std::size_t>(i)]).place;
   }
   HeightKriging::Sums of_samples = kriging_->sums(solution_, places, shares);
   Sums sums{of_samples.influence.topRows(kriging_->samples()),
-            radius_ * radius_ * wander_ * of_samples.wandering};
+            base_.radius() * base_.radius() * wander_ * of_samples.wandering};
   if (cells_.empty()) return sums;
   Eigen::MatrixXd of_points(shares_.size(), shares.cols());
   for (Eigen::Index i = 0; i < shares_.size(); ++i) {
@@ -248,9 +260,9 @@ HeightPatch::Rise HeightPatch::rise_of(const Polynomial& c, double x, double y) 
 }
 
 FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
-  const Eigen::Vector3d local = axes_ * (position - centre_) / radius_;
-  const double x = local.x();
-  const double y = local.y();
+  const auto spot = base_.see(position);
+  const double x = spot.place.x();
+  const double y = spot.place.y();
   const HeightKernel kernel = kriging_->kernel();
   Group kernels = Group::Zero();
   Group slopes_x = Group::Zero();
@@ -272,8 +284,8 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
   rise.along += power * slopes_x.sum();
   rise.across += power * slopes_y.sum();
   if (along_weights_.size() > 0) add_slopes(x, y, rise);
-  const Eigen::Vector3d gradient(-rise.along, -rise.across, 1.0);
-  return {radius_ * (local.z() - rise.height), axes_.transpose() * gradient};
+  return {base_.radius() * (spot.height - rise.height),
+          base_.gradient({rise.along, rise.across}, spot)};
 }
 
 /// The kernels of the samples' slopes: the derivatives of those of their heights.

@@ -15,7 +15,8 @@ namespace instep {
 ///
 /// The surface is the paper's radial basis functions (eqs. 6 and 7, phi = r^3, a smoothing for each
 /// point; r^5, and after it r^7 with a cubic polynomial, where exact points are likelier by it)
-/// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane: as
+/// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane, which
+/// for exact points without told normals is bent round the body as they are (HeightBase): as
 /// heights, points need no others put off the surface (eq. 5) and no normals but for the side, and
 /// the system (HeightKriging), centred and in unit scale, is half as large. Bodies bend more round
 /// their girths than along them, which is z or nearly so in the frame of a tape plane: of noisy
@@ -85,15 +86,13 @@ class HeightPatch {
     double across;
   };
 
-  HeightPatch() = default;
+  explicit HeightPatch(const HeightBase& base) : base_(base) {}
 
   static Rise rise_of(const Polynomial& c, double x, double y);
   void add_slopes(double x, double y, Rise& rise) const;
   void set_columns(const Eigen::Matrix2Xd& places, const Eigen::VectorXd& weights);
 
-  Eigen::Vector3d centre_;
-  Eigen::Matrix3d axes_;  ///< rows: round the body, along it (shortened where noisy), outwards
-  double radius_ = 1.0;
+  HeightBase base_;
   bool exact_ = false;
   std::optional<HeightKriging> kriging_;
   HeightKriging::Solution solution_;

@@ -8,8 +8,6 @@ namespace instep {
 namespace {
 
 constexpr int kCellsAcross = 7;
-/// Cosine to the plane's direction below which a told normal is taken as one of that steepness.
-constexpr double kSteepest = 0.25;
 /// Stands for no variance at all where variances are divided by.
 constexpr double kLeastVariance = 1e-18;
 
@@ -27,25 +25,20 @@ std::size_t cell_at(const Eigen::Vector2d& place) {
   return step(place.x()) * kCellsAcross + step(place.y());
 }
 
-Eigen::Vector2d slope_of(const Eigen::Vector3d& normal) {
-  return -normal.head<2>() / std::max(normal.z(), kSteepest);
-}
-
 }  // namespace
 
-HeightSamples samples_over(const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
-                           const Eigen::Vector3d& centre, double radius) {
+HeightSamples samples_over(const std::vector<OrientedPoint>& points, const HeightBase& base) {
   const auto count = static_cast<Eigen::Index>(points.size());
   HeightSamples samples{Eigen::Matrix2Xd(2, count), Eigen::VectorXd(count), Eigen::VectorXd(count)};
-  if (points.size() <= kMostHeightSamples && all_tell_normals(points))
+  if (base.is_plane() && points.size() <= kMostHeightSamples && all_tell_normals(points))
     samples.slopes.resize(2, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const OrientedPoint& point = points[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d local = axes * (point.position - centre) / radius;
-    samples.places.col(i) = local.head<2>();
-    samples.heights[i] = local.z();
-    samples.variances[i] = point.variance / (radius * radius);
-    if (samples.has_slopes()) samples.slopes.col(i) = slope_of(axes * point.normal);
+    const auto spot = base.see(point.position);
+    samples.places.col(i) = spot.place;
+    samples.heights[i] = spot.height;
+    samples.variances[i] = point.variance / (base.radius() * base.radius());
+    if (samples.has_slopes()) samples.slopes.col(i) = base.slope_of(point.normal);
   }
   return samples;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/surface/height_base.h"
 #include "core/surface/oriented_point.h"
 
 namespace instep {
@@ -10,10 +11,9 @@ namespace instep {
 /// As many samples as a patch is fitted to; more points are averaged first.
 inline constexpr int kMostHeightSamples = 64;
 
-/// Points of a small piece of surface as heights over a plane: the patch's own coordinates, in
-/// which the neighbourhood has radius one.
+/// Points of a small piece of surface as heights over a base, in unit scale.
 struct HeightSamples {
-  Eigen::Matrix2Xd places;    ///< on the plane
+  Eigen::Matrix2Xd places;    ///< on the base
   Eigen::VectorXd heights;    ///< over it
   Eigen::VectorXd variances;  ///< of the heights
   Eigen::Matrix2Xd slopes{};  ///< of the surface there; no columns where they are not known
@@ -22,11 +22,9 @@ struct HeightSamples {
   bool has_slopes() const { return slopes.cols() > 0; }
 };
 
-/// `axes`: rows are two directions on the plane and the one over it. `radius` > 0. With slopes if
-/// all normals are told and the points are few enough not to be averaged; steep ones are flattened,
-/// as no height over the plane could follow them.
-HeightSamples samples_over(const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
-                           const Eigen::Vector3d& centre, double radius);
+/// With slopes if the base is a plane, all normals are told and the points are few enough not to
+/// be averaged.
+HeightSamples samples_over(const std::vector<OrientedPoint>& points, const HeightBase& base);
 
 /// Coefficients of 1, x, y, xx, xy, yy.
 using Quadratic = Eigen::Matrix<double, 6, 1>;

@@ -1,6 +1,7 @@
 #include "tests/support/oriented_points.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -78,6 +79,19 @@ OrientedPoints prism_points(double side, double height, double spacing, double s
       }
     }
   }
+  return points;
+}
+
+std::vector<OrientedPoint> without_bend_round(std::vector<OrientedPoint> points) {
+  Eigen::MatrixXd quadratics(static_cast<Eigen::Index>(points.size()), 6);
+  Eigen::VectorXd heights(quadratics.rows());
+  for (Eigen::Index i = 0; i < quadratics.rows(); ++i) {
+    const Eigen::Vector3d& at = points[static_cast<std::size_t>(i)].position;
+    quadratics.row(i) << 1.0, at.x(), at.y(), at.x() * at.x(), at.x() * at.y(), at.y() * at.y();
+    heights[i] = at.z();
+  }
+  const double bend = quadratics.colPivHouseholderQr().solve(heights)[3];
+  for (auto& point : points) point.position.z() -= bend * point.position.x() * point.position.x();
   return points;
 }
 

@@ -28,6 +28,10 @@ std::vector<OrientedPoint> sphere_points(double radius, std::size_t count, doubl
 std::vector<OrientedPoint> prism_points(double side, double height, double spacing, double sigma,
                                         std::uint64_t seed);
 
+/// Heights over the plane z = 0 without what their best quadratic has of x^2: a cylinder along y
+/// that fits them best is flat.
+std::vector<OrientedPoint> without_bend_round(std::vector<OrientedPoint> points);
+
 std::vector<OrientedPoint> in_another_order(std::vector<OrientedPoint> points, std::uint64_t seed);
 
 /// The same body in a unit `factor` times as small.

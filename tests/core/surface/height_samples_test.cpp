@@ -45,7 +45,7 @@ TEST(HeightSamples, AreThePointsInThePatchsOwnCoordinates) {
       Eigen::AngleAxisd(0.8, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   const Vector3d over = axes.row(2).transpose();
   const auto points = test::disc_points(centre + 0.5 * over, over, radius, 50, 0.2, 1);
-  const auto samples = samples_over(points, axes, centre, radius);
+  const auto samples = samples_over(points, HeightBase(axes, centre, radius));
   ASSERT_EQ(samples.size(), 50);
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     const auto& point = points[static_cast<std::size_t>(i)];
@@ -69,7 +69,7 @@ const Eigen::Matrix3d kAskew =
 TEST(HeightSamples, SlopesAreThoseOfTheSurfaceThatNormalsTell) {
   const Vector3d normal =
       kAskew.transpose() * Vector3d(0.3, -0.5, 0.9).normalized();  // seen from the patch
-  const auto samples = samples_over(told_plane(normal, 20), kAskew, {1, 2, 3}, 2.0);
+  const auto samples = samples_over(told_plane(normal, 20), HeightBase(kAskew, {1, 2, 3}, 2.0));
   ASSERT_TRUE(samples.has_slopes());
   for (Eigen::Index i = 1; i < samples.size(); ++i) {
     const Eigen::Vector2d way = samples.places.col(i) - samples.places.col(0);
@@ -78,9 +78,9 @@ TEST(HeightSamples, SlopesAreThoseOfTheSurfaceThatNormalsTell) {
 }
 
 TEST(HeightSamples, HaveSlopesIfAllNormalsAreToldAndThePointsAreFew) {
-  const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const HeightBase base(Eigen::Matrix3d::Identity(), Vector3d::Zero(), 1.0);
   const auto have_slopes = [&](const std::vector<OrientedPoint>& points) {
-    return samples_over(points, axes, Vector3d::Zero(), 1.0).has_slopes();
+    return samples_over(points, base).has_slopes();
   };
   EXPECT_TRUE(have_slopes(told_plane(Vector3d::UnitZ(), 64)));
   EXPECT_FALSE(have_slopes(told_plane(Vector3d::UnitZ(), 65)));
@@ -91,12 +91,11 @@ TEST(HeightSamples, HaveSlopesIfAllNormalsAreToldAndThePointsAreFew) {
 
 /// A normal along the plane or away from it has no slope over it, and must not count for much.
 TEST(HeightSamples, SteepSlopesAreFlattened) {
+  const HeightBase base(Eigen::Matrix3d::Identity(), Vector3d::Zero(), 1.0);
   for (const double height : {0.2, 0.01, 0.0, -0.7, -1.0}) {
     auto points = told_plane(Vector3d::UnitZ(), 10);
     points[3].normal = Vector3d(std::sqrt(1.0 - height * height), 0.0, height);
-    const auto slope = samples_over(points, Eigen::Matrix3d::Identity(), Vector3d::Zero(), 1.0)
-                           .slopes.col(3)
-                           .eval();
+    const Eigen::Vector2d slope = samples_over(points, base).slopes.col(3);
     EXPECT_LE(slope.norm(), 4.0) << height;
     EXPECT_LE(slope.x(), 0.0) << height;
   }

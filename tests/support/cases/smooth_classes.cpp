@@ -25,7 +25,7 @@ Cases ring_cases(int per_ring, int rings) {
   constexpr double kGirth = 80.0 * std::numbers::pi;
   Cases cases;
   for (const double twist : {0.0, 0.5}) {
-    for (const double pitch : {2.0, 4.0, 6.0}) {
+    for (const double pitch : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 10.0}) {
       for (const double part : {0.0, 0.25, 0.5}) {
         const double z = part * pitch;
         cases.push_back({.name = fmt::format("rings {} mm apart, twist {}, z {}", pitch, twist, z),
