@@ -29,15 +29,19 @@ struct Moments {
 
   Eigen::Vector3d middle() const { return sum / count; }
 
-  /// The direction in which the points spread least; of either sign. At least one point.
-  Eigen::Vector3d flattest() const {
+  /// The directions in which the points spread, from the least to the most, and how far: the sums
+  /// of squares. At least one point.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes() const {
     Moments round_middle = *this;
     round_middle.add_products(-sum / count, sum);
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
     // In closed form: a millionth of a radian is far more than enough.
     axes.computeDirect(round_middle.squares);
-    return axes.eigenvectors().col(0);
+    return axes;
   }
+
+  /// The direction in which the points spread least; of either sign. At least one point.
+  Eigen::Vector3d flattest() const { return axes().eigenvectors().col(0); }
 
  private:
   void add_products(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

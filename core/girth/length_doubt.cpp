@@ -14,7 +14,7 @@ namespace {
 
 /// How much unseen waves count against all else, so that intervals hold: between exact points, and
 /// where noise hides them.
-constexpr double kUnseenWaves = 1.8;
+constexpr double kUnseenWaves = 1.5;
 constexpr double kUnseenUnderNoise = 1.7;
 /// How many of the unseen waves there are, by the middle of scanned feet and lasts, where all the
 /// bending of exact points is at their own scale.
@@ -60,7 +60,7 @@ struct Sums {
   double rounding = 0.0;      ///< variance
   double noise_waves = 0.0;   ///< length
   double unseen_waves = 0.0;  ///< weighed
-  double likely_waves = 0.0;  ///< of the unseen ones, those that the points hint at
+  double likely_waves = 0.0;  ///< length, as the points hint at
 };
 
 std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& surface) {

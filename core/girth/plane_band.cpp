@@ -10,23 +10,18 @@
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
+#include "core/girth/section_probe.h"
 #include "core/surface/normal_trust.h"
 #include "core/surface/surface_normals.h"
 
 namespace instep {
 namespace {
 
-constexpr std::size_t kFewestPoints = 24;
 /// Half-width of the band in grains: a patch of points as wide apart as the grain reaches more than
 /// four to each side, and the normals of its outermost points two more.
 constexpr double kBandInGrains = 6.5;
-/// Of the slab that is looked at first, against the extent of the cloud. Points of a slab thinner
-/// than their spacing seem farther apart than they are.
-constexpr double kFirstHalfWidth = 0.004;
-constexpr double kWidening = 2.0;
 constexpr double kWideEnough = 1.15;
 constexpr int kMostRounds = 3;
-constexpr std::size_t kSpacingSample = 200;
 /// Points nearer to each other than this part of the spacing are copies of one, if so many have
 /// such a neighbour: two thirds of a cloud of which half was added again. Of a random cloud 7 % do,
 /// of points along rows half.
@@ -39,8 +34,6 @@ constexpr double kNoisePlacesInSpacings = 1.5;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
 constexpr double kGrainInSigmas = 2.0;
 constexpr double kCoarsestGrain = 0.018;
-/// Points nearer than this part of the section tell no more than fewer would.
-constexpr double kFinestGrain = 0.0075;
 /// Exact points are thinned where they stand nearer than this part of the finest grain: of others
 /// few share a cell as wide as that.
 constexpr double kCrowded = 0.85;
@@ -58,55 +51,11 @@ constexpr double kNotableInPlaces = 1.5;
 /// Of a section: the texture of skin or a scanner's rounding.
 constexpr double kHarmlessScatter = 3e-4;
 
-Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
-  Eigen::AlignedBox2d box;
-  for (const auto& place : places) box.extend(place.head<2>().eval());
-  return box;
-}
-
 double grain_of(double spacing, double sigma) {
   return std::max({spacing, std::min(kGrainInSigmas * sigma, kCoarsestGrain), kFinestGrain});
 }
 
-tl::unexpected<Error> no_surface() {
-  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
-              "give control points that cut the body, or scan again");
-}
-
-/// Where the section lies and how fine it is.
-struct Probe {
-  Eigen::Vector3d middle_mm;
-  double unit_mm = 1.0;
-  double spacing = 0.0;  ///< in the unit
-};
-
-/// Widens a slab until it is a ring of points that tells their spacing.
-Result<Probe> probe(SlabSource& slabs) {
-  const double size = slabs.size();
-  bool found_some = false;
-  for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
-    PlaneSlab slab = slabs.slab(half_width);
-    if (slab.places.size() < kFewestPoints) continue;
-    found_some = true;
-    const Eigen::AlignedBox2d box = section_box(slab.places);
-    const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
-    const double unit = box.diagonal().norm();
-    if (half_width < spacing || !(unit > 0.0)) continue;
-    return Probe{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
-  }
-  if (found_some) return no_surface();
-  return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
-              "give control points on the body, or a denser cloud");
-}
-
-/// Seen from the plane; lengths in the probe's unit.
-PlaneSlab slab_in_unit(SlabSource& slabs, const Probe& found, double half_width) {
-  PlaneSlab slab = slabs.slab(half_width * found.unit_mm);
-  for (auto& place : slab.places) place = (place - found.middle_mm) / found.unit_mm;
-  return slab;
-}
-
-PlaneBand band_of(PlaneSlab slab, const Probe& found) {
+PlaneBand band_of(PlaneSlab slab, const SectionProbe& found) {
   PlaneBand band{.unit_mm = found.unit_mm,
                  .middle_mm = found.middle_mm.head<2>(),
                  .points = {},
@@ -121,8 +70,8 @@ PlaneBand band_of(PlaneSlab slab, const Probe& found) {
 }
 
 /// The points within `half_width` of the plane.
-PlaneBand gather(SlabSource& slabs, const Probe& found, double half_width) {
-  return band_of(slab_in_unit(slabs, found, half_width), found);
+PlaneBand gather(SlabSource& slabs, const SectionProbe& found, double half_width) {
+  return band_of(found.slab(slabs, half_width), found);
 }
 
 /// Leaves out the points that are marked.
@@ -142,7 +91,7 @@ void drop_copies(PlaneBand& band) {
 }
 
 /// As wide a band as its grain asks for.
-PlaneBand gather_enough(SlabSource& slabs, const Probe& found, double sigma) {
+PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sigma) {
   double half_width = kBandInGrains * grain_of(found.spacing, sigma);
   for (int round = 0;; ++round) {
     PlaneBand band = gather(slabs, found, half_width);
@@ -210,11 +159,11 @@ struct BandAndNoise {
 
 /// Of points that crowd, of which nothing is told and which are exact wherever they are looked at,
 /// as many as tell the same: those left out would tell it again. Nothing of others.
-std::optional<BandAndNoise> thinned(SlabSource& slabs, const Probe& found) {
+std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found) {
   const PointCloud& cloud = slabs.cloud();
   const bool told = cloud.has_normals() || cloud.has_sigma() || !cloud.origins.empty();
   if (told || found.spacing > kCrowded * kFinestGrain) return std::nullopt;
-  const PlaneSlab slab = slab_in_unit(slabs, found, kBandInGrains * kFinestGrain);
+  const PlaneSlab slab = found.slab(slabs, kBandInGrains * kFinestGrain);
   PlaneBand band = band_of(without(crowding_points(slab.places, kFinestGrain), slab), found);
   band.thinned_out = slab.places.size() - band.sources.size();
   band.grain = grain_of(band.spacing, 0.0);
@@ -227,7 +176,7 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const Probe& found) {
 }
 
 /// All points of as wide a band as they ask for. Nothing if they form no surface.
-std::optional<BandAndNoise> whole(SlabSource& slabs, const Probe& found,
+std::optional<BandAndNoise> whole(SlabSource& slabs, const SectionProbe& found,
                                   std::optional<double> sigma_mm) {
   PlaneBand band = gather_enough(slabs, found, 0.0);
   drop_strays(band);
@@ -329,7 +278,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
                 "scan again");
   }
-  const auto found = probe(slabs);
+  const auto found = probe_section(slabs);
   if (!found) return tl::make_unexpected(found.error());
   auto made = sigma_mm ? std::nullopt : thinned(slabs, *found);
   if (!made) made = whole(slabs, *found, sigma_mm);

@@ -16,11 +16,8 @@ namespace {
 constexpr double kOrdinaryTurn = 0.2 * std::numbers::pi;
 /// A corner that turns more is no better told by its ends' directions.
 constexpr double kSharpestTurn = 0.6 * std::numbers::pi;
-/// Part of what a corner may add that is half of a 95 % interval: more than all, for the surface
-/// draws its ends' directions inwards already.
+/// Part of what a corner may add that is half of a 95 % interval.
 constexpr double kLikely = 1.2;
-/// A stretch counts as far as it is longer than this part of what chance leaves without points.
-constexpr double kOrdinaryGap = 0.5;
 
 /// How much longer a corner is than the arc that turns as far, against that.
 double corner_over_arc(double turn) {
@@ -97,8 +94,8 @@ UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& w
     const double turn =
         course.turn_at(ways[next]) - course.turn_at(ways[i]) + (last ? course.whole_turn() : 0.0);
     const double hole = (course.place_at(ways[next]) - course.place_at(ways[i])).norm();
-    const double longer = kLikely * (gap - kOrdinaryGap * near) * longer_by_corner(std::abs(turn)) +
-                          spur_over(gap, hole);
+    const double longer =
+        kLikely * (gap - near) * longer_by_corner(std::abs(turn)) + spur_over(gap, hole);
     sum.contact_u95 = std::hypot(sum.contact_u95, longer);
     if (turn > 0.0) sum.stretched_u95 = std::hypot(sum.stretched_u95, longer);
   }

@@ -14,8 +14,9 @@ struct UnseenBends {
 };
 
 /// A stretch without points may be an arc, as the surface bridges it, or as long as the corner in
-/// which its ends' directions meet. Most of that difference counts, as far as it is more than that
-/// of a turn by 36 degrees, which smooth bodies make too. A stretch longer than half a circle over
+/// which its ends' directions meet. That difference counts, and a fifth more since the surface
+/// draws these directions inwards, as far as it is more than that of a turn by 36 degrees, which
+/// smooth bodies make too. A stretch longer than half a circle over
 /// its ends is a spur that the surface made up: it may all be too long. Several stretches add up as
 /// independent ones.
 ///

@@ -74,16 +74,17 @@ Eigen::Matrix3d axes_with(const Eigen::Vector3d& outward, double bent_round) {
   return axes;
 }
 
-/// Of exact points one that is bent round the body as the quadratic that fits best: without, their
-/// few lines along a body seem nearer to each other the further round it they lie. Told slopes tell
-/// bends as well on the plane, and where a gap parts two sheets a bent surface bulges further over
-/// it. Noisy ones gain nothing, and in rows may be bent by their noise.
+/// Of exact points one that is bent round the body as the quadratic that fits best: over the plane
+/// the flanks of a patch seem nearer to each other than they are, and rise without bending. Slopes
+/// tell bends as well on the plane, and where a gap parts two sheets a bent surface bulges further
+/// over it; noisy points gain nothing, and in lines may be bent by their noise.
 HeightBase base_of(const std::vector<OrientedPoint>& points, const HeightBase& plane) {
   const HeightSamples samples = samples_over(points, plane);
   if (points.size() < kFewestForBend || samples.has_slopes()) return plane;
-  const Quadratic trend = least_squares(samples);
-  const double bend = -2.0 * trend[3] / std::pow(1.0 + trend[1] * trend[1], 1.5);
-  return std::isfinite(bend) ? plane.bent(bend) : plane;
+  const auto trend = determined_quadratic(samples);
+  if (!trend) return plane;
+  const double turn = std::pow(1.0 + (*trend)[1] * (*trend)[1], 1.5);
+  return plane.bent(-2.0 * (*trend)[3] / turn);
 }
 
 /// What the polynomial adds to twice the negative log likelihood, with its coefficients integrated

@@ -79,7 +79,7 @@ class HeightPatch {
   using Group = Eigen::Array<double, kGroup, 1>;
   static_assert(kMostHeightSamples % kGroup == 0);
 
-  /// A height over the plane and its slopes.
+  /// A height over the base and its slopes.
   struct Rise {
     double height;
     double along;

@@ -1,6 +1,7 @@
 #include "core/surface/height_samples.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 
@@ -99,6 +100,15 @@ Quadratic least_squares(const HeightSamples& samples) {
     data[i] = values.col(i).dot(samples.heights);
   }
   return normal.ldlt().solve(data);  // reads the lower triangle
+}
+
+std::optional<Quadratic> determined_quadratic(const HeightSamples& samples) {
+  constexpr double kHardly = 1e-3;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kHardly);
+  qr.compute(monomials(samples.places, Quadratic::RowsAtCompileTime));
+  if (qr.rank() < Quadratic::RowsAtCompileTime) return std::nullopt;
+  return qr.solve(samples.heights).eval();
 }
 
 CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend) {

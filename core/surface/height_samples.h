@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/surface/height_base.h"
@@ -40,6 +41,8 @@ Eigen::MatrixXd monomial_slopes(const Eigen::Matrix2Xd& places, Eigen::Index ter
 
 /// The quadratic that fits best. At least six samples.
 Quadratic least_squares(const HeightSamples& samples);
+/// Nothing if the samples hardly determine it, such as those on a line or two. Any number.
+std::optional<Quadratic> determined_quadratic(const HeightSamples& samples);
 
 /// Samples of which each is the average of those in one cell.
 struct CellAverages {

@@ -22,6 +22,15 @@ constexpr double kReached = -1.0;
 /// A part whose normals face away from the middle by this share of what they could needs no
 /// neighbours to tell its side.
 constexpr double kPlainlyOutward = 0.25;
+/// Points that spread less than this across than along (sums of squares) are those of one line of a
+/// scanner, as thick as their noise or their bend: which way it faces they do not tell, but those
+/// round it that reach the next lines do. The first ones are looked for so many sides off, and
+/// each time so much further.
+constexpr double kThinLine = 0.15;
+constexpr double kFirstRound = 2.0;
+constexpr double kWidening = 1.5;
+/// Further off lies another side of the body.
+constexpr double kWidestRound = 0.3;
 
 /// A bend between two cells; the flattest comes first.
 struct Bend {
@@ -33,6 +42,25 @@ struct Bend {
     return std::pair(size, to) > std::pair(other.size, other.to);
   }
 };
+
+bool is_line(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& axes) {
+  return axes.eigenvalues()[1] < kThinLine * axes.eigenvalues()[2];
+}
+
+/// Of points round a place, more and more while they all lie on one line.
+Eigen::Vector3d normal_across_lines(const PointIndex& index, const Eigen::Vector3d& place,
+                                    const Moments& nearby, double side) {
+  auto axes = nearby.axes();
+  for (double radius = kFirstRound * side; is_line(axes) && radius < kWidestRound;
+       radius *= kWidening) {
+    Moments round;
+    for (const auto& near : index.around(place, radius)) {
+      round.add(index.points()[near.index] - place);
+    }
+    axes = round.axes();
+  }
+  return axes.eigenvectors().col(0);
+}
 
 }  // namespace
 
@@ -60,7 +88,7 @@ CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const Point
         round.add(points[nearest.index] - middles_[cell]);
       }
     }
-    normals_.push_back(round.flattest());
+    normals_.push_back(normal_across_lines(index, middles_[cell], round, side));
   }
   middle_index_ = PointIndex(middles_);
 }

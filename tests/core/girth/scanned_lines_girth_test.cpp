@@ -1,0 +1,82 @@
+// Girths of bodies that a line scanner went over: many points on lines that are far apart.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/girth/girth.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/scanned_lines.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using test::ScannedLines;
+
+/// Askew to a cylinder of these half-axes along z by so many degrees.
+TapePlane plane_askew(double half_width, double half_depth, double degrees) {
+  const double rise = std::tan(degrees * std::numbers::pi / 180.0);
+  const auto at = [&](double angle) {
+    const double x = half_width * std::cos(angle);
+    const double y = half_depth * std::sin(angle);
+    return Vector3d(x, y, rise * (0.8 * x + 0.6 * y));
+  };
+  return TapePlane::through(at(0), at(2), at(4)).value();
+}
+
+struct Errors {
+  int told = 0;
+  int held = 0;
+  double stretched = 0.0;  ///< the most
+  double contact = 0.0;
+};
+
+Errors errors_of(const ScannedLines& lines) {
+  Errors errors;
+  for (const double degrees : {3.0, 20.0, 45.0}) {
+    const auto plane = plane_askew(lines.half_width, lines.half_depth, degrees);
+    const double truth =
+        test::true_girth(test::elliptic_cylinder(lines.half_width, lines.half_depth), plane);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      PointCloud cloud;
+      cloud.positions = lines.positions(seed);
+      const auto girth = girth_by_rbf(cloud, plane);
+      if (!girth) continue;
+      ++errors.told;
+      const double off = std::abs(girth->stretched_mm - truth);
+      if (off <= *girth->stretched_u95_mm) ++errors.held;
+      errors.stretched = std::max(errors.stretched, off);
+      errors.contact = std::max(errors.contact, std::abs(girth->contact_mm - truth));
+    }
+  }
+  return errors;
+}
+
+/// The nearest points of a place are all on one line: of these most were refused.
+TEST(ScannedLinesGirth, OfExactPointsIsToldByTheLinesBeside) {
+  for (const bool round : {true, false}) {
+    for (const double step : {0.8, 0.4, 0.25}) {
+      const Errors errors = errors_of({40, 36, round, 7.0, step});
+      EXPECT_GE(errors.told, 11) << round << " " << step;
+      EXPECT_LT(errors.stretched, 0.3) << round << " " << step;
+      EXPECT_GE(errors.held, 9) << round << " " << step;
+    }
+  }
+}
+
+/// The cells that a normal is made of held one line each, as thick as its noise, and faced
+/// anywhere: contours folded.
+TEST(ScannedLinesGirth, OfNoisyPointsDoesNotFold) {
+  for (const bool round : {true, false}) {
+    for (const double step : {1.2, 0.4}) {
+      const Errors errors = errors_of({40, 36, round, 6.0, step, 0.4});
+      EXPECT_GE(errors.told, 11) << round << " " << step;
+      EXPECT_LT(errors.contact, 1.0) << round << " " << step;
+      EXPECT_GE(errors.held, errors.told - 2) << round << " " << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace instep
