@@ -52,6 +52,8 @@ struct PlaneBand {
 ///
 /// Of a crowd of which nothing is told and which shows no noise, wherever it is looked at, nor
 /// strays, as many points are kept as the finest grain needs (core/geometry/crowding_points.h).
+/// Of points on lines that are far apart, as many on each as the lines beside it can be seen with
+/// (core/girth/section_probe.h).
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
 /// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place,
