@@ -18,7 +18,7 @@ constexpr std::size_t kAsked = 40;
 /// So many of the nearest are looked at first, and so many at most: of noisy points the nearest
 /// ones are no line yet.
 constexpr std::size_t kFewest = 8;
-constexpr std::size_t kMost = 64;
+constexpr std::size_t kMost = 128;
 /// How far points on a line spread across it at most, against how far along it (sums of squares):
 /// of a few, which may lie so by chance, and of more. And what those of several lines do at least.
 constexpr double kThinLineOfFew = 0.03;
@@ -40,9 +40,11 @@ double thickness(const std::vector<Eigen::Vector3d>& points, const Neighbours& s
 
 /// How many of a place's nearest, nearest first, lie on a line with it; none if they do not.
 std::size_t on_a_line(const std::vector<Eigen::Vector3d>& points, const Neighbours& nearest) {
-  for (std::size_t count = kFewest; count <= std::min(kMost, nearest.size()); count *= 2) {
+  const std::size_t most = std::min(kMost, nearest.size());
+  for (std::size_t count = kFewest; count <= most; count = std::min(2 * count, most)) {
     const double thin = count == kFewest ? kThinLineOfFew : kThinLine;
     if (thickness(points, nearest, count) < thin) return count;
+    if (count == most) break;
   }
   return 0;
 }

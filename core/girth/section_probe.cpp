@@ -1,6 +1,7 @@
 #include "core/girth/section_probe.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -16,9 +17,9 @@ namespace {
 /// than their spacing seem farther apart than they are.
 constexpr double kFirstHalfWidth = 0.004;
 constexpr double kWidening = 2.0;
-/// Lines are looked for in a slab so many spacings to each side, and up to this part of the cloud's
-/// extent wide, and must be seen within this part of the slab.
-constexpr double kLookInSpacings = 6.5;
+/// Lines are looked for in a slab so many spacings to each side at least, and up to this part of
+/// the cloud's extent wide, and must be seen within this part of the slab.
+constexpr double kLookInSpacings = 10.0;
 constexpr double kWidestForLines = 0.4;
 constexpr double kReachInSlab = 0.7;
 /// Lines are far apart if more steps along them than this lie between two: patches of the nearest
@@ -33,7 +34,8 @@ Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   return box;
 }
 
-/// Side of the cells of which one point is to be kept each; zero where all are.
+/// Side of the cells of which one point is to be kept each; zero where all are, as where cells
+/// would be as fine as the thickness of noisy lines: their points would be kept in layers.
 double cell_for_lines(SlabSource& slabs, double half_width, double finest) {
   for (double wide = half_width; wide < kWidestForLines * slabs.size(); wide *= kWidening) {
     const auto lines = scan_lines(PointIndex(slabs.slab(wide).places), kReachInSlab * wide);
@@ -70,7 +72,7 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     const double unit = box.diagonal().norm();
     if (half_width < spacing || !(unit > 0.0)) continue;
     SectionProbe found{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
-    const double look = kLookInSpacings * spacing;
+    const double look = std::max(kLookInSpacings * spacing, half_width);
     if (!stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) return found;
     found.cell = cell_for_lines(slabs, look, kFinestGrain * unit) / unit;
     if (!(found.cell > 0.0)) return found;

@@ -65,6 +65,13 @@ TEST(ScannedLinesGirth, OfExactPointsIsToldByTheLinesBeside) {
   }
 }
 
+/// The slab that is looked at first holds but one of these lines.
+TEST(ScannedLinesGirth, OfADenseLineIsTold) {
+  const Errors errors = errors_of({40, 36, true, 8.0, 0.05});
+  EXPECT_GE(errors.told, 11);
+  EXPECT_LT(errors.stretched, 0.1);
+}
+
 /// The cells that a normal is made of held one line each, as thick as its noise, and faced
 /// anywhere: contours folded.
 TEST(ScannedLinesGirth, OfNoisyPointsDoesNotFold) {
