@@ -15,9 +15,9 @@ struct ScanLines {
 };
 
 /// Whether most points have their nearest ones on a line with them, as some 40 of them tell.
-/// `points` in the order of their first coordinate; `reach` > 0: some five of their spacings, less
-/// than half of what a slab of them is wide. Looks through those that are within `reach` in the
-/// first coordinate.
+/// `points` in the order of their first coordinate; `reach` > 0: five of their spacings or more,
+/// less than half of what a slab of them is wide. Looks through those that are within `reach` in
+/// the first coordinate.
 bool stand_in_lines(const std::vector<Eigen::Vector3d>& points, double reach);
 
 /// As most points see them that do, within `widest` > 0. Nothing if most see no second line there.

@@ -24,7 +24,7 @@ constexpr double kWidestForLines = 0.4;
 constexpr double kReachInSlab = 0.7;
 /// Lines are far apart if more steps along them than this lie between two: patches of the nearest
 /// points would see but one or two. So many steps are left. Of 250 clouds of dense rings at tilted
-/// planes 185 were refused and girths were 0.26 mm off; now two and 0.04.
+/// planes 185 were refused and girths were 0.26 mm off; now two and 0.06.
 constexpr double kFarApart = 10.0;
 constexpr double kStepsLeft = 4.0;
 

@@ -10,9 +10,9 @@
 namespace instep {
 namespace {
 
-/// The four are chosen together, by drawn cases and by bodies with an edge that nobody saw within 8
-/// or 12 mm: of 2,000 drawn cases 55 become more than a fifth wider by them, of
-/// which 12 did not hold before, and 4 do not with them.
+/// The three are chosen together, by drawn cases and by a sole without points within 12 mm of its
+/// edge, of which 94 % hold: of 1,240 drawn cases 30 become more than a fifth wider by them, of
+/// which 4 did not hold before, and all do with them.
 constexpr double kOrdinaryTurn = 0.2 * std::numbers::pi;
 /// A corner that turns more is no better told by its ends' directions.
 constexpr double kSharpestTurn = 0.6 * std::numbers::pi;

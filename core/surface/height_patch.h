@@ -16,15 +16,15 @@ namespace instep {
 /// The surface is the paper's radial basis functions (eqs. 6 and 7, phi = r^3, a smoothing for each
 /// point; r^5, and after it r^7 with a cubic polynomial, where exact points are likelier by it)
 /// with a quadratic polynomial (a plane for fewer than nine points), over the tangent plane, which
-/// for exact points without told normals is bent round the body as they are (HeightBase): as
-/// heights, points need no others put off the surface (eq. 5) and no normals but for the side, and
-/// the system (HeightKriging), centred and in unit scale, is half as large. Bodies bend more round
-/// their girths than along them, which is z or nearly so in the frame of a tape plane: of noisy
-/// points a distance along z counts for less in r. Told normals of exact points count as slopes, as
-/// exact as is likeliest for them. The roughness is the likeliest one (restricted maximum
-/// likelihood) given the points and a prior; a point's smoothing is its variance against twice
-/// that, since a length is asked for in the end, over which noise averages out but flattened bends
-/// add up.
+/// for two dozen exact points or more, unless told normals count, is bent round the body as they
+/// are (HeightBase): as heights, points need no others put off the surface (eq. 5) and no normals
+/// but for the side, and the system (HeightKriging), centred and in unit scale, is half as large.
+/// Bodies bend more round their girths than along them, which is z or nearly so in the frame of a
+/// tape plane: of noisy points a distance along z counts for less in r. Told normals of exact
+/// points count as slopes, as exact as is likeliest for them. The roughness is the likeliest one
+/// (restricted maximum likelihood) given the points and a prior; a point's smoothing is its
+/// variance against twice that, since a length is asked for in the end, over which noise averages
+/// out but flattened bends add up.
 class HeightPatch {
  public:
   /// `outward`: unit length, out of the body, within some 60 degrees of all normals. `radius` > 0:
