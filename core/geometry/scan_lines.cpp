@@ -24,7 +24,8 @@ constexpr std::size_t kMost = 128;
 constexpr double kThinLineOfFew = 0.03;
 constexpr double kThinLine = 0.1;
 constexpr double kSeveralLines = 0.2;
-constexpr std::size_t kMoreAround = 3;
+constexpr double kWidening = 1.2;
+constexpr double kFurtherRound = 1.7;
 
 using Neighbours = std::vector<PointIndex::Neighbour>;
 
@@ -70,21 +71,22 @@ Neighbours within(const std::vector<Eigen::Vector3d>& points, std::size_t place,
   return found;
 }
 
-/// More and more of the nearest, until they lie on several lines; then so many times more, since
+/// Those within more and more, until they lie on several lines; then within so much more, since
 /// where the second line is just within reach there seem to be fewer than there are.
 std::optional<ScanLines> lines_round(const PointIndex& index, Neighbours nearest, double widest) {
   const auto& points = index.points();
   const Eigen::Vector3d& place = points[nearest.front().index];
-  const double reach = std::sqrt(nearest.back().squared_distance);
+  double reach = std::sqrt(nearest.back().squared_distance);
   const double step = 2.0 * reach / static_cast<double>(nearest.size());
   while (thickness(points, nearest, nearest.size()) < kSeveralLines) {
-    if (nearest.size() == points.size()) return std::nullopt;
-    nearest = index.nearest(place, nearest.size() + nearest.size() / 2);
-    if (nearest.back().squared_distance > widest * widest) return std::nullopt;
+    reach *= kWidening;
+    if (reach > widest) return std::nullopt;
+    nearest = index.around(place, reach);
   }
-  nearest = index.nearest(place, kMoreAround * nearest.size());
-  if (nearest.back().squared_distance > widest * widest) return std::nullopt;
-  const double area = std::numbers::pi * nearest.back().squared_distance;
+  reach *= kFurtherRound;
+  if (reach > widest) return std::nullopt;
+  nearest = index.around(place, reach);
+  const double area = std::numbers::pi * reach * reach;
   return ScanLines{step, area / static_cast<double>(nearest.size()) / step};
 }
 

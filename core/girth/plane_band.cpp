@@ -61,6 +61,7 @@ PlaneBand band_of(PlaneSlab slab, const SectionProbe& found) {
                  .points = {},
                  .index = PointIndex(std::move(slab.places)),
                  .sources = std::move(slab.indices),
+                 .shares = std::move(slab.shares),
                  .seen = {},
                  .uneven = {},
                  .scattered = {},
@@ -76,8 +77,10 @@ PlaneBand gather(SlabSource& slabs, const SectionProbe& found, double half_width
 
 /// Leaves out the points that are marked.
 void drop(const std::vector<bool>& marked, PlaneBand& band) {
-  PlaneSlab rest = without(marked, {std::move(band.sources), band.index.points()});
+  PlaneSlab rest =
+      without(marked, {std::move(band.sources), band.index.points(), std::move(band.shares)});
   band.sources = std::move(rest.indices);
+  band.shares = std::move(rest.shares);
   band.index = PointIndex(std::move(rest.places));
 }
 
@@ -135,11 +138,11 @@ std::vector<std::size_t> along_the_plane(const PointCloud& cloud, const PlaneBan
 /// What is told of the noise of each point, in the band's unit; nothing if nothing is.
 std::vector<double> told_sigmas(const PointCloud& cloud, const PlaneBand& band,
                                 std::optional<double> sigma_mm) {
-  if (sigma_mm) return std::vector<double>(band.sources.size(), *sigma_mm / band.unit_mm);
+  if (!sigma_mm && !cloud.has_sigma()) return {};
   std::vector<double> told;
-  if (!cloud.has_sigma()) return told;
-  for (const std::size_t source : band.sources) {
-    told.push_back(cloud.sigma_mm[source] / band.unit_mm);
+  for (std::size_t i = 0; i < band.sources.size(); ++i) {
+    const double of_point = sigma_mm ? *sigma_mm : cloud.sigma_mm[band.sources[i]];
+    told.push_back(band.share_of(i) * of_point / band.unit_mm);
   }
   return told;
 }
@@ -234,8 +237,8 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   const bool slopes = trust == NormalTrust::kSlopes && !righted && band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double sigma =
-        std::max(band.sigma_of(cloud, band.sources[i], band.index.points()[i]), least);
+    const double sigma = std::max(
+        band.sigma_of(cloud, band.sources[i], band.share_of(i), band.index.points()[i]), least);
     const bool told = slopes && is_harmless(sigma * sigma, band.spacing);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma, told});
   }
@@ -265,11 +268,12 @@ std::string disbelief_of_noise(const PlaneBand& band) {
 
 /// What stands for skin that nobody saw is told of by who put it there: what points show is no word
 /// on it.
-double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source,
+double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double share,
                            const Eigen::Vector3d& place) const {
   const double times = uneven.empty() ? 1.0 : times_at(uneven, place);
   if (!own_sigma) return std::max(times * sigma, scatter_at(scattered, place));
-  return (cloud.was_seen(source) ? told_scale * times : 1.0) * cloud.sigma_mm[source] / unit_mm;
+  return (cloud.was_seen(source) ? told_scale * times : 1.0) * share * cloud.sigma_mm[source] /
+         unit_mm;
 }
 
 Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {

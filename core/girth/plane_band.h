@@ -23,6 +23,7 @@ struct PlaneBand {
   std::vector<OrientedPoint> points;
   PointIndex index;                       ///< of their positions
   std::vector<std::size_t> sources;       ///< their places in the cloud
+  std::vector<double> shares;             ///< as PlaneSlab has them
   std::vector<bool> seen;                 ///< whether a camera saw them
   double spacing = 0.0;                   ///< between points, in the unit
   double grain = 0.0;                     ///< finest detail that they tell, in the unit
@@ -42,9 +43,12 @@ struct PlaneBand {
     return middle_mm + unit_mm * place;
   }
 
+  double share_of(std::size_t point) const { return shares.empty() ? 1.0 : shares[point]; }
+
   /// Noise of any point of the cloud that the band was made of, near the plane or not, in the unit.
-  /// `place`: its own, as the band has it.
-  double sigma_of(const PointCloud& cloud, std::size_t source, const Eigen::Vector3d& place) const;
+  /// `place`: its own, as the band has it, with its `share` of the point's noise.
+  double sigma_of(const PointCloud& cloud, std::size_t source, double share,
+                  const Eigen::Vector3d& place) const;
 };
 
 /// The grain is the spacing of the points, or more: twice the noise, or where points crowd so that
@@ -52,8 +56,8 @@ struct PlaneBand {
 ///
 /// Of a crowd of which nothing is told and which shows no noise, wherever it is looked at, nor
 /// strays, as many points are kept as the finest grain needs (core/geometry/crowding_points.h).
-/// Of points on lines that are far apart, as many on each as the lines beside it can be seen with
-/// (core/girth/section_probe.h).
+/// Of points on lines that are far apart, as many on each as the lines beside it can be seen with,
+/// or averages of them (core/girth/thinned_lines.h).
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
 /// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place,

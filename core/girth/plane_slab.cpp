@@ -11,6 +11,7 @@
 
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/polygon.h"
+#include "core/girth/thinned_lines.h"
 
 namespace instep {
 namespace {
@@ -132,6 +133,7 @@ PlaneSlab within(const PlaneSlab& slab, double half_width) {
     if (std::abs(slab.places[i].z()) > half_width) continue;
     part.indices.push_back(slab.indices[i]);
     part.places.push_back(slab.places[i]);
+    if (!slab.shares.empty()) part.shares.push_back(slab.shares[i]);
   }
   return part;
 }
@@ -142,6 +144,7 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
     if (marked[i]) continue;
     rest.indices.push_back(slab.indices[i]);
     rest.places.push_back(slab.places[i]);
+    if (!slab.shares.empty()) rest.shares.push_back(slab.shares[i]);
   }
   return rest;
 }
@@ -169,8 +172,14 @@ PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
     widest_ = slab_of(cloud_, plane_, half_width_);
+    if (lines_) widest_ = thinned_lines(cloud_, widest_, *lines_);
   }
   return within(widest_, half_width);
+}
+
+void SlabSource::thin(const ScanLines& lines) {
+  lines_ = lines;
+  widest_ = thinned_lines(cloud_, widest_, lines);
 }
 
 bool is_cut(const std::vector<Eigen::Vector3d>& places) {

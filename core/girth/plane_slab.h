@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/point_cloud.h"
+#include "core/geometry/scan_lines.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {
@@ -15,6 +17,7 @@ namespace instep {
 struct PlaneSlab {
   std::vector<std::size_t> indices;     ///< in the cloud
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it
+  std::vector<double> shares;  ///< noise of each place against its point's; none if they are alike
 };
 
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
@@ -40,13 +43,17 @@ class SlabSource {
   /// there. Of at least one point.
   double size() const { return size_; }
 
-  /// As slab_of() gives it.
+  /// As slab_of() gives it, or thinned.
   PlaneSlab slab(double half_width);
+
+  /// From now on slabs have no more of lines than thinned_lines() leaves.
+  void thin(const ScanLines& lines);
 
  private:
   const PointCloud& cloud_;
   TapePlane plane_;
   double size_ = 0.0;
+  std::optional<ScanLines> lines_;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it
 };

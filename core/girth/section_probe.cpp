@@ -2,10 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/geometry/crowding_points.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/scan_lines.h"
 #include "core/geometry/stray_points.h"
@@ -23,10 +23,10 @@ constexpr double kLookInSpacings = 10.0;
 constexpr double kWidestForLines = 0.4;
 constexpr double kReachInSlab = 0.7;
 /// Lines are far apart if more steps along them than this lie between two: patches of the nearest
-/// points would see but one or two. So many steps are left. Of 250 clouds of dense rings at tilted
-/// planes 185 were refused and girths were 0.26 mm off; now two and 0.06.
+/// points would see but one or two.
 constexpr double kFarApart = 10.0;
-constexpr double kStepsLeft = 4.0;
+/// A slab of lines reaches so many gaps to each side to hold several all round the section.
+constexpr double kGapsOfSlab = 2.0;
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
@@ -34,16 +34,25 @@ Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   return box;
 }
 
-/// Side of the cells of which one point is to be kept each; zero where all are, as where cells
-/// would be as fine as the thickness of noisy lines: their points would be kept in layers.
-double cell_for_lines(SlabSource& slabs, double half_width, double finest) {
+/// The lines that points within `half_width` or some more stand in, if they are far apart.
+std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width) {
   for (double wide = half_width; wide < kWidestForLines * slabs.size(); wide *= kWidening) {
     const auto lines = scan_lines(PointIndex(slabs.slab(wide).places), kReachInSlab * wide);
     if (!lines) continue;
-    const double cell = lines->apart / kStepsLeft;
-    return lines->apart > kFarApart * lines->step && cell > finest ? cell : 0.0;
+    return lines->apart > kFarApart * lines->step ? lines : std::nullopt;
   }
-  return 0.0;
+  return std::nullopt;
+}
+
+/// The section that points lie round, which are fewer than make a surface or within less than
+/// their spacing of the plane: nothing.
+std::optional<SectionProbe> probe_of(PlaneSlab slab, double half_width) {
+  if (slab.places.size() < kFewestPoints) return std::nullopt;
+  const Eigen::AlignedBox2d box = section_box(slab.places);
+  const double unit = box.diagonal().norm();
+  const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
+  if (half_width < spacing || !(unit > 0.0)) return std::nullopt;
+  return SectionProbe{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
 }
 
 }  // namespace
@@ -56,7 +65,7 @@ tl::unexpected<Error> no_surface() {
 PlaneSlab SectionProbe::slab(SlabSource& slabs, double half_width) const {
   PlaneSlab slab = slabs.slab(half_width * unit_mm);
   for (auto& place : slab.places) place = (place - middle_mm) / unit_mm;
-  return cell > 0.0 ? without(crowding_points(slab.places, cell), slab) : slab;
+  return slab;
 }
 
 Result<SectionProbe> probe_section(SlabSource& slabs) {
@@ -64,22 +73,16 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
   bool found_some = false;
   for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
     PlaneSlab slab = slabs.slab(half_width);
-    if (slab.places.size() < kFewestPoints) continue;
-    found_some = true;
-    const Eigen::AlignedBox2d box = section_box(slab.places);
-    const PointIndex index(std::move(slab.places));
-    const double spacing = usual_spacing(index, kSpacingSample);
-    const double unit = box.diagonal().norm();
-    if (half_width < spacing || !(unit > 0.0)) continue;
-    SectionProbe found{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
-    const double look = std::max(kLookInSpacings * spacing, half_width);
-    if (!stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) return found;
-    found.cell = cell_for_lines(slabs, look, kFinestGrain * unit) / unit;
-    if (!(found.cell > 0.0)) return found;
-    const double several_lines = 2.0 * kStepsLeft * found.cell;
-    found.spacing =
-        usual_spacing(PointIndex(found.slab(slabs, several_lines).places), kSpacingSample);
-    return found;
+    found_some = found_some || slab.places.size() >= kFewestPoints;
+    const auto found = probe_of(std::move(slab), half_width);
+    if (!found) continue;
+    const double look = std::max(kLookInSpacings * found->spacing * found->unit_mm, half_width);
+    if (!stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) return *found;
+    const auto lines = lines_far_apart(slabs, look);
+    if (!lines) return *found;
+    slabs.thin(*lines);
+    const double several_lines = kGapsOfSlab * lines->apart;
+    return probe_of(slabs.slab(several_lines), several_lines).value_or(*found);
   }
   if (found_some) return no_surface();
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",

@@ -20,17 +20,15 @@ struct SectionProbe {
   Eigen::Vector3d middle_mm;
   double unit_mm = 1.0;  ///< the diagonal of the section
   double spacing = 0.0;  ///< of points on the skin, in the unit
-  /// Where lines of a scanner are far apart, one point is kept in a cell of this side: more on a
-  /// line would only make patches that see no other. None are left out where it is zero.
-  double cell = 0.0;
 
   /// Points within `half_width` of the plane, seen from it, in the unit.
   PlaneSlab slab(SlabSource& slabs, double half_width) const;
 };
 
 /// Widens a slab until it is a ring of points that tells their spacing, and that of the lines that
-/// they may stand in. Fails with kInvalidInput where too few points lie near the plane,
-/// kInsufficientData where they form no surface. O(n), and m log m for the m that are looked at.
+/// they may stand in: where they are far apart, `slabs` are thinned for good. Fails with
+/// kInvalidInput where too few points lie near the plane, kInsufficientData where they form no
+/// surface. O(n), and m log m for the m that are looked at.
 Result<SectionProbe> probe_section(SlabSource& slabs);
 
 /// That the points near the plane form no surface.

@@ -22,6 +22,7 @@ PlaneBand band_of(const OrientedPoints& points, double spacing, std::vector<bool
           .points = points,
           .index = PointIndex(test::positions_of(points)),
           .sources = {},
+          .shares = {},
           .seen = std::move(seen),
           .spacing = spacing,
           .grain = kGrain,

@@ -42,6 +42,7 @@ SectionEvidence evidence_of(const std::vector<Place>& places) {
                  .points = {},
                  .index = PointIndex({}),
                  .sources = {},
+                 .shares = {},
                  .seen = {},
                  .uneven = {},
                  .scattered = {},

@@ -40,6 +40,7 @@ UnfollowedSkin skin_of(std::vector<OrientedPoint> points, const Contour* other =
                        .points = std::move(points),
                        .index = PointIndex({}),
                        .sources = {},
+                       .shares = {},
                        .seen = {},
                        .grain = kGrain,
                        .uneven = {},

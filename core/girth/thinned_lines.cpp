@@ -1,0 +1,157 @@
+#include "core/girth/thinned_lines.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "core/geometry/crowding_points.h"
+#include "core/geometry/moments.h"
+#include "core/geometry/near_copies.h"
+#include "core/geometry/point_index.h"
+#include "core/median.h"
+
+namespace instep {
+namespace {
+
+/// So many points are left on a line for every gap between two.
+constexpr double kStepsLeft = 4.0;
+/// A line shows where it leads within this part of the gap: so far off no other begins.
+constexpr double kReach = 0.45;
+constexpr std::size_t kFewestOnLine = 6;
+/// Points off their line by less than this part of the gap, as a rule, are exact.
+constexpr double kExact = 1e-3;
+/// Averages are made round points first, which noise puts beside their line, then round themselves.
+constexpr int kRounds = 2;
+/// Those nearer to each other than this part of a stretch share too many points.
+constexpr double kSameStretch = 0.75;
+
+/// A place on a line.
+struct Stretch {
+  std::size_t number;  ///< in the slab, of the point that it was made round
+  Eigen::Vector3d place;
+  double share = 1.0;    ///< its noise against the point's
+  double scatter = 0.0;  ///< of points round their line; none of a point that stands alone
+};
+
+/// Averages points of a slab along their lines.
+class LineAverages {
+ public:
+  LineAverages(const PointCloud& cloud, const PlaneSlab& slab, double apart)
+      : cloud_(cloud), slab_(slab), index_(slab.places), apart_(apart) {}
+
+  Stretch round(std::size_t number) const {
+    Stretch stretch{number, slab_.places[number]};
+    for (int turn = 0; turn < kRounds && average(stretch); ++turn) {
+    }
+    return stretch;
+  }
+
+ private:
+  double weight_of(std::size_t point) const {
+    if (!cloud_.has_sigma()) return 1.0;
+    const double sigma = std::max(cloud_.sigma_mm[slab_.indices[point]], 1e-9);
+    return 1.0 / (sigma * sigma);
+  }
+
+  /// Those that were seen if it was, or else those that were not.
+  std::vector<std::size_t> beside(const Stretch& stretch) const {
+    const bool seen = cloud_.was_seen(slab_.indices[stretch.number]);
+    std::vector<std::size_t> beside;
+    for (const auto& one : index_.within(stretch.place, kReach * apart_)) {
+      if (cloud_.was_seen(slab_.indices[one.index]) == seen) beside.push_back(one.index);
+    }
+    return beside;
+  }
+
+  /// Moves a place onto the mean of its stretch, as a line bent evenly leads there: the bend of the
+  /// line would draw a plain mean inwards. False where too few points are beside it.
+  bool average(Stretch& stretch) const {
+    const auto points = beside(stretch);
+    if (points.size() < kFewestOnLine) return false;
+    Moments moments;
+    for (const auto point : points) moments.add(slab_.places[point] - stretch.place);
+    const Eigen::Vector3d along = moments.axes().eigenvectors().col(2);
+    const auto terms_at = [&](const Eigen::Vector3d& arm) {
+      const double way = along.dot(arm) / apart_;
+      return Eigen::Vector3d(1.0, way, way * way);
+    };
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d sides = Eigen::Matrix3d::Zero();
+    for (const auto point : points) {
+      const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
+      const Eigen::Vector3d terms = terms_at(arm);
+      const double weight = weight_of(point);
+      normal += weight * terms * terms.transpose();
+      sides += weight * terms * arm.transpose();
+    }
+    const Eigen::Matrix3d line = normal.ldlt().solve(sides);
+    if (!line.allFinite()) return false;
+
+    Eigen::Vector3d rest = Eigen::Vector3d::Zero();
+    double weights = 0.0;
+    double squares = 0.0;
+    for (const auto point : points) {
+      const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
+      const Eigen::Vector3d terms = terms_at(arm);
+      const Eigen::Vector3d off = arm - line.transpose() * terms;
+      squares += off.squaredNorm();
+      if (std::abs(terms[1]) > 0.5 / kStepsLeft) continue;
+      rest += weight_of(point) * off;
+      weights += weight_of(point);
+    }
+    if (!(weights > 0.0)) return false;
+    stretch.place += line.row(0).transpose() + rest / weights;
+    stretch.share = std::sqrt(weight_of(stretch.number) / weights);
+    stretch.scatter = std::sqrt(squares / static_cast<double>(points.size()));
+    return true;
+  }
+
+  const PointCloud& cloud_;
+  const PlaneSlab& slab_;
+  PointIndex index_;
+  double apart_;
+};
+
+double usual_scatter(const std::vector<Stretch>& stretches) {
+  std::vector<double> scatters;
+  for (const auto& stretch : stretches) scatters.push_back(stretch.scatter);
+  return median(std::move(scatters));
+}
+
+/// In the order of all slabs.
+PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
+  std::sort(stretches.begin(), stretches.end(), [](const Stretch& a, const Stretch& b) {
+    const auto key = [](const Stretch& one) {
+      return std::tuple(one.place.x(), one.place.y(), one.place.z(), one.number);
+    };
+    return key(a) < key(b);
+  });
+  PlaneSlab averaged;
+  for (const auto& stretch : stretches) {
+    averaged.indices.push_back(slab.indices[stretch.number]);
+    averaged.places.push_back(stretch.place);
+    averaged.shares.push_back(stretch.share);
+  }
+  return averaged;
+}
+
+}  // namespace
+
+PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines) {
+  if (slab.places.empty()) return slab;
+  const double stretch = lines.apart / kStepsLeft;
+  const auto crowding = crowding_points(slab.places, stretch);
+  const LineAverages averages(cloud, slab, lines.apart);
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < crowding.size(); ++i) {
+    if (!crowding[i]) stretches.push_back(averages.round(i));
+  }
+  if (usual_scatter(stretches) < kExact * lines.apart) return without(crowding, slab);
+  const PlaneSlab averaged = slab_of(std::move(stretches), slab);
+  return without(near_copies(averaged.places, kSameStretch * stretch), averaged);
+}
+
+}  // namespace instep
