@@ -27,24 +27,30 @@ constexpr double kSeveralLines = 0.2;
 constexpr double kWidening = 1.2;
 constexpr double kFurtherRound = 1.7;
 
-using Neighbours = std::vector<PointIndex::Neighbour>;
+/// From a place to points round it, nearest first.
+using Arms = std::vector<Eigen::Vector3d>;
+
+void sort_by_length(Arms& arms) {
+  std::sort(arms.begin(), arms.end(), [](const auto& a, const auto& b) {
+    return std::tuple(a.squaredNorm(), a.x(), a.y(), a.z()) <
+           std::tuple(b.squaredNorm(), b.x(), b.y(), b.z());
+  });
+}
 
 /// The second most spread of the first of some points against the most.
-double thickness(const std::vector<Eigen::Vector3d>& points, const Neighbours& some,
-                 std::size_t count) {
+double thickness(const Arms& arms, std::size_t count) {
   Moments moments;
-  const Eigen::Vector3d& origin = points[some.front().index];
-  for (std::size_t i = 0; i < count; ++i) moments.add(points[some[i].index] - origin);
+  for (std::size_t i = 0; i < count; ++i) moments.add(arms[i]);
   const Eigen::Vector3d spreads = moments.axes().eigenvalues();
   return spreads[1] / spreads[2];
 }
 
-/// How many of a place's nearest, nearest first, lie on a line with it; none if they do not.
-std::size_t on_a_line(const std::vector<Eigen::Vector3d>& points, const Neighbours& nearest) {
-  const std::size_t most = std::min(kMost, nearest.size());
+/// How many of the nearest lie on a line; none if they do not.
+std::size_t on_a_line(const Arms& arms) {
+  const std::size_t most = std::min(kMost, arms.size());
   for (std::size_t count = kFewest; count <= most; count = std::min(2 * count, most)) {
     const double thin = count == kFewest ? kThinLineOfFew : kThinLine;
-    if (thickness(points, nearest, count) < thin) return count;
+    if (thickness(arms, count) < thin) return count;
     if (count == most) break;
   }
   return 0;
@@ -54,40 +60,52 @@ std::size_t stride_of(const std::vector<Eigen::Vector3d>& points) {
   return points.size() / kAsked + 1;
 }
 
-/// Nearest first, of points in the order of their first coordinate.
-Neighbours within(const std::vector<Eigen::Vector3d>& points, std::size_t place, double reach) {
-  Neighbours found;
+/// Of points in the order of their first coordinate.
+Arms within(const std::vector<Eigen::Vector3d>& points, std::size_t place, double reach) {
+  Arms found;
   const auto take = [&](std::size_t i) {
     const Eigen::Vector3d arm = points[i] - points[place];
     if (std::abs(arm.x()) > reach) return false;
-    if (arm.squaredNorm() <= reach * reach) found.push_back({i, arm.squaredNorm()});
+    if (arm.squaredNorm() <= reach * reach) found.push_back(arm);
     return true;
   };
   for (std::size_t i = place; i < points.size() && take(i);) ++i;
   for (std::size_t i = place; i > 0 && take(i - 1);) --i;
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.squared_distance, a.index) < std::tie(b.squared_distance, b.index);
-  });
+  sort_by_length(found);
   return found;
 }
 
-/// Those within more and more, until they lie on several lines; then within so much more, since
-/// where the second line is just within reach there seem to be fewer than there are.
-std::optional<ScanLines> lines_round(const PointIndex& index, Neighbours nearest, double widest) {
-  const auto& points = index.points();
-  const Eigen::Vector3d& place = points[nearest.front().index];
-  double reach = std::sqrt(nearest.back().squared_distance);
-  const double step = 2.0 * reach / static_cast<double>(nearest.size());
-  while (thickness(points, nearest, nearest.size()) < kSeveralLines) {
-    reach *= kWidening;
-    if (reach > widest) return std::nullopt;
-    nearest = index.around(place, reach);
+/// Seen along the direction in which they spread least: of several noisy lines that of the noise,
+/// so that lines look thin from there.
+Arms flattened(const PointIndex& index, const Eigen::Vector3d& place, double reach) {
+  Arms arms;
+  Moments moments;
+  for (const auto& one : index.around(place, reach)) {
+    arms.push_back(index.points()[one.index] - place);
+    moments.add(arms.back());
   }
-  reach *= kFurtherRound;
-  if (reach > widest) return std::nullopt;
-  nearest = index.around(place, reach);
-  const double area = std::numbers::pi * reach * reach;
-  return ScanLines{step, area / static_cast<double>(nearest.size()) / step};
+  const Eigen::Vector3d up = moments.flattest();
+  for (auto& arm : arms) arm -= up.dot(arm) * up;
+  sort_by_length(arms);
+  return arms;
+}
+
+/// Of those within more and more, until they lie on several lines; then counted within so much
+/// more, since where the second line is just within reach there seem to be fewer than there are.
+std::optional<ScanLines> lines_round(const PointIndex& index, const Eigen::Vector3d& place,
+                                     double widest) {
+  double reach = std::sqrt(index.nearest(place, kFewest).back().squared_distance);
+  for (; reach > 0.0 && kFurtherRound * reach <= widest; reach *= kWidening) {
+    const Arms arms = flattened(index, place, reach);
+    if (arms.size() < kFewest || thickness(arms, arms.size()) < kSeveralLines) continue;
+    const std::size_t alike = on_a_line(arms);
+    if (alike == 0) continue;
+    const double step = 2.0 * arms[alike - 1].norm() / static_cast<double>(alike);
+    const double round = kFurtherRound * reach;
+    const auto count = static_cast<double>(index.around(place, round).size());
+    return ScanLines{step, std::numbers::pi * round * round / count / step};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -97,27 +115,24 @@ bool stand_in_lines(const std::vector<Eigen::Vector3d>& points, double reach) {
   std::size_t in_lines = 0;
   for (std::size_t i = 0; i < points.size(); i += stride_of(points)) {
     ++asked;
-    if (on_a_line(points, within(points, i, reach)) > 0) ++in_lines;
+    if (on_a_line(within(points, i, reach)) > 0) ++in_lines;
   }
   return 2 * in_lines > asked;
 }
 
 std::optional<ScanLines> scan_lines(const PointIndex& index, double widest) {
   const auto& points = index.points();
-  std::size_t in_lines = 0;
+  std::size_t asked = 0;
   std::vector<double> steps;
   std::vector<double> apart;
   for (std::size_t i = 0; i < points.size(); i += stride_of(points)) {
-    auto nearest = index.nearest(points[i], kMost);
-    nearest.resize(on_a_line(points, nearest));
-    if (nearest.empty()) continue;
-    ++in_lines;
-    const auto lines = lines_round(index, std::move(nearest), widest);
+    ++asked;
+    const auto lines = lines_round(index, points[i], widest);
     if (!lines) continue;
     steps.push_back(lines->step);
     apart.push_back(lines->apart);
   }
-  if (2 * steps.size() <= in_lines || steps.empty()) return std::nullopt;
+  if (2 * steps.size() <= asked) return std::nullopt;
   return ScanLines{median(std::move(steps)), median(std::move(apart))};
 }
 

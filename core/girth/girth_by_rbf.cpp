@@ -13,6 +13,7 @@
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
+#include "core/girth/section_probe.h"
 #include "core/girth/skin_layers.h"
 #include "core/girth/smooth_section.h"
 #include "core/girth/unfollowed_skin.h"
@@ -329,13 +330,8 @@ Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
   return girth;
 }
 
-}  // namespace
-
-Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
-                           const GirthOptions& options) {
-  if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
-  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
-  SlabSource slabs(cloud, plane);
+Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
+  const PointCloud& cloud = slabs.cloud();
   auto band = band_at(slabs, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
   // The index goes with the surface; the band keeps the points.
@@ -343,7 +339,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   auto loops = trace_all(*band, surface);
   if (loops.empty()) {
     if (cloud.has_normals() && !band->normals_dropped) {
-      if (auto girth = girth_without_normals(cloud, plane, options)) return girth;
+      if (auto girth = girth_without_normals(cloud, slabs.plane(), options)) return girth;
     }
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
                 "scan the body all round, or move the plane");
@@ -368,6 +364,22 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();
   add_warnings(*band, loops, evidence, unknown, section, girth);
+  return girth;
+}
+
+}  // namespace
+
+Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
+                           const GirthOptions& options) {
+  if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
+  if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
+  SlabSource slabs(cloud, plane);
+  auto girth = girth_at(slabs, options);
+  // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
+  // seem exact.
+  if (!girth && thin_thick_lines(slabs)) {
+    if (auto thinned = girth_at(slabs, options)) return thinned;
+  }
   return girth;
 }
 

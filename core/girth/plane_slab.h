@@ -48,6 +48,7 @@ class SlabSource {
 
   /// From now on slabs have no more of lines than thinned_lines() leaves.
   void thin(const ScanLines& lines);
+  bool is_thinned() const { return lines_.has_value(); }
 
  private:
   const PointCloud& cloud_;

@@ -22,6 +22,8 @@ constexpr double kWidening = 2.0;
 constexpr double kLookInSpacings = 10.0;
 constexpr double kWidestForLines = 0.4;
 constexpr double kReachInSlab = 0.7;
+/// Those that are so thick that their nearest points do not show them.
+constexpr double kWidestForThick = 0.1;
 /// Lines are far apart if more steps along them than this lie between two: patches of the nearest
 /// points would see but one or two.
 constexpr double kFarApart = 10.0;
@@ -35,8 +37,8 @@ Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
 }
 
 /// The lines that points within `half_width` or some more stand in, if they are far apart.
-std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width) {
-  for (double wide = half_width; wide < kWidestForLines * slabs.size(); wide *= kWidening) {
+std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width, double widest) {
+  for (double wide = half_width; wide < widest; wide *= kWidening) {
     const auto lines = scan_lines(PointIndex(slabs.slab(wide).places), kReachInSlab * wide);
     if (!lines) continue;
     return lines->apart > kFarApart * lines->step ? lines : std::nullopt;
@@ -78,7 +80,7 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     if (!found) continue;
     const double look = std::max(kLookInSpacings * found->spacing * found->unit_mm, half_width);
     if (!stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) return *found;
-    const auto lines = lines_far_apart(slabs, look);
+    const auto lines = lines_far_apart(slabs, look, kWidestForLines * slabs.size());
     if (!lines) return *found;
     slabs.thin(*lines);
     const double several_lines = kGapsOfSlab * lines->apart;
@@ -87,6 +89,14 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
   if (found_some) return no_surface();
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
               "give control points on the body, or a denser cloud");
+}
+
+bool thin_thick_lines(SlabSource& slabs) {
+  if (slabs.is_thinned()) return false;
+  const double size = slabs.size();
+  const auto lines = lines_far_apart(slabs, kFirstHalfWidth * size, kWidestForThick * size);
+  if (lines) slabs.thin(*lines);
+  return lines.has_value();
 }
 
 }  // namespace instep
