@@ -12,6 +12,8 @@ namespace {
 
 /// Lines further apart than so many spacings are told from a chance gap.
 constexpr double kLinesApart = 1.5;
+/// A crease further from the points of a side than this part of what lies between two lines.
+constexpr double kBesideLines = 0.4;
 /// How far a patch in space may be off: the variance half-way between points, against roughness
 /// times the cube of their spacing, and how many points share in averaging noise.
 constexpr double kWanderingInSpace = 0.1;
@@ -66,6 +68,18 @@ double rounding_of(const CreasedPatch& creased, double spacing) {
   const double half = 0.5 * creased.turn();
   const double lost = 2.0 * creased.gap() * (1.0 - half / std::tan(half));
   return kRounding * std::min(creased.gap() / spacing, 1.0) * lost;
+}
+
+/// Whether a crease lies where it meets no point but those of whole lines beside it: a few lines
+/// along a round body look like the edges of a prism.
+bool runs_between_lines(const CreasedPatch& creased, const std::vector<OrientedPoint>& points,
+                        const Eigen::Vector3d& place, const PatchPoints::Members& members,
+                        double spacing) {
+  std::vector<Eigen::Vector3d> arms;
+  arms.reserve(points.size());
+  for (const auto& point : points) arms.push_back(point.position - place);
+  const double apart = lines_among(arms, members.outward, members.radius).apart;
+  return apart > kLinesApart * spacing && creased.gap() > kBesideLines * apart;
 }
 
 /// Sum of the squares.
@@ -128,6 +142,8 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   auto creased = CreasedPatch::fit(points, place, members.radius, roughness);
   if (!creased || creased->turn() <= points_.rule().least_turn) return std::nullopt;
   if (creased->gap() >= points_.rule().widest_gap * surroundings.spacing) return std::nullopt;
+  if (runs_between_lines(*creased, points, place, members, surroundings.spacing))
+    return std::nullopt;
   const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
   if (smooth && creased->misfit() + kLeastGain >= smooth->misfit()) return std::nullopt;
   const double rounding = rounding_of(*creased, surroundings.spacing);
