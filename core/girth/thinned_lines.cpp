@@ -16,8 +16,10 @@
 namespace instep {
 namespace {
 
-/// So many points are left on a line for every gap between two.
-constexpr double kStepsLeft = 4.0;
+/// So many cells with a point each, or stretches with an average, lie in every gap between two
+/// lines; lines cross cells askew, and leave more points than that.
+constexpr double kCells = 4.0;
+constexpr double kStretches = 6.0;
 /// A line shows where it leads within this part of the gap: so far off no other begins.
 constexpr double kReach = 0.45;
 constexpr std::size_t kFewestOnLine = 6;
@@ -98,7 +100,7 @@ class LineAverages {
       const Eigen::Vector3d terms = terms_at(arm);
       const Eigen::Vector3d off = arm - line.transpose() * terms;
       squares += off.squaredNorm();
-      if (std::abs(terms[1]) > 0.5 / kStepsLeft) continue;
+      if (std::abs(terms[1]) > 0.5 / kStretches) continue;
       rest += weight_of(point) * off;
       weights += weight_of(point);
     }
@@ -142,8 +144,7 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 
 PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines) {
   if (slab.places.empty()) return slab;
-  const double stretch = lines.apart / kStepsLeft;
-  const auto crowding = crowding_points(slab.places, stretch);
+  const auto crowding = crowding_points(slab.places, lines.apart / kCells);
   const LineAverages averages(cloud, slab, lines.apart);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < crowding.size(); ++i) {
@@ -151,7 +152,7 @@ PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const Sc
   }
   if (usual_scatter(stretches) < kExact * lines.apart) return without(crowding, slab);
   const PlaneSlab averaged = slab_of(std::move(stretches), slab);
-  return without(near_copies(averaged.places, kSameStretch * stretch), averaged);
+  return without(near_copies(averaged.places, kSameStretch * lines.apart / kStretches), averaged);
 }
 
 }  // namespace instep
