@@ -1,0 +1,108 @@
+#include "core/girth/thinned_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/median.h"
+#include "tests/support/scanned_lines.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using test::ScannedLines;
+
+constexpr double kRadius = 40.0;
+
+/// Lines along a round cylinder or round it.
+PointCloud scanned(bool round, double apart, double step, double sigma) {
+  PointCloud cloud;
+  cloud.positions = ScannedLines{kRadius, kRadius, round, apart, step, sigma}.positions(1);
+  return cloud;
+}
+
+PlaneSlab slab_of(const PointCloud& cloud) {
+  return slab_of(cloud, TapePlane::through({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).value(), 20.0);
+}
+
+/// How far each place is from the cylinder.
+std::vector<double> heights_of(const PlaneSlab& slab) {
+  std::vector<double> heights;
+  for (const auto& place : slab.places) heights.push_back(place.head<2>().norm() - kRadius);
+  return heights;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+TEST(ThinnedLines, AreExactPointsThatWerePicked) {
+  for (const bool round : {true, false}) {
+    const auto cloud = scanned(round, 6.0, 0.2, 0.0);
+    const PlaneSlab all = slab_of(cloud);
+    const PlaneSlab few = thinned_lines(cloud, all, {0.2, 6.0});
+    std::set<std::size_t> known(all.indices.begin(), all.indices.end());
+    for (std::size_t i = 0; i < few.indices.size(); ++i) {
+      EXPECT_TRUE(known.contains(few.indices[i]));
+      EXPECT_NEAR(few.places[i].head<2>().norm(), kRadius, 1e-9);
+    }
+    EXPECT_LT(few.places.size(), all.places.size() / 3);
+    EXPECT_GT(few.places.size(), all.places.size() / 8);
+  }
+}
+
+/// A stretch of a sixth of the gap has five points: what noise they leave is less than half.
+TEST(ThinnedLines, AreAveragesOfNoisyPointsWithoutAStepInwards) {
+  for (const bool round : {true, false}) {
+    const auto cloud = scanned(round, 6.0, 0.2, 0.3);
+    const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), {0.2, 6.0});
+    const auto heights = heights_of(few);
+    EXPECT_LT(root_mean_square(heights), 0.5 * 0.3);
+    EXPECT_NEAR(mean(heights), 0.0, 0.02);
+    ASSERT_EQ(few.shares.size(), few.places.size());
+    EXPECT_NEAR(median(few.shares), std::sqrt(1.0 / 5.0), 0.1);
+    EXPECT_NEAR(root_mean_square(heights) / (0.3 * median(few.shares)), 1.0, 0.25);
+  }
+}
+
+/// No place of a line where noise puts single points: that would be a layer of its own.
+TEST(ThinnedLines, LieNoneBesideAnother) {
+  const auto cloud = scanned(true, 3.0, 0.1, 0.5);
+  const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), {0.1, 3.0});
+  for (std::size_t i = 0; i < few.places.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GT((few.places[i] - few.places[j]).norm(), 0.35);
+    }
+  }
+}
+
+/// Two scanners on the same lines, one of them a tenth as good.
+TEST(ThinnedLines, BelieveTheBetterPoints) {
+  auto good = scanned(true, 6.0, 0.4, 0.05);
+  const auto bad = scanned(true, 6.0, 0.4, 0.5);
+  good.sigma_mm.assign(good.positions.size(), 0.05);
+  good.positions.insert(good.positions.end(), bad.positions.begin(), bad.positions.end());
+  good.sigma_mm.resize(good.positions.size(), 0.5);
+  const auto heights = heights_of(thinned_lines(good, slab_of(good), {0.2, 6.0}));
+  EXPECT_LT(root_mean_square(heights), 0.06);
+}
+
+TEST(ThinnedLines, OfNoneOrAFewAreThese) {
+  PointCloud cloud;
+  EXPECT_TRUE(thinned_lines(cloud, {}, {0.2, 6.0}).places.empty());
+  cloud.positions = {{1, 2, 0}, {30, 2, 0}, {1, 40, 0}};
+  EXPECT_EQ(thinned_lines(cloud, slab_of(cloud), {0.2, 6.0}).places.size(), 3U);
+}
+
+}  // namespace
+}  // namespace instep
