@@ -100,7 +100,7 @@ std::optional<ScanLines> lines_round(const PointIndex& index, const Eigen::Vecto
     if (arms.size() < kFewest || thickness(arms, arms.size()) < kSeveralLines) continue;
     const std::size_t alike = on_a_line(arms);
     if (alike == 0) continue;
-    const double step = 2.0 * arms[alike - 1].norm() / static_cast<double>(alike - 1);
+    const double step = 2.0 * arms[alike - 1].norm() / static_cast<double>(alike);
     const double round = kFurtherRound * reach;
     const auto count = static_cast<double>(index.around(place, round).size());
     return ScanLines{step, std::numbers::pi * round * round / count / step};

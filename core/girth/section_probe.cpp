@@ -26,7 +26,7 @@ constexpr double kReachInSlab = 0.7;
 constexpr double kWidestForThick = 0.1;
 /// Lines are far apart if more steps along them than this lie between two: patches of the nearest
 /// points would see but one or two.
-constexpr double kFarApart = 8.0;
+constexpr double kFarApart = 10.0;
 /// A slab of lines reaches so many gaps to each side to hold several all round the section.
 constexpr double kGapsOfSlab = 2.0;
 
