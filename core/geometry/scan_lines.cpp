@@ -37,12 +37,25 @@ void sort_by_length(Arms& arms) {
   });
 }
 
-/// The second most spread of the first of some points against the most.
-double thickness(const Arms& arms, std::size_t count) {
+/// How far the first of some points spread in each direction, from the least (sums of squares).
+Eigen::Vector3d spreads_of(const Arms& arms, std::size_t count) {
   Moments moments;
   for (std::size_t i = 0; i < count; ++i) moments.add(arms[i]);
-  const Eigen::Vector3d spreads = moments.axes().eigenvalues();
+  return moments.axes().eigenvalues();
+}
+
+/// The second most spread of the first of some points against the most.
+double thickness(const Arms& arms, std::size_t count) {
+  const Eigen::Vector3d spreads = spreads_of(arms, count);
   return spreads[1] / spreads[2];
+}
+
+/// Of what lies under points on a plane: that of an ellipse with their spread, which half of it or
+/// a strip, as at the end of a cloud, has within a twentieth.
+double area_of(const Arms& arms) {
+  const Eigen::Vector3d spreads = spreads_of(arms, arms.size());
+  return 4.0 * std::numbers::pi * std::sqrt(spreads[1] * spreads[2]) /
+         static_cast<double>(arms.size());
 }
 
 /// How many of the nearest lie on a line; none if they do not.
@@ -101,9 +114,8 @@ std::optional<ScanLines> lines_round(const PointIndex& index, const Eigen::Vecto
     const std::size_t alike = on_a_line(arms);
     if (alike == 0) continue;
     const double step = 2.0 * arms[alike - 1].norm() / static_cast<double>(alike);
-    const double round = kFurtherRound * reach;
-    const auto count = static_cast<double>(index.around(place, round).size());
-    return ScanLines{step, std::numbers::pi * round * round / count / step};
+    const Arms further = flattened(index, place, kFurtherRound * reach);
+    return ScanLines{step, area_of(further) / static_cast<double>(further.size()) / step};
   }
   return std::nullopt;
 }

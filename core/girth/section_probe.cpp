@@ -25,8 +25,9 @@ constexpr double kReachInSlab = 0.7;
 /// Those that are so thick that their nearest points do not show them.
 constexpr double kWidestForThick = 0.1;
 /// Lines are far apart if more steps along them than this lie between two: patches of the nearest
-/// points would see but one or two.
-constexpr double kFarApart = 10.0;
+/// points would see but one or two. Of exact rows 12 steps apart girths were up to 0.06 mm off, and
+/// are 0.003 thinned; of rings of 30 points whose columns are 8 apart 0.0005, and thinned 0.002.
+constexpr double kFarApart = 8.0;
 /// A slab of lines reaches so many gaps to each side to hold several all round the section.
 constexpr double kGapsOfSlab = 2.0;
 
