@@ -330,6 +330,7 @@ Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
   return girth;
 }
 
+/// Of slabs that are thinned already, or are here if their points ask for it.
 Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   const PointCloud& cloud = slabs.cloud();
   auto band = band_at(slabs, options.sigma_mm);

@@ -18,6 +18,8 @@ struct PlaneSlab {
   std::vector<std::size_t> indices;     ///< in the cloud
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it
   std::vector<double> shares;  ///< noise of each place against its point's; none if they are alike
+
+  double share_of(std::size_t place) const { return shares.empty() ? 1.0 : shares[place]; }
 };
 
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.

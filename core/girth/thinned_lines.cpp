@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -39,6 +38,17 @@ struct Stretch {
   double scatter = 0.0;  ///< of points round their line; none of a point that stands alone
 };
 
+/// Arms to places of a line by how far along it they are, in gaps between lines.
+struct BentLine {
+  Eigen::Vector3d along;         ///< one over a gap long
+  Eigen::Matrix3d coefficients;  ///< a row for each term
+
+  Eigen::Vector3d terms_at(const Eigen::Vector3d& arm) const {
+    const double way = along.dot(arm);
+    return {1.0, way, way * way};
+  }
+};
+
 /// Averages points of a slab along their lines.
 class LineAverages {
  public:
@@ -69,44 +79,46 @@ class LineAverages {
     return beside;
   }
 
+  /// The line through points, seen from a place, as it bends evenly.
+  BentLine line_through(const std::vector<std::size_t>& points,
+                        const Eigen::Vector3d& place) const {
+    Moments moments;
+    for (const auto point : points) moments.add(slab_.places[point] - place);
+    BentLine line{moments.axes().eigenvectors().col(2) / apart_, {}};
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d sides = Eigen::Matrix3d::Zero();
+    for (const auto point : points) {
+      const Eigen::Vector3d arm = slab_.places[point] - place;
+      const Eigen::Vector3d terms = line.terms_at(arm);
+      const double weight = weight_of(point);
+      normal += weight * terms * terms.transpose();
+      sides += weight * terms * arm.transpose();
+    }
+    line.coefficients = normal.ldlt().solve(sides);
+    return line;
+  }
+
   /// Moves a place onto the mean of its stretch, as a line bent evenly leads there: the bend of the
   /// line would draw a plain mean inwards. False where too few points are beside it.
   bool average(Stretch& stretch) const {
     const auto points = beside(stretch);
     if (points.size() < kFewestOnLine) return false;
-    Moments moments;
-    for (const auto point : points) moments.add(slab_.places[point] - stretch.place);
-    const Eigen::Vector3d along = moments.axes().eigenvectors().col(2);
-    const auto terms_at = [&](const Eigen::Vector3d& arm) {
-      const double way = along.dot(arm) / apart_;
-      return Eigen::Vector3d(1.0, way, way * way);
-    };
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Matrix3d sides = Eigen::Matrix3d::Zero();
-    for (const auto point : points) {
-      const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
-      const Eigen::Vector3d terms = terms_at(arm);
-      const double weight = weight_of(point);
-      normal += weight * terms * terms.transpose();
-      sides += weight * terms * arm.transpose();
-    }
-    const Eigen::Matrix3d line = normal.ldlt().solve(sides);
-    if (!line.allFinite()) return false;
-
+    const BentLine line = line_through(points, stretch.place);
+    if (!line.coefficients.allFinite()) return false;
     Eigen::Vector3d rest = Eigen::Vector3d::Zero();
     double weights = 0.0;
     double squares = 0.0;
     for (const auto point : points) {
       const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
-      const Eigen::Vector3d terms = terms_at(arm);
-      const Eigen::Vector3d off = arm - line.transpose() * terms;
+      const Eigen::Vector3d terms = line.terms_at(arm);
+      const Eigen::Vector3d off = arm - line.coefficients.transpose() * terms;
       squares += off.squaredNorm();
       if (std::abs(terms[1]) > 0.5 / kStretches) continue;
       rest += weight_of(point) * off;
       weights += weight_of(point);
     }
     if (!(weights > 0.0)) return false;
-    stretch.place += line.row(0).transpose() + rest / weights;
+    stretch.place += line.coefficients.row(0).transpose() + rest / weights;
     stretch.share = std::sqrt(weight_of(stretch.number) / weights);
     stretch.scatter = std::sqrt(squares / static_cast<double>(points.size()));
     return true;

@@ -15,7 +15,7 @@ constexpr double kLinesApart = 1.5;
 /// A crease further from the points of a side than this part of what lies between two lines. Of
 /// exact rows 10 to 20 mm apart along round bodies girths were 1 to 15 mm too long, and are 0.01 to
 /// 0.9 off; at six tenths single ones are still 0.9 too long. The lattice of a last's vertices pays
-/// with 0.03.
+/// with 0.03 mm.
 constexpr double kBesideLines = 0.4;
 /// How far a patch in space may be off: the variance half-way between points, against roughness
 /// times the cube of their spacing, and how many points share in averaging noise.
