@@ -27,14 +27,17 @@ constexpr double kSeveralLines = 0.2;
 constexpr double kWidening = 1.2;
 constexpr double kFurtherRound = 1.7;
 
-/// From a place to points round it, nearest first.
+/// From a place to points round it, the nearest ones first.
 using Arms = std::vector<Eigen::Vector3d>;
 
+/// The nearest first, of which lines are looked for; the others behind them.
 void sort_by_length(Arms& arms) {
-  std::sort(arms.begin(), arms.end(), [](const auto& a, const auto& b) {
-    return std::tuple(a.squaredNorm(), a.x(), a.y(), a.z()) <
-           std::tuple(b.squaredNorm(), b.x(), b.y(), b.z());
-  });
+  const auto nearest = static_cast<std::ptrdiff_t>(std::min(kMost, arms.size()));
+  std::partial_sort(arms.begin(), arms.begin() + nearest, arms.end(),
+                    [](const auto& a, const auto& b) {
+                      return std::tuple(a.squaredNorm(), a.x(), a.y(), a.z()) <
+                             std::tuple(b.squaredNorm(), b.x(), b.y(), b.z());
+                    });
 }
 
 /// How far the first of some points spread in each direction, from the least (sums of squares).

@@ -22,7 +22,8 @@ bool stand_in_lines(const std::vector<Eigen::Vector3d>& points, double reach);
 
 /// As most points see them, within `widest` > 0, seen along the direction in which their lines
 /// spread least: noise across the surface hides none. Nothing if most see no second line there. To
-/// within a quarter or so. Looks some times at the points that are within `widest` of some 40.
+/// within a quarter or so. Looks up to a dozen times at all points that are within `widest` of some
+/// 40.
 std::optional<ScanLines> scan_lines(const PointIndex& index, double widest);
 
 }  // namespace instep

@@ -44,12 +44,17 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
+/// Contact against stretched length of a section that winds more than most bodies do.
+constexpr double kWinding = 1.05;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
 /// Intervals are wider by as much as the noise is more than was told, up to this.
 constexpr double kMostDistrust = 2.0;
-/// A share of the points near the plane, off all loops, that is worth a warning.
+/// A share of the points near the plane, off all loops, that is worth a warning, and one with which
+/// the loops are not what was scanned: of lines as thick with noise as they are near, a loop of a
+/// few millimetres between two of them passed for the section. A floor under a foot is less.
 constexpr double kNotableUnexplained = 0.02;
+constexpr double kMostUnexplained = 0.67;
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
 /// Of points that lead away from a section.
@@ -135,12 +140,11 @@ void drop_unfounded(const PlaneBand& band, std::vector<Loop>& loops) {
   loops = std::move(founded);
 }
 
-/// Whether more of the points near the plane than strays would be lie on no loop.
+/// Whether more than a share of the points near the plane lie on no loop.
 bool leaves_points_unexplained(const PlaneBand& band, const std::vector<Loop>& loops,
-                               const SectionEvidence& of_first) {
+                               const SectionEvidence& of_first, double share) {
   const double near = kEvidenceInGrains * band.grain;
-  const double most =
-      kNotableUnexplained * static_cast<double>(of_first.beside + of_first.ways.size());
+  const double most = share * static_cast<double>(of_first.beside + of_first.ways.size());
   // The other loops can only explain some of what the first one does not.
   if (static_cast<double>(of_first.beside) <= most) return false;
   const auto unexplained =
@@ -264,7 +268,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   }
   warn_if(has_notable_gap(band, evidence), kBridgedWarning);
   if (skin.is_any()) girth.warnings.push_back(warning_of(skin, band.unit_mm));
-  warn_if(!skin.is_any() && leaves_points_unexplained(band, loops, evidence),
+  warn_if(!skin.is_any() && leaves_points_unexplained(band, loops, evidence, kNotableUnexplained),
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
   const auto points = static_cast<double>(band.points.size() + band.strays);
@@ -275,11 +279,12 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
     girth.warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) girth.warnings.push_back(warning_of(*layers, band.unit_mm));
-  const bool scattered = !layers && band.shown_sigma > kNotableNoise;
+  const bool scattered = !layers && band.shown_sigma > kNotableNoise * band.usual_share;
   warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
   warn_if(
-      !scattered && !layers && band.told_scale == 1.0 && band.sigma > kNotableNoise,
+      !scattered && !layers && band.told_scale == 1.0 &&
+          band.sigma > kNotableNoise * band.usual_share,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
   const bool out_of_sight = is_most_of(bends.stretched_u95, section);
@@ -301,7 +306,8 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
   girth.contact_u95_mm = band.unit_mm * section.contact_u95;
   girth.band_points = band.points.size() + band.thinned_out;
-  girth.sigma_mm = band.unit_mm * std::max(band.sigma, mean_scatter(band.scattered));
+  girth.sigma_mm =
+      band.unit_mm * std::max(band.sigma / band.usual_share, mean_scatter(band.scattered));
   girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
   return girth;
 }
@@ -356,6 +362,11 @@ Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
                 "more than a quarter of the section at the tape plane has no points",
                 "scan the body all round");
   }
+  if (leaves_points_unexplained(*band, loops, evidence, kMostUnexplained)) {
+    return fail(ErrorCode::kInsufficientData,
+                "most of the points near the tape plane lie on no section that closes",
+                "scan the body all round, cut away what else was scanned, or move the plane");
+  }
 
   auto section = measured(slabs, *band, loops, surface, evidence);
   const Unknown unknown = unknown_of(*band, loops, surface, evidence);
@@ -368,20 +379,30 @@ Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   return girth;
 }
 
+double doubt_of(const Girth& girth) {
+  return *girth.stretched_u95_mm + *girth.contact_u95_mm;
+}
+
+/// Uncertain, or so winding that noise may have folded it.
+bool is_doubtful(const Girth& girth) {
+  return *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
+         girth.contact_mm > kWinding * girth.stretched_mm;
+}
+
 }  // namespace
 
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
-  SlabSource slabs(cloud, plane);
+  SlabSource slabs(cloud, plane, !options.sigma_mm);
   auto girth = girth_at(slabs, options);
+  if (girth && !is_doubtful(*girth)) return girth;
   // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
   // seem exact.
-  if (!girth && thin_thick_lines(slabs)) {
-    if (auto thinned = girth_at(slabs, options)) return thinned;
-  }
-  return girth;
+  if (!thin_thick_lines(slabs)) return girth;
+  auto thinned = girth_at(slabs, options);
+  return !girth || (thinned && doubt_of(*thinned) < doubt_of(*girth)) ? thinned : girth;
 }
 
 }  // namespace instep

@@ -11,6 +11,7 @@
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
 #include "core/girth/section_probe.h"
+#include "core/median.h"
 #include "core/surface/normal_trust.h"
 #include "core/surface/surface_normals.h"
 
@@ -253,9 +254,9 @@ double most_uneven(const PlaneBand& band) {
 
 std::string disbelief_of_noise(const PlaneBand& band) {
   const double times = most_uneven(band);
+  const double sigma_mm = times * band.unit_mm * band.sigma / band.usual_share;
   char figures[64];
-  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", times * band.unit_mm * band.sigma,
-                times * band.told_scale);
+  std::snprintf(figures, sizeof figures, "%.2f mm, %.1f times", sigma_mm, times * band.told_scale);
   const bool in_places = !band.uneven.empty();
   const std::string remedy = band.own_sigma ? "see to the sensor and scan again with more frames"
                              : in_places    ? "leave --sigma-mm out"
@@ -292,6 +293,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
     return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
                 "give control points that cut the body");
   }
+  if (!band.shares.empty()) band.usual_share = median(band.shares);
   band.sigma = noise.sigma;
   band.shown_sigma = noise.shown;
   band.told_scale = noise.told_scale;
@@ -308,7 +310,7 @@ std::vector<std::string> disbelief_of(const PlaneBand& band) {
   std::vector<std::string> said;
   const bool notable =
       band.uneven.empty() || most_uneven(band) * band.told_scale > kNotableInPlaces;
-  if (band.told_scale > 1.0 && band.sigma > kHarmlessScatter && notable) {
+  if (band.told_scale > 1.0 && band.sigma > kHarmlessScatter * band.usual_share && notable) {
     said.push_back(disbelief_of_noise(band));
   }
   if (band.normals_dropped) {

@@ -24,10 +24,11 @@ struct PlaneBand {
   PointIndex index;                       ///< of their positions
   std::vector<std::size_t> sources;       ///< their places in the cloud
   std::vector<double> shares;             ///< as PlaneSlab has them
+  double usual_share = 1.0;               ///< the middle one of these
   std::vector<bool> seen;                 ///< whether a camera saw them
   double spacing = 0.0;                   ///< between points, in the unit
   double grain = 0.0;                     ///< finest detail that they tell, in the unit
-  double sigma = 0.0;                     ///< noise of the points, in the unit: the usual one
+  double sigma = 0.0;                     ///< noise of the places, in the unit: the usual one
   double shown_sigma = 0.0;               ///< the one that they show, whatever is told of them
   std::size_t strays = 0;                 ///< points that stood alone and were left out
   std::size_t thinned_out = 0;            ///< exact points of a crowd that tell nothing more

@@ -149,8 +149,8 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
   return rest;
 }
 
-SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
-    : cloud_(cloud), plane_(plane) {
+SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane, bool weighed)
+    : cloud_(cloud), plane_(plane), weighed_(weighed) {
   Reach along(plane.u());
   Reach across(plane.v());
   Reach above(plane.normal());
@@ -172,14 +172,14 @@ PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
     widest_ = slab_of(cloud_, plane_, half_width_);
-    if (lines_) widest_ = thinned_lines(cloud_, widest_, *lines_);
+    if (lines_) widest_ = thinned_lines(cloud_, widest_, *lines_, weighed_);
   }
   return within(widest_, half_width);
 }
 
 void SlabSource::thin(const ScanLines& lines) {
   lines_ = lines;
-  widest_ = thinned_lines(cloud_, widest_, lines);
+  widest_ = thinned_lines(cloud_, widest_, lines, weighed_);
 }
 
 bool is_cut(const std::vector<Eigen::Vector3d>& places) {

@@ -35,8 +35,8 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab);
 /// asked for, so that it seldom has to look through the cloud again, which it borrows.
 class SlabSource {
  public:
-  /// O(n).
-  SlabSource(const PointCloud& cloud, const TapePlane& plane);
+  /// `weighed`: what the cloud tells of the noise of its points counts. O(n).
+  SlabSource(const PointCloud& cloud, const TapePlane& plane, bool weighed = true);
 
   const PointCloud& cloud() const { return cloud_; }
   const TapePlane& plane() const { return plane_; }
@@ -55,6 +55,7 @@ class SlabSource {
  private:
   const PointCloud& cloud_;
   TapePlane plane_;
+  bool weighed_;
   double size_ = 0.0;
   std::optional<ScanLines> lines_;
   PlaneSlab widest_;

@@ -80,7 +80,9 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     const auto found = probe_of(std::move(slab), half_width);
     if (!found) continue;
     const double look = std::max(kLookInSpacings * found->spacing * found->unit_mm, half_width);
-    if (!stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) return *found;
+    if (slabs.is_thinned() || !stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) {
+      return *found;
+    }
     const auto lines = lines_far_apart(slabs, look, kWidestForLines * slabs.size());
     if (!lines) return *found;
     slabs.thin(*lines);

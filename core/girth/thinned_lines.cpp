@@ -3,8 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "core/geometry/crowding_points.h"
 #include "core/geometry/moments.h"
@@ -23,10 +25,16 @@ constexpr double kStretches = 6.0;
 /// A line shows where it leads within this part of the gap: so far off no other begins.
 constexpr double kReach = 0.45;
 constexpr std::size_t kFewestOnLine = 6;
+/// Within so many gaps several lines are seen.
+constexpr double kSeveralLines = 1.5;
 /// Points off their line by less than this part of the gap, as a rule, are exact.
 constexpr double kExact = 1e-3;
-/// Averages are made round points first, which noise puts beside their line, then round themselves.
-constexpr int kRounds = 2;
+/// Points that noise puts beside their line are moved onto it, so many times or until they move by
+/// less than this part of the gap: round them as they are, averages would be of few points, of
+/// those on their own side. Of lines 2.7 mm apart, 0.09 mm from point to point, with 0.5 mm of
+/// noise, averages of five points were 0.40 mm off; the least that they could be is 0.22.
+constexpr int kMostMoves = 8;
+constexpr double kOnLine = 0.01;
 /// Those nearer to each other than this part of a stretch share too many points.
 constexpr double kSameStretch = 0.75;
 
@@ -38,10 +46,13 @@ struct Stretch {
   double scatter = 0.0;  ///< of points round their line; none of a point that stands alone
 };
 
-/// Arms to places of a line by how far along it they are, in gaps between lines.
+/// Arms from a place to those of a line by how far along it they are, in gaps between lines.
 struct BentLine {
-  Eigen::Vector3d along;         ///< one over a gap long
-  Eigen::Matrix3d coefficients;  ///< a row for each term
+  std::vector<std::size_t> points;  ///< that it leads through
+  Eigen::Vector3d along;            ///< one over a gap long
+  Eigen::Matrix3d coefficients;     ///< a row for each term
+
+  Eigen::Vector3d beside_place() const { return coefficients.row(0); }
 
   Eigen::Vector3d terms_at(const Eigen::Vector3d& arm) const {
     const double way = along.dot(arm);
@@ -52,19 +63,29 @@ struct BentLine {
 /// Averages points of a slab along their lines.
 class LineAverages {
  public:
-  LineAverages(const PointCloud& cloud, const PlaneSlab& slab, double apart)
-      : cloud_(cloud), slab_(slab), index_(slab.places), apart_(apart) {}
+  LineAverages(const PointCloud& cloud, const PlaneSlab& slab, double apart, bool weighed)
+      : cloud_(cloud),
+        slab_(slab),
+        index_(slab.places),
+        apart_(apart),
+        weighed_(weighed && cloud.has_sigma()) {}
 
   Stretch round(std::size_t number) const {
-    Stretch stretch{number, slab_.places[number]};
-    for (int turn = 0; turn < kRounds && average(stretch); ++turn) {
+    const Stretch alone{number, slab_.places[number]};
+    Stretch stretch = alone;
+    auto line = line_beside(stretch);
+    for (int moves = 0; line && moves < kMostMoves; ++moves) {
+      const Eigen::Vector3d move = line->beside_place();
+      if (move.norm() < kOnLine * apart_) break;
+      stretch.place += move;
+      line = line_beside(stretch);
     }
-    return stretch;
+    return line && average(*line, stretch) ? stretch : alone;
   }
 
  private:
   double weight_of(std::size_t point) const {
-    if (!cloud_.has_sigma()) return 1.0;
+    if (!weighed_) return 1.0;
     const double sigma = std::max(cloud_.sigma_mm[slab_.indices[point]], 1e-9);
     return 1.0 / (sigma * sigma);
   }
@@ -73,42 +94,55 @@ class LineAverages {
   std::vector<std::size_t> beside(const Stretch& stretch) const {
     const bool seen = cloud_.was_seen(slab_.indices[stretch.number]);
     std::vector<std::size_t> beside;
-    for (const auto& one : index_.within(stretch.place, kReach * apart_)) {
+    for (const auto& one : index_.around(stretch.place, kReach * apart_)) {
       if (cloud_.was_seen(slab_.indices[one.index]) == seen) beside.push_back(one.index);
     }
     return beside;
   }
 
-  /// The line through points, seen from a place, as it bends evenly.
-  BentLine line_through(const std::vector<std::size_t>& points,
-                        const Eigen::Vector3d& place) const {
+  /// In which several lines spread least: that of the noise, in which a thick one may spread more
+  /// than along itself.
+  Eigen::Vector3d across_the_skin(const Eigen::Vector3d& place) const {
     Moments moments;
-    for (const auto point : points) moments.add(slab_.places[point] - place);
-    BentLine line{moments.axes().eigenvectors().col(2) / apart_, {}};
+    for (const auto& one : index_.around(place, kSeveralLines * apart_)) {
+      moments.add(slab_.places[one.index] - place);
+    }
+    return moments.flattest();
+  }
+
+  /// The line beside a place as it bends evenly. Nothing where too few points are there, or where
+  /// they tell none.
+  std::optional<BentLine> line_beside(const Stretch& stretch) const {
+    BentLine line{beside(stretch), {}, {}};
+    if (line.points.size() < kFewestOnLine) return std::nullopt;
+    const Eigen::Vector3d up = across_the_skin(stretch.place);
+    Moments moments;
+    for (const auto point : line.points) {
+      const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
+      moments.add(arm - up.dot(arm) * up);
+    }
+    line.along = moments.axes().eigenvectors().col(2) / apart_;
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d sides = Eigen::Matrix3d::Zero();
-    for (const auto point : points) {
-      const Eigen::Vector3d arm = slab_.places[point] - place;
+    for (const auto point : line.points) {
+      const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
       const Eigen::Vector3d terms = line.terms_at(arm);
       const double weight = weight_of(point);
       normal += weight * terms * terms.transpose();
       sides += weight * terms * arm.transpose();
     }
     line.coefficients = normal.ldlt().solve(sides);
+    if (!(line.beside_place().norm() <= kReach * apart_)) return std::nullopt;
     return line;
   }
 
   /// Moves a place onto the mean of its stretch, as a line bent evenly leads there: the bend of the
-  /// line would draw a plain mean inwards. False where too few points are beside it.
-  bool average(Stretch& stretch) const {
-    const auto points = beside(stretch);
-    if (points.size() < kFewestOnLine) return false;
-    const BentLine line = line_through(points, stretch.place);
-    if (!line.coefficients.allFinite()) return false;
+  /// line would draw a plain mean inwards. False where it has no points.
+  bool average(const BentLine& line, Stretch& stretch) const {
     Eigen::Vector3d rest = Eigen::Vector3d::Zero();
     double weights = 0.0;
     double squares = 0.0;
-    for (const auto point : points) {
+    for (const auto point : line.points) {
       const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
       const Eigen::Vector3d terms = line.terms_at(arm);
       const Eigen::Vector3d off = arm - line.coefficients.transpose() * terms;
@@ -118,9 +152,9 @@ class LineAverages {
       weights += weight_of(point);
     }
     if (!(weights > 0.0)) return false;
-    stretch.place += line.coefficients.row(0).transpose() + rest / weights;
+    stretch.place += line.beside_place() + rest / weights;
     stretch.share = std::sqrt(weight_of(stretch.number) / weights);
-    stretch.scatter = std::sqrt(squares / static_cast<double>(points.size()));
+    stretch.scatter = std::sqrt(squares / static_cast<double>(line.points.size()));
     return true;
   }
 
@@ -128,6 +162,7 @@ class LineAverages {
   const PlaneSlab& slab_;
   PointIndex index_;
   double apart_;
+  bool weighed_;
 };
 
 double usual_scatter(const std::vector<Stretch>& stretches) {
@@ -155,10 +190,11 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 
 }  // namespace
 
-PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines) {
+PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
+                        bool weighed) {
   if (slab.places.empty()) return slab;
   const auto crowding = crowding_points(slab.places, lines.apart / kCells);
-  const LineAverages averages(cloud, slab, lines.apart);
+  const LineAverages averages(cloud, slab, lines.apart, weighed);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < crowding.size(); ++i) {
     if (!crowding[i]) stretches.push_back(averages.round(i));
