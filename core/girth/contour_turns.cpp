@@ -1,7 +1,10 @@
 #include "core/girth/contour_turns.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "core/geometry/plane_vectors.h"
@@ -9,6 +12,9 @@
 
 namespace instep {
 namespace {
+
+/// Stands for none where it is divided by.
+constexpr double kLeastFolds = 1e-3;
 
 std::vector<double> turns_of_line(const Contour& contour) {
   const std::size_t count = contour.points.size();
@@ -43,6 +49,16 @@ std::vector<double> turns_of_tape(const Contour& contour) {
 
 ContourTurns turns_of(const Contour& contour) {
   return {turns_of_line(contour), turns_of_tape(contour)};
+}
+
+double mean_fold_depth(const Contour& contour) {
+  double turned = 0.0;
+  for (std::size_t i = 0; i < contour.outward.size(); ++i) {
+    const std::size_t next = (i + 1) % contour.outward.size();
+    turned += std::abs(turn_between(contour.outward[i], contour.outward[next]));
+  }
+  const double folds = std::max(0.5 * turned / std::numbers::pi - 1.0, kLeastFolds);
+  return 0.5 * (contour.length() - contour.tape_length()) / folds;
 }
 
 }  // namespace instep

@@ -15,4 +15,9 @@ struct ContourTurns {
 
 ContourTurns turns_of(const Contour& contour);
 
+/// How deep the hollows and folds of a contour go, on the mean: half of what it is longer than a
+/// tape round it, for every full turn that it makes to and fro beyond the one round the body. Of
+/// one that hardly turns more than that, more than any of its folds.
+double mean_fold_depth(const Contour& contour);
+
 }  // namespace instep

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <utility>
 
 #include "core/geometry/polygon.h"
@@ -14,10 +13,8 @@
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
 #include "core/girth/section_probe.h"
-#include "core/girth/skin_layers.h"
+#include "core/girth/section_unknowns.h"
 #include "core/girth/smooth_section.h"
-#include "core/girth/unfollowed_skin.h"
-#include "core/girth/unseen_bends.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {
@@ -48,8 +45,6 @@ constexpr double kNotableDoubt = 0.02;
 constexpr double kWinding = 1.05;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
-/// Intervals are wider by as much as the noise is more than was told, up to this.
-constexpr double kMostDistrust = 2.0;
 /// A share of the points near the plane, off all loops, that is worth a warning, and one with which
 /// the loops are not what was scanned: of lines as thick with noise as they are near, a loop of a
 /// few millimetres between two of them passed for the section. A floor under a foot is less.
@@ -194,40 +189,6 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::ve
   return *smooth;
 }
 
-/// What the fitted surface does not know of a section.
-struct Unknown {
-  UnseenBends bends;
-  std::optional<SkinLayers> layers;
-  UnfollowedSkin skin;
-};
-
-Unknown unknown_of(const PlaneBand& band, const std::vector<Loop>& loops,
-                   const BlendedSurface& surface, const SectionEvidence& evidence) {
-  const double near = kEvidenceInGrains * band.grain;
-  const Contour& contour = loops.front().contour;
-  Unknown unknown{
-      unseen_bends_of(contour, evidence.ways, near), layers_near_plane(band, surface, near), {}};
-  // What lies off the one layer is the other one, which counts already.
-  if (unknown.layers) return unknown;
-  std::vector<const ContourIndex*> indices;
-  for (const auto& loop : loops) indices.push_back(&loop.index);
-  unknown.skin = unfollowed_skin(band, contour, indices);
-  return unknown;
-}
-
-void widen(const PlaneBand& band, const Unknown& unknown, MeasuredSection& section) {
-  // Noise that is not what was told of it is hardly independent from point to point either.
-  const double distrust = std::min(band.told_scale, kMostDistrust);
-  // What scatters in a part may be ribs, or two layers and the skin either of them.
-  const double reach = unknown.layers ? reach_of(*unknown.layers)
-                                      : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  const auto& [bends, layers, skin] = unknown;
-  section.contact_u95 =
-      std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach + skin.contact;
-  section.stretched_u95 =
-      std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach + skin.stretched;
-}
-
 std::string warning_of(const SkinLayers& layers, double unit_mm) {
   char figure[32];
   std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * (layers.outer - layers.inner));
@@ -257,9 +218,9 @@ bool is_most_of(double doubt, const MeasuredSection& section) {
 
 /// What whoever reads the girth should know.
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
-                  const SectionEvidence& evidence, const Unknown& unknown,
+                  const SectionEvidence& evidence, const SectionUnknowns& unknowns,
                   const MeasuredSection& section, Girth& girth) {
-  const auto& [bends, layers, skin] = unknown;
+  const auto& [bends, layers, skin, folds] = unknowns;
   const auto warn_if = [&](bool so, const char* warning) {
     if (so) girth.warnings.emplace_back(warning);
   };
@@ -279,6 +240,9 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
     girth.warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) girth.warnings.push_back(warning_of(*layers, band.unit_mm));
+  warn_if(folds > 0.0,
+          "the section is folded, by noise or by ribs too fine for it: the contact length is "
+          "uncertain; scan again, with more or better frames");
   const bool scattered = !layers && band.shown_sigma > kNotableNoise * band.usual_share;
   warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
@@ -312,8 +276,9 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   return girth;
 }
 
-tl::unexpected<Error> too_doubtful(const Unknown& unknown, const MeasuredSection& section) {
-  if (is_most_of(unknown.skin.stretched, section)) {
+tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
+                                   const MeasuredSection& section) {
+  if (is_most_of(unknowns.skin.stretched, section)) {
     return fail(ErrorCode::kInsufficientData,
                 std::string("points lead away from the section at the tape plane") + kNoSkinFound,
                 "take it away, scan from nearer, or move the plane");
@@ -369,13 +334,15 @@ Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   }
 
   auto section = measured(slabs, *band, loops, surface, evidence);
-  const Unknown unknown = unknown_of(*band, loops, surface, evidence);
-  widen(*band, unknown, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknown, section);
+  std::vector<const ContourIndex*> indices;
+  for (const auto& loop : loops) indices.push_back(&loop.index);
+  const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
+  widen(*band, unknowns, section);
+  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
 
   Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();
-  add_warnings(*band, loops, evidence, unknown, section, girth);
+  add_warnings(*band, loops, evidence, unknowns, section, girth);
   return girth;
 }
 

@@ -162,5 +162,25 @@ TEST(ContourTurns, TellWhatBothLengthsGainWhereCornersMoveUnequally) {
   }
 }
 
+/// As many waves round a circle, so deep from top to bottom.
+Contour waved(int waves, double depth) {
+  const auto curve = [=](double at) -> Vector2d {
+    return (1.0 + 0.5 * depth * std::cos(waves * at)) * Vector2d(std::cos(at), std::sin(at));
+  };
+  return corners_of(curve, 200 * waves);
+}
+
+TEST(MeanFoldDepth, IsThatOfTheWavesHoweverManyThereAre) {
+  for (const int waves : {40, 80}) {
+    for (const double depth : {0.2, 0.4}) {
+      EXPECT_NEAR(mean_fold_depth(waved(waves, depth)), depth, 0.35 * depth) << waves;
+    }
+  }
+}
+
+TEST(MeanFoldDepth, IsNoneOfAContourWithoutHollows) {
+  EXPECT_NEAR(mean_fold_depth(ellipse(0.5, 0.3, 600)), 0.0, 1e-3);
+}
+
 }  // namespace
 }  // namespace instep

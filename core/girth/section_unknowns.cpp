@@ -1,0 +1,57 @@
+#include "core/girth/section_unknowns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/girth/contour_turns.h"
+
+namespace instep {
+namespace {
+
+/// Intervals are wider by as much as the noise is more than was told, up to this.
+constexpr double kMostDistrust = 2.0;
+/// Folds that go no deeper than so many standard deviations of the noise may be made by it: those
+/// of lines a sixth to a quarter as thick with noise as they are apart went seven to eight deep,
+/// and made contact lengths up to a half too long.
+constexpr double kFoldInSigmas = 12.0;
+/// Less than this part of a length is no fold but roughness.
+constexpr double kLeastFolds = 0.02;
+
+double folds_by_noise(const PlaneBand& band, const Contour& section) {
+  // Folds are no finer than the grain.
+  if (kFoldInSigmas * band.sigma < band.grain) return 0.0;
+  const double more = section.length() - section.tape_length();
+  if (!(more > kLeastFolds * section.length())) return 0.0;
+  return mean_fold_depth(section) < kFoldInSigmas * band.sigma ? more : 0.0;
+}
+
+}  // namespace
+
+SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
+                            const std::vector<const ContourIndex*>& loops,
+                            const BlendedSurface& surface, const SectionEvidence& evidence,
+                            double near) {
+  SectionUnknowns unknowns{unseen_bends_of(section, evidence.ways, near),
+                           layers_near_plane(band, surface, near),
+                           {},
+                           folds_by_noise(band, section)};
+  // What lies off the one layer is the other one, which counts already.
+  if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, section, loops);
+  return unknowns;
+}
+
+void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section) {
+  // Noise that is not what was told of it is hardly independent from point to point either.
+  const double distrust = std::min(band.told_scale, kMostDistrust);
+  // What scatters in a part may be ribs, or two layers and the skin either of them.
+  const double reach = unknowns.layers ? reach_of(*unknowns.layers)
+                                       : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
+  const auto& [bends, layers, skin, folds] = unknowns;
+  section.contact_u95 =
+      std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach + skin.contact + folds;
+  section.stretched_u95 =
+      std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach + skin.stretched;
+}
+
+}  // namespace instep

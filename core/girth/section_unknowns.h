@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/girth/contour_index.h"
+#include "core/girth/plane_band.h"
+#include "core/girth/section_evidence.h"
+#include "core/girth/skin_layers.h"
+#include "core/girth/smooth_section.h"
+#include "core/girth/unfollowed_skin.h"
+#include "core/girth/unseen_bends.h"
+#include "core/surface/blended_surface.h"
+
+namespace instep {
+
+/// What the fitted surface does not know of a section. All in the band's unit.
+struct SectionUnknowns {
+  UnseenBends bends;
+  std::optional<SkinLayers> layers;
+  UnfollowedSkin skin;
+  double folds = 0.0;  ///< what folds that noise may have made add to the contact length
+};
+
+/// `loops`: all that the plane cuts, the section's first. `near`: how far from a contour or the
+/// plane points count. O(m log m) for the m points of the band.
+SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
+                            const std::vector<const ContourIndex*>& loops,
+                            const BlendedSurface& surface, const SectionEvidence& evidence,
+                            double near);
+
+/// Widens the intervals by them, and where noise was not what was told.
+void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section);
+
+}  // namespace instep
