@@ -9,7 +9,7 @@ namespace instep {
 namespace {
 
 /// Cells across the contour: few corners share one, and few hold none between those that do.
-constexpr int kCells = 32;
+constexpr int kCells = 64;
 
 std::size_t number_of(int column, int row) {
   return static_cast<std::size_t>(column * kCells + row);
