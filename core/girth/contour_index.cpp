@@ -95,4 +95,16 @@ ContourIndex::Foot ContourIndex::foot_of(const Eigen::Vector2d& point) const {
   return best;
 }
 
+/// Looks at the point's own cell and at those that follow and precede it in its column before it
+/// looks for the nearest corner.
+bool ContourIndex::passes_within(double distance, const Eigen::Vector2d& point) const {
+  const Cell cell = cell_of(point);
+  const std::size_t from = number_of(cell.x(), std::max(cell.y() - 1, 0));
+  const std::size_t to = number_of(cell.x(), std::min(cell.y() + 1, kCells - 1));
+  for (std::uint32_t at = begins_[from]; at < begins_[to + 1]; ++at) {
+    if ((corners_[members_[at]] - point).norm() <= distance) return true;
+  }
+  return foot_of(point).distance <= distance;
+}
+
 }  // namespace instep
