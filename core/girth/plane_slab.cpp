@@ -1,7 +1,9 @@
 #include "core/girth/plane_slab.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -19,27 +21,96 @@ namespace {
 /// The first slab that is asked for is to tell how wide the others have to be.
 constexpr double kWiderThanFirst = 6.0;
 constexpr double kWiderThanOthers = 1.2;
+/// How far from the plane points are near it, against the size of the cloud by a sample of so many:
+/// the first slab is as wide (section_probe.cpp). What rounding may bring in or leave out lies
+/// beyond this part of that.
+constexpr double kNear = 0.026;
+constexpr std::size_t kSample = 2000;
+constexpr double kSurelyNear = 0.999;
+/// As many as a number has bits.
+constexpr std::size_t kPairsAtOnce = 64;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
 
-/// From the least to the most of what a cloud measures along a direction; taken of two points at a
-/// time, which costs no more than of one.
+/// Two points at a time, which costs no more than one.
+struct PointPair {
+  Eigen::Array2d x;
+  Eigen::Array2d y;
+  Eigen::Array2d z;
+
+  PointPair(const Eigen::Vector3d& one, const Eigen::Vector3d& other)
+      : x(one.x(), other.x()), y(one.y(), other.y()), z(one.z(), other.z()) {}
+
+  Eigen::Array2d along(const Eigen::Vector3d& direction) const {
+    return direction.x() * x + direction.y() * y + direction.z() * z;
+  }
+};
+
+/// From the least to the most of what a cloud measures along a direction.
 class Reach {
  public:
-  explicit Reach(const Eigen::Vector3d& along) : along_(along) {}
-
-  void add(const Eigen::Array2d& x, const Eigen::Array2d& y, const Eigen::Array2d& z) {
-    const Eigen::Array2d measures = along_.x() * x + along_.y() * y + along_.z() * z;
+  void add(const Eigen::Array2d& measures) {
     least_ = measures.min(least_);
     most_ = measures.max(most_);
   }
   double length() const { return most_.maxCoeff() - least_.minCoeff(); }
 
  private:
-  Eigen::Vector3d along_;
   Eigen::Array2d least_ = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array2d most_ = Eigen::Array2d::Constant(-std::numeric_limits<double>::infinity());
 };
+
+/// The box of a cloud as the plane sees it.
+class PlaneBox {
+ public:
+  explicit PlaneBox(const TapePlane& plane)
+      : u_(plane.u()),
+        v_(plane.v()),
+        normal_(plane.normal()),
+        level_(plane.normal().dot(plane.origin())) {}
+
+  /// Returns how far above the plane the two points are.
+  Eigen::Array2d add(const PointPair& pair) {
+    along_.add(pair.along(u_));
+    across_.add(pair.along(v_));
+    const Eigen::Array2d heights = pair.along(normal_);
+    above_.add(heights);
+    return heights - level_;
+  }
+
+  /// Each two points that follow each other, up to kPairsAtOnce, of an odd number all but the last.
+  /// Returns a bit for each pair, the lowest for the first: whether one of the two is at most
+  /// `half_width` from the plane.
+  std::uint64_t add_pairs(std::span<const Eigen::Vector3d> points, double half_width) {
+    std::uint64_t near = 0;
+    PlaneBox wider = *this;  // A member would be written back at each step.
+    for (std::size_t i = points.size() / 2; i-- > 0;) {
+      const Eigen::Array2d heights = wider.add({points[2 * i], points[2 * i + 1]});
+      near = 2 * near + (heights.abs().minCoeff() <= half_width ? 1U : 0U);
+    }
+    *this = wider;
+    return near;
+  }
+
+  double diagonal() const { return std::hypot(along_.length(), across_.length(), above_.length()); }
+
+ private:
+  Eigen::Vector3d u_;
+  Eigen::Vector3d v_;
+  Eigen::Vector3d normal_;
+  double level_;
+  Reach along_;
+  Reach across_;
+  Reach above_;
+};
+
+/// The size of a cloud by a sample of its points: a little less than it is.
+double rough_size(std::span<const Eigen::Vector3d> points, const TapePlane& plane) {
+  const std::size_t stride = points.size() / kSample + 1;
+  PlaneBox box(plane);
+  for (std::size_t i = 0; i < points.size(); i += stride) box.add({points[i], points[i]});
+  return box.diagonal();
+}
 
 /// A place by its first coordinate, to be put in order with little to move.
 struct Found {
@@ -54,18 +125,14 @@ bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
   return std::tuple(one.x(), one.y(), one.z(), a) < std::tuple(other.x(), other.y(), other.z(), b);
 }
 
-/// As they come.
-PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  PlaneSlab slab;
-  const std::span<const Eigen::Vector3d> points(cloud.positions);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double height = plane.distance(points[i]);
-    if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(points[i]);
-    slab.indices.push_back(i);
-    slab.places.emplace_back(place.x(), place.y(), height);
-  }
-  return slab;
+void add_if_near(const PointCloud& cloud, const TapePlane& plane, double half_width, std::size_t i,
+                 PlaneSlab& slab) {
+  const Eigen::Vector3d& point = cloud.positions[i];
+  const double height = plane.distance(point);
+  if (std::abs(height) > half_width) return;
+  const Eigen::Vector2d place = plane.project(point);
+  slab.indices.push_back(i);
+  slab.places.emplace_back(place.x(), place.y(), height);
 }
 
 /// Sorted into strips across the first coordinate, then within each.
@@ -122,7 +189,9 @@ PlaneSlab ordered_slab(const PointCloud& cloud, const PlaneSlab& found) {
 }  // namespace
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  return ordered_slab(cloud, unordered_slab(cloud, plane, half_width));
+  PlaneSlab found;
+  for (std::size_t i = 0; i < cloud.size(); ++i) add_if_near(cloud, plane, half_width, i, found);
+  return ordered_slab(cloud, found);
 }
 
 PlaneSlab within(const PlaneSlab& slab, double half_width) {
@@ -149,29 +218,40 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
   return rest;
 }
 
+/// Looks at each point once: at the box of all, and which lie near the plane.
 SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane)
     : cloud_(cloud), plane_(plane) {
-  Reach along(plane.u());
-  Reach across(plane.v());
-  Reach above(plane.normal());
   const std::span<const Eigen::Vector3d> points(cloud.positions);
-  for (std::size_t i = 0; i < points.size(); i += 2) {
-    const Eigen::Vector3d& one = points[i];
-    const Eigen::Vector3d& other = points[std::min(i + 1, points.size() - 1)];
-    const Eigen::Array2d x(one.x(), other.x());
-    const Eigen::Array2d y(one.y(), other.y());
-    const Eigen::Array2d z(one.z(), other.z());
-    along.add(x, y, z);
-    across.add(x, y, z);
-    above.add(x, y, z);
+  near_half_width_ = kNear * rough_size(points, plane);
+  PlaneBox box(plane);
+  for (std::size_t begin = 0; begin < points.size(); begin += 2 * kPairsAtOnce) {
+    const std::size_t count = std::min(2 * kPairsAtOnce, points.size() - begin);
+    std::uint64_t near = box.add_pairs(points.subspan(begin, count), near_half_width_);
+    for (; near != 0; near &= near - 1) {
+      near_pairs_.push_back(begin + 2 * static_cast<std::size_t>(std::countr_zero(near)));
+    }
   }
-  size_ = std::hypot(along.length(), across.length(), above.length());
+  if (points.size() % 2 != 0) {
+    box.add({points.back(), points.back()});
+    near_pairs_.push_back(points.size() - 1);
+  }
+  size_ = box.diagonal();
+}
+
+PlaneSlab SlabSource::whole_slab(double half_width) const {
+  if (half_width > kSurelyNear * near_half_width_) return slab_of(cloud_, plane_, half_width);
+  PlaneSlab found;
+  for (const std::size_t i : near_pairs_) {
+    add_if_near(cloud_, plane_, half_width, i, found);
+    if (i + 1 < cloud_.size()) add_if_near(cloud_, plane_, half_width, i + 1, found);
+  }
+  return ordered_slab(cloud_, found);
 }
 
 PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
-    widest_ = slab_of(cloud_, plane_, half_width_);
+    widest_ = whole_slab(half_width_);
     if (lines_) widest_ = thinned_lines(cloud_, widest_, *lines_);
   }
   return within(widest_, half_width);

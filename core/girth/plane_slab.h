@@ -53,9 +53,13 @@ class SlabSource {
   bool is_thinned() const { return lines_.has_value(); }
 
  private:
+  PlaneSlab whole_slab(double half_width) const;
+
   const PointCloud& cloud_;
   TapePlane plane_;
   double size_ = 0.0;
+  std::vector<std::size_t> near_pairs_;  ///< first of two points of which one is near the plane
+  double near_half_width_ = 0.0;         ///< by rounding more or less
   std::optional<ScanLines> lines_;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it
