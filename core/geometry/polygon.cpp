@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "core/geometry/plane_vectors.h"
 
@@ -59,10 +60,14 @@ void drop_inner(std::vector<Eigen::Vector2d>& points) {
   const std::array<Eigen::Vector2d, 8> directions{
       {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
   std::array<Eigen::Vector2d, 8> corners;
-  corners.fill(points.front());
+  std::array<double, 8> furthest;
+  furthest.fill(-std::numeric_limits<double>::infinity());
   for (const auto& point : points) {
     for (std::size_t i = 0; i < directions.size(); ++i) {
-      if (directions[i].dot(point) > directions[i].dot(corners[i])) corners[i] = point;
+      const double far = directions[i].dot(point);
+      if (!(far > furthest[i])) continue;
+      furthest[i] = far;
+      corners[i] = point;
     }
   }
   std::erase_if(points, [&](const Eigen::Vector2d& point) {

@@ -1,7 +1,6 @@
 #include "core/geometry/voxel_grid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace instep {
@@ -10,10 +9,31 @@ namespace {
 constexpr std::int64_t kHalf = 1 << 20;  // 21 bits an axis
 
 std::uint64_t axis_number(double coordinate, double cell_mm) {
-  const double cell = std::floor(coordinate / cell_mm);
-  const double bounded =
-      std::clamp(cell, static_cast<double>(2 - kHalf), static_cast<double>(kHalf - 2));
-  return static_cast<std::uint64_t>(static_cast<std::int64_t>(bounded) + kHalf);
+  const double cell = std::clamp(coordinate / cell_mm, static_cast<double>(2 - kHalf),
+                                 static_cast<double>(kHalf - 2));
+  const auto towards_zero = static_cast<std::int64_t>(cell);
+  const std::int64_t number =
+      static_cast<double>(towards_zero) > cell ? towards_zero - 1 : towards_zero;
+  return static_cast<std::uint64_t>(number + kHalf);
+}
+
+using KeyOfPoint = std::pair<std::uint64_t, std::uint32_t>;
+
+/// Points often come in the order of x: then those of each layer of cells follow each other, and
+/// are put in order by themselves.
+void sort_by_keys(std::vector<KeyOfPoint>& keys) {
+  constexpr int kBitsOfLayer = 42;  // y and z
+  const auto layer = [](const KeyOfPoint& key) { return key.first >> kBitsOfLayer; };
+  const auto in_lower_layer = [&](const auto& a, const auto& b) { return layer(a) < layer(b); };
+  if (!std::is_sorted(keys.begin(), keys.end(), in_lower_layer)) {
+    return std::sort(keys.begin(), keys.end());
+  }
+  for (auto begin = keys.begin(); begin != keys.end();) {
+    const auto end = std::find_if(begin, keys.end(),
+                                  [&](const auto& key) { return layer(key) != layer(*begin); });
+    std::sort(begin, end);
+    begin = end;
+  }
 }
 
 std::size_t root_of(std::vector<std::size_t>& parents, std::size_t cell) {
@@ -34,11 +54,11 @@ std::uint64_t VoxelGrid::key_of(const Eigen::Vector3d& point, double cell_mm) {
 }
 
 VoxelGrid::VoxelGrid(const std::vector<Eigen::Vector3d>& points, double cell_mm) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(points.size());
+  std::vector<KeyOfPoint> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     order[i] = {key_of(points[i], cell_mm), static_cast<std::uint32_t>(i)};
   }
-  std::sort(order.begin(), order.end());
+  sort_by_keys(order);
   members_.reserve(order.size());
   for (const auto& [key, index] : order) {
     if (keys_.empty() || keys_.back() != key) {

@@ -9,7 +9,7 @@ namespace instep {
 namespace {
 
 /// Cells across the contour: few corners share one, and few hold none between those that do.
-constexpr int kCells = 32;
+constexpr int kCells = 64;
 
 std::size_t number_of(int column, int row) {
   return static_cast<std::size_t>(column * kCells + row);
@@ -93,6 +93,18 @@ ContourIndex::Foot ContourIndex::foot_of(const Eigen::Vector2d& point) const {
     if (distance < best.distance) best = {distance, ways_[from] + part};
   }
   return best;
+}
+
+/// Looks at the point's own cell and at those that follow and precede it in its column before it
+/// looks for the nearest corner.
+bool ContourIndex::passes_within(double distance, const Eigen::Vector2d& point) const {
+  const Cell cell = cell_of(point);
+  const std::size_t from = number_of(cell.x(), std::max(cell.y() - 1, 0));
+  const std::size_t to = number_of(cell.x(), std::min(cell.y() + 1, kCells - 1));
+  for (std::uint32_t at = begins_[from]; at < begins_[to + 1]; ++at) {
+    if ((corners_[members_[at]] - point).norm() <= distance) return true;
+  }
+  return foot_of(point).distance <= distance;
 }
 
 }  // namespace instep

@@ -22,6 +22,10 @@ class ContourIndex {
   };
   Foot foot_of(const Eigen::Vector2d& point) const;
 
+  /// Whether the foot of a point is at most so far from it. Quicker than the foot, where a corner
+  /// beside the point is near enough.
+  bool passes_within(double distance, const Eigen::Vector2d& point) const;
+
   /// Of the polygon through the corners.
   double length() const { return ways_.back(); }
 

@@ -122,7 +122,14 @@ double Contour::tape_length() const {
   const auto hull = convex_hull(fine);
   const std::size_t count = hull.size();
   if (count < 3) return perimeter(hull);
-  const auto side = [&](std::size_t i) { return (hull[(i + 1) % count] - hull[i % count]).eval(); };
+  std::vector<Eigen::Vector2d> sides;
+  sides.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) sides.push_back(hull[(i + 1) % count] - hull[i]);
+  std::vector<double> turns;  // from each side to the next
+  turns.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    turns.push_back(turn_between(sides[i], sides[(i + 1) % count]));
+  }
   // Both run counter-clockwise, so the hull's corners are met one after the other on the curve.
   auto at = std::find(fine.begin(), fine.end(), hull.front());
   double sum = 0.0;
@@ -133,9 +140,8 @@ double Contour::tape_length() const {
     at = std::find(next, fine.end(), corner);
     if (at == fine.end()) at = std::find(fine.begin(), next, corner);
     // At a corner the turn is no arc's: the neighbour's tells.
-    const double turn =
-        std::min(turn_between(side(i + count - 1), side(i)), turn_between(side(i), side(i + 1)));
-    sum += side(i).norm() * (touches ? 1.0 + turn * turn / 24.0 : 1.0);
+    const double turn = std::min(turns[(i + count - 1) % count], turns[i]);
+    sum += sides[i].norm() * (touches ? 1.0 + turn * turn / 24.0 : 1.0);
   }
   // The cubics of a curve without hollows may bend a little more than its arcs.
   return std::min(sum, length());

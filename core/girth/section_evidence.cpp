@@ -23,7 +23,7 @@ double run_aside(const OrientedPoint& point) {
 }  // namespace
 
 bool may_run_to(const ContourIndex& contour, const OrientedPoint& point, double near) {
-  return contour.foot_of(point.position.head<2>()).distance <= near + run_aside(point);
+  return contour.passes_within(near + run_aside(point), point.position.head<2>());
 }
 
 SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near) {

@@ -24,6 +24,9 @@ constexpr double kLeastAllRound = 0.6;
 constexpr double kWellWithin = 0.6;
 /// So near to a centre no second patch is fitted, wherever the middle of its points lies.
 constexpr double kAlmostThere = 0.15;
+/// Places no further from each other share a list of the patches near them, in a unit in which the
+/// body is about one long.
+constexpr double kNearby = 0.03;
 /// A section needs some hundred; points that ask for more form no surface.
 constexpr std::size_t kMostPatches = 1500;
 
@@ -68,6 +71,19 @@ BlendedSurface::Zone::Zone(const SurfacePatch& patch) : centre(patch.centre), mi
   near_enough_amid = crowded ? kNearEnoughInCrowds * kNearEnoughInCrowds * square : near_enough;
   well_within = kWellWithin * kWellWithin * square;
   reach = kReach * kReach * square;
+  const double from_middle = (centre - middle).norm() + kNearEnoughInCrowds * patch.radius;
+  neighbourhood = std::pow(std::max(kReach * patch.radius, from_middle) + kNearby, 2);
+}
+
+/// Those that may serve or count at a place; the others are too far off.
+const std::vector<std::size_t>& BlendedSurface::patches_near(const Eigen::Vector3d& place) const {
+  if (near_to_ && (place - *near_to_).squaredNorm() < kNearby * kNearby) return near_;
+  near_to_ = place;
+  near_.clear();
+  for (std::size_t i = 0; i < zones_.size(); ++i) {
+    if ((place - zones_[i].middle).squaredNorm() < zones_[i].neighbourhood) near_.push_back(i);
+  }
+  return near_;
 }
 
 bool BlendedSurface::serves(std::size_t patch, const Eigen::Vector3d& place) const {
@@ -80,14 +96,15 @@ bool BlendedSurface::serves(std::size_t patch, const Eigen::Vector3d& place) con
 }
 
 bool BlendedSurface::visit(const Eigen::Vector3d& place) {
-  for (std::size_t i = patches_.size(); i-- > 0;) {
-    if (serves(i, place)) return true;
-  }
+  const auto& near = patches_near(place);
+  if (std::any_of(near.rbegin(), near.rend(), [&](auto i) { return serves(i, place); }))
+    return true;
   if (patches_.size() >= kMostPatches) return false;
   auto patch = fitter_.fit(place);
   if (!patch) return false;
   patches_.push_back(std::move(*patch));
   zones_.emplace_back(patches_.back());
+  near_.push_back(zones_.size() - 1);
   return true;
 }
 
@@ -95,7 +112,7 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
   double weights = 0.0;
   Eigen::Vector3d weights_gradient = Eigen::Vector3d::Zero();
   FieldValue sum;
-  for (std::size_t i = 0; i < patches_.size(); ++i) {
+  for (const std::size_t i : patches_near(place)) {
     if ((place - zones_[i].middle).squaredNorm() >= zones_[i].reach) continue;
     const SurfacePatch& patch = patches_[i];
     const Weight weight = wendland(place - patch.middle, kReach * patch.radius);
@@ -114,7 +131,7 @@ std::optional<FieldValue> BlendedSurface::at(const Eigen::Vector3d& place) const
 const SurfacePatch* BlendedSurface::leading_patch(const Eigen::Vector3d& place) const {
   const SurfacePatch* leading = nullptr;
   double most = 0.0;
-  for (std::size_t i = 0; i < patches_.size(); ++i) {
+  for (const std::size_t i : patches_near(place)) {
     if ((place - zones_[i].middle).squaredNorm() >= zones_[i].reach) continue;
     const SurfacePatch& patch = patches_[i];
     const double weight = wendland(place - patch.middle, kReach * patch.radius).value;

@@ -50,13 +50,19 @@ class BlendedSurface {
     double near_enough_amid;  ///< from the centre, for a place amid many points
     double well_within;       ///< from the middle
     double reach;             ///< from the middle: beyond it the patch counts nothing
+    double neighbourhood;     ///< from the middle: beyond it no place nearby asks for the patch
   };
 
   bool serves(std::size_t patch, const Eigen::Vector3d& place) const;
+  const std::vector<std::size_t>& patches_near(const Eigen::Vector3d& place) const;
 
   PatchFitter fitter_;
   std::vector<SurfacePatch> patches_;
   std::vector<Zone> zones_;  ///< of the patches
+  /// Places are asked for one beside the other: the patches that may serve or count near the last
+  /// one that was far from those before, in their order.
+  mutable std::vector<std::size_t> near_;
+  mutable std::optional<Eigen::Vector3d> near_to_;
 };
 
 }  // namespace instep

@@ -22,7 +22,7 @@ using Terms = Eigen::Matrix<double, kTerms, 1>;
 using Square = Eigen::Matrix<double, kTerms, kTerms>;
 
 /// So many points at once.
-constexpr Eigen::Index kGroup = 4;
+constexpr Eigen::Index kGroup = 8;
 using Group = Eigen::Array<double, kGroup, 1>;
 
 /// What the points tell of the polynomial.

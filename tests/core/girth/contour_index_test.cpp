@@ -79,6 +79,8 @@ void expect_feet_of_all_chords(double a, double b, std::size_t count, double off
     const auto foot = index.foot_of(point);
     const auto expected = foot_by_all_chords(contour, point);
     EXPECT_NEAR(foot.distance, expected.distance, 1e-12);
+    EXPECT_TRUE(index.passes_within(foot.distance, point));
+    EXPECT_FALSE(index.passes_within(std::nextafter(foot.distance, 0.0), point));
     EXPECT_LT(way_between(foot.way, expected.way, length), 1e-9) << point.transpose();
     EXPECT_GE(foot.way, 0.0);
     EXPECT_LE(foot.way, length * (1.0 + 1e-12));
