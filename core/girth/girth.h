@@ -44,7 +44,7 @@ struct Girth {
 
   std::size_t points = 0;  ///< points of the whole cloud
   /// Points near the plane that took part, and those of an exact crowd that would have told the
-  /// same again.
+  /// same again. Of lines that are far apart those that were kept, or averages of them.
   std::size_t band_points = 0;
   double sigma_mm = 0.0;  ///< noise that was used: the usual one near the plane, or its mean
   /// Longest stretch of the section without a seen point under it.

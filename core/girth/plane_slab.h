@@ -11,11 +11,11 @@
 
 namespace instep {
 
-/// The points of a cloud on and beside a tape plane, each place once (of copies
-/// counts_before() tells which), in an order that the places alone decide, so that the cloud's does
-/// not matter.
+/// The points of a cloud on and beside a tape plane, each place once (of copies counts_before()
+/// tells which), or averages of them, in an order that the places alone decide, so that the cloud's
+/// does not matter.
 struct PlaneSlab {
-  std::vector<std::size_t> indices;     ///< in the cloud
+  std::vector<std::size_t> indices;     ///< in the cloud; of an average one of its points
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it
   std::vector<double> shares;  ///< noise of each place against its point's; none if they are alike
 

@@ -72,13 +72,14 @@ class LineAverages {
 
   Stretch round(std::size_t number) const {
     const Stretch alone{number, slab_.places[number]};
+    const Eigen::Vector3d up = across_the_skin(alone.place);
     Stretch stretch = alone;
-    auto line = line_beside(stretch);
+    auto line = line_beside(stretch, up);
     for (int moves = 0; line && moves < kMostMoves; ++moves) {
       const Eigen::Vector3d move = line->beside_place();
       if (move.norm() < kOnLine * apart_) break;
       stretch.place += move;
-      line = line_beside(stretch);
+      line = line_beside(stretch, up);
     }
     return line && average(*line, stretch) ? stretch : alone;
   }
@@ -110,12 +111,11 @@ class LineAverages {
     return moments.flattest();
   }
 
-  /// The line beside a place as it bends evenly. Nothing where too few points are there, or where
-  /// they tell none.
-  std::optional<BentLine> line_beside(const Stretch& stretch) const {
+  /// The line beside a place as it bends evenly, `up` across the skin. Nothing where too few points
+  /// are there, or where they tell none.
+  std::optional<BentLine> line_beside(const Stretch& stretch, const Eigen::Vector3d& up) const {
     BentLine line{beside(stretch), {}, {}};
     if (line.points.size() < kFewestOnLine) return std::nullopt;
-    const Eigen::Vector3d up = across_the_skin(stretch.place);
     Moments moments;
     for (const auto point : line.points) {
       const Eigen::Vector3d arm = slab_.places[point] - stretch.place;

@@ -5,6 +5,7 @@
 #include <bitset>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace instep {
 namespace {
@@ -34,10 +35,10 @@ int second_widest_step(const Bins& bins) {
   int widest = 0;
   int second = 0;
   int near_middle = 0;
-  int last = kBins;
+  std::optional<int> last;
   for (int bin = 0; bin < kBins; ++bin) {
     if (!bins[static_cast<std::size_t>(bin)]) continue;
-    const int step = bin - last;
+    const int step = bin - last.value_or(bin);
     second = std::max(second, std::min(step, widest));
     widest = std::max(widest, step);
     if (last >= kFirstBin && bin < kLastBin) near_middle = std::max(near_middle, step);

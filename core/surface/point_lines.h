@@ -14,8 +14,8 @@ struct PointLines {
 
 /// Of points all round a place of a surface: seen along `outward` (unit length), the direction in
 /// which they leave the widest strips free, as all lie on the lines between them; two at least, for
-/// one may be a hole. `arms`: to the points from the place. One of the strips has to pass within
-/// half of `reach` (> 0), since few points lie further out. To within 3 degrees and a thirty-second
+/// one may be a hole. `arms`: to the points from the place. One of the strips has to lie within
+/// half of `reach` (> 0), since few points are further out. To within 3 degrees and a thirty-second
 /// of `reach`. O(points).
 PointLines lines_among(const std::vector<Eigen::Vector3d>& arms, const Eigen::Vector3d& outward,
                        double reach);
