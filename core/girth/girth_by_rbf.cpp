@@ -46,8 +46,8 @@ constexpr double kWinding = 1.05;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
 /// A share of the points near the plane, off all loops, that is worth a warning, and one with which
-/// the loops are not what was scanned: of lines as thick with noise as they are near, a loop of a
-/// few millimetres between two of them passed for the section. A floor under a foot is less.
+/// the loops may not be what was scanned: of lines as thick with noise as they are near, a loop of
+/// a few millimetres between two of them passed for the section. A wall beside a body is as much.
 constexpr double kNotableUnexplained = 0.02;
 constexpr double kMostUnexplained = 0.67;
 /// Noise beyond what depth cameras have, against the section.
@@ -301,8 +301,21 @@ Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
   return girth;
 }
 
+struct ToldGirth {
+  Girth girth;
+  bool of_few = false;  ///< most of the points near the plane lie on no loop
+
+  double doubt() const { return *girth.stretched_u95_mm + *girth.contact_u95_mm; }
+
+  /// Uncertain, of few, or so winding that noise may have folded it.
+  bool is_doubtful() const {
+    return of_few || *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
+           girth.contact_mm > kWinding * girth.stretched_mm;
+  }
+};
+
 /// Of slabs that are thinned already, or are here if their points ask for it.
-Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
+Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   const PointCloud& cloud = slabs.cloud();
   auto band = band_at(slabs, options.sigma_mm);
   if (!band) return tl::make_unexpected(band.error());
@@ -311,7 +324,9 @@ Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   auto loops = trace_all(*band, surface);
   if (loops.empty()) {
     if (cloud.has_normals() && !band->normals_dropped) {
-      if (auto girth = girth_without_normals(cloud, slabs.plane(), options)) return girth;
+      if (auto girth = girth_without_normals(cloud, slabs.plane(), options)) {
+        return ToldGirth{std::move(*girth)};
+      }
     }
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
                 "scan the body all round, or move the plane");
@@ -327,12 +342,6 @@ Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
                 "more than a quarter of the section at the tape plane has no points",
                 "scan the body all round");
   }
-  if (leaves_points_unexplained(*band, loops, evidence, kMostUnexplained)) {
-    return fail(ErrorCode::kInsufficientData,
-                "most of the points near the tape plane lie on no section that closes",
-                "scan the body all round, cut away what else was scanned, or move the plane");
-  }
-
   auto section = measured(slabs, *band, loops, surface, evidence);
   std::vector<const ContourIndex*> indices;
   for (const auto& loop : loops) indices.push_back(&loop.index);
@@ -340,20 +349,15 @@ Result<Girth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   widen(*band, unknowns, section);
   if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
 
-  Girth girth = girth_of(*band, section, evidence);
-  girth.points = cloud.size();
-  add_warnings(*band, loops, evidence, unknowns, section, girth);
-  return girth;
+  ToldGirth told{girth_of(*band, section, evidence)};
+  told.girth.points = cloud.size();
+  told.of_few = leaves_points_unexplained(*band, loops, evidence, kMostUnexplained);
+  add_warnings(*band, loops, evidence, unknowns, section, told.girth);
+  return told;
 }
 
-double doubt_of(const Girth& girth) {
-  return *girth.stretched_u95_mm + *girth.contact_u95_mm;
-}
-
-/// Uncertain, or so winding that noise may have folded it.
-bool is_doubtful(const Girth& girth) {
-  return *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
-         girth.contact_mm > kWinding * girth.stretched_mm;
+bool is_surer(const ToldGirth& one, const ToldGirth& other) {
+  return one.of_few != other.of_few ? other.of_few : one.doubt() < other.doubt();
 }
 
 }  // namespace
@@ -363,13 +367,15 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   SlabSource slabs(cloud, plane, !options.sigma_mm);
-  auto girth = girth_at(slabs, options);
-  if (girth && !is_doubtful(*girth)) return girth;
+  auto told = girth_at(slabs, options);
   // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
   // seem exact.
-  if (!thin_thick_lines(slabs)) return girth;
-  auto thinned = girth_at(slabs, options);
-  return !girth || (thinned && doubt_of(*thinned) < doubt_of(*girth)) ? thinned : girth;
+  if ((!told || told->is_doubtful()) && thin_thick_lines(slabs)) {
+    auto thinned = girth_at(slabs, options);
+    if (thinned && (!told || is_surer(*thinned, *told))) told = std::move(thinned);
+  }
+  if (!told) return tl::make_unexpected(std::move(told).error());
+  return std::move(told->girth);
 }
 
 }  // namespace instep

@@ -36,19 +36,15 @@ Result<Girth> girth_by_a_wall(double wall) {
                       TapePlane::through({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).value());
 }
 
+/// However many points are of the wall: it closes nowhere, and the body does.
 TEST(GirthBesideAWall, IsToldWithAWarning) {
-  const auto girth = girth_by_a_wall(300.0);
-  ASSERT_TRUE(girth) << girth.error().line();
-  EXPECT_NEAR(girth->stretched_mm, kGirth, 0.01);
-  EXPECT_FALSE(girth->warnings.empty());
-}
-
-/// A loop that hardly any of the points lie on is not what was scanned.
-TEST(GirthBesideAWall, IsRefusedWhereMostPointsAreOfTheWall) {
-  const auto girth = girth_by_a_wall(900.0);
-  ASSERT_FALSE(girth);
-  EXPECT_NE(girth.error().message.find("no section that closes"), std::string::npos);
-  EXPECT_NE(girth.error().advice.find("cut away"), std::string::npos);
+  for (const double wall : {300.0, 900.0}) {
+    const auto girth = girth_by_a_wall(wall);
+    ASSERT_TRUE(girth) << girth.error().line();
+    EXPECT_NEAR(girth->stretched_mm, kGirth, 0.01);
+    ASSERT_FALSE(girth->warnings.empty());
+    EXPECT_NE(girth->warnings.front().find("beside the section"), std::string::npos);
+  }
 }
 
 }  // namespace
