@@ -45,7 +45,7 @@ constexpr double kMostOffSquare = 0.15;
 constexpr std::size_t kMoreNeighbours = 16;
 constexpr double kOnSheet = 0.1;
 /// Of points, or one: those whose normal is neither on one sheet with any neighbour's nor square to
-/// the chord to any. Of right normals none to 0.3 % are (1,056 clouds of 900 to 4,000 points on
+/// the chord to any. Of right normals none to 0.3 % are (864 bands of 900 to 4,000 points on
 /// lasts, each with one at most), where one in twenty is off by 35 degrees 0.3 to 5 %, by 20
 /// degrees 1 % in the mean. And those whose normal, besides, faces as no neighbour's does: 1 to 2 %
 /// where those of a twentieth of the section are set at random.
@@ -76,8 +76,7 @@ bool shares_a_sheet(const std::vector<Eigen::Vector3d>& normals, const PointInde
   const auto nearest = index.nearest(index.points()[point], kMoreNeighbours);
   return std::any_of(nearest.begin(), nearest.end(), [&](const auto& near) {
     if (near.index == point || !(normals[point].dot(normals[near.index]) > kOneSheet)) return false;
-    const Eigen::Vector3d chord =
-        (index.points()[near.index] - index.points()[point]).normalized();
+    const Eigen::Vector3d chord = (index.points()[near.index] - index.points()[point]).normalized();
     return std::abs(normals[point].dot(chord)) < kOnSheet &&
            std::abs(normals[near.index].dot(chord)) < kOnSheet;
   });

@@ -102,6 +102,14 @@ TEST(NormalTrust, RightNormalsTellSlopes) {
   }
 }
 
+/// The nearest neighbours of some points beside a crease all lie on its other side.
+TEST(NormalTrust, RightNormalsOfFewPointsBesideACreaseTellSlopes) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Body body = creased(kSparse, seed);
+    EXPECT_EQ(body.trust(body.normals), NormalTrust::kSlopes) << body.name;
+  }
+}
+
 TEST(NormalTrust, NormalsOfAPrismOnAGridTellSlopes) {
   const auto points = test::prism_points(60.0, 40.0, 3.0, 0.0, 1);
   Normals normals;
