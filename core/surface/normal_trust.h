@@ -17,7 +17,7 @@ enum class NormalTrust {
 /// Judged of normals round a closed section by some hundreds of neighbours: normals of which too
 /// few face as their neighbour does, which all face one way, or which point inwards (their flux
 /// through the section is its area, twice), tell nothing; nor do those of which more than one in
-/// 150 faces as none of its neighbours, as where a stretch of the section has them at random, or
+/// 300 faces as none of its neighbours, as where a stretch of the section has them at random, or
 /// of which more than one pair of neighbours along the skin in two thousand faces opposite ways, as
 /// round a few that are turned over: 2 to 5 % of them made girths of feet and lasts up to 26 mm
 /// wrong, one in four unseen. They tell slopes where the chord between neighbours on one sheet is
