@@ -45,10 +45,10 @@ constexpr double kMostOffSquare = 0.15;
 constexpr std::size_t kMoreNeighbours = 16;
 constexpr double kOnSheet = 0.1;
 /// Of points, or one: those whose normal is neither on one sheet with any neighbour's nor square to
-/// the chord to any. Of right normals none to 0.3 % are (864 bands of 900 to 4,000 points on
-/// lasts, each with one at most), where one in twenty is off by 35 degrees 0.3 to 5 %, by 20
-/// degrees 1 % in the mean. And those whose normal, besides, faces as no neighbour's does: 1 to 2 %
-/// where those of a twentieth of the section are set at random.
+/// the chord to any, and on a sheet with none of more. Of right normals none to 0.3 % are (864
+/// bands of 900 to 4,000 points on lasts, each with one at most), where one in twenty is off by 35
+/// degrees 0.3 to 5 %, by 20 degrees 1 % in the mean. And those whose normal, besides, faces as no
+/// neighbour's does, as where those of a stretch are set at random.
 constexpr double kMostAstray = 0.003;
 
 /// `off_square`: the square of how far a chord is off that to the mean of its ends' normals;
