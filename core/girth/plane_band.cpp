@@ -49,6 +49,10 @@ constexpr std::size_t kFewestNormalPoints = 16;
 /// Noise in places, against what was told, that whoever reads the girth should know of: what shows
 /// less is measured with what it shows.
 constexpr double kNotableInPlaces = 1.5;
+/// Noise of more than this part of the spacing rounds an edge in any case: patches of the points
+/// that face one way by what was told would end there as if it did not. Of lasts of 14,240 points
+/// with 0.5 mm girths were 0.36 mm off so, and are 0.34; of drawn bodies 0.297 and 0.293.
+constexpr double kHidesTurns = 0.2;
 /// Of a section: the texture of skin or a scanner's rounding.
 constexpr double kHarmlessScatter = 3e-4;
 
@@ -228,12 +232,27 @@ std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePl
   return normals;
 }
 
+/// Those that the points show, on the sides that were told.
+std::vector<Eigen::Vector3d> shown_on_sides_of(const std::vector<Eigen::Vector3d>& told,
+                                               const PointCloud& cloud, const TapePlane& plane,
+                                               const PlaneBand& band) {
+  auto normals = shown_normals(cloud, plane, band);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (normals[i].dot(told[i]) < 0.0) normals[i] *= -1.0;
+  }
+  return normals;
+}
+
 void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band) {
   auto normals = told_normals(cloud, plane, band);
   const bool righted = right_lone_normals(normals, band.index);
   const auto trust = normals.empty() ? NormalTrust::kNone : trust_in(normals, band.index);
   band.normals_dropped = !normals.empty() && trust == NormalTrust::kNone;
-  if (trust == NormalTrust::kNone) normals = shown_normals(cloud, plane, band);
+  if (trust == NormalTrust::kNone) {
+    normals = shown_normals(cloud, plane, band);
+  } else if (band.sigma > kHidesTurns * band.spacing) {
+    normals = shown_on_sides_of(normals, cloud, plane, band);
+  }
   const double least = 1e-9 * band.spacing;
   const bool slopes = trust == NormalTrust::kSlopes && !righted && band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
