@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -35,6 +36,16 @@ constexpr double kExact = 1e-3;
 /// noise, averages of five points were 0.40 mm off; the least that they could be is 0.22.
 constexpr int kMostMoves = 8;
 constexpr double kOnLine = 0.01;
+/// Points further off a line than so many times as most of them, and than exact ones could be, are
+/// strays; which they are is asked so many times at most, for one may hide another.
+constexpr double kFarOff = 6.0;
+constexpr int kMostRounds = 4;
+/// A point on no line is a stray if it stands so many times as far from others as some of those
+/// round it: others may stand beside gaps, or be strays too. The last ones of a line stand twice as
+/// far.
+constexpr double kStraysApart = 2.2;
+constexpr std::size_t kAskedRoundStray = 9;
+constexpr double kFewRoundStray = 0.25;
 /// Those nearer to each other than this part of a stretch share too many points.
 constexpr double kSameStretch = 0.75;
 
@@ -58,6 +69,9 @@ struct BentLine {
     const double way = along.dot(arm);
     return {1.0, way, way * way};
   }
+  Eigen::Vector3d off(const Eigen::Vector3d& arm) const {
+    return arm - coefficients.transpose() * terms_at(arm);
+  }
 };
 
 /// How much a point counts in the average of a stretch by how far along the line it is from its
@@ -79,7 +93,8 @@ class LineAverages {
         apart_(apart),
         weighed_(weighed && cloud.has_sigma()) {}
 
-  Stretch round(std::size_t number) const {
+  /// Nothing round a stray.
+  std::optional<Stretch> round(std::size_t number) const {
     const Stretch alone{number, slab_.places[number]};
     const Eigen::Vector3d up = across_the_skin(alone.place);
     Stretch stretch = alone;
@@ -90,10 +105,29 @@ class LineAverages {
       stretch.place += move;
       line = line_beside(stretch, up);
     }
-    return line && average(*line, stretch) ? stretch : alone;
+    if (!line || !average(*line, stretch)) {
+      return is_stray(number) ? std::nullopt : std::optional(alone);
+    }
+    const bool leads_through_it =
+        std::binary_search(line->points.begin(), line->points.end(), number);
+    return leads_through_it ? std::optional(stretch) : std::nullopt;
   }
 
  private:
+  /// Whether a point that is on no line stands further from others than those round it do.
+  bool is_stray(std::size_t number) const {
+    std::vector<double> usual;
+    for (const auto& one : index_.nearest(slab_.places[number], kAskedRoundStray)) {
+      usual.push_back(next_to(one.index));
+    }
+    return next_to(number) > kStraysApart * quantile(std::move(usual), kFewRoundStray);
+  }
+
+  /// How far off the next but one point is.
+  double next_to(std::size_t number) const {
+    return std::sqrt(index_.nearest(slab_.places[number], 3).back().squared_distance);
+  }
+
   double weight_of(std::size_t point) const {
     if (!weighed_) return 1.0;
     const double sigma = std::max(cloud_.sigma_mm[slab_.indices[point]], 1e-9);
@@ -107,6 +141,7 @@ class LineAverages {
     for (const auto& one : index_.around(stretch.place, kReach * apart_)) {
       if (cloud_.was_seen(slab_.indices[one.index]) == seen) beside.push_back(one.index);
     }
+    std::sort(beside.begin(), beside.end());
     return beside;
   }
 
@@ -123,8 +158,22 @@ class LineAverages {
   /// The line beside a place as it bends evenly, `up` across the skin. Nothing where too few points
   /// are there, or where they tell none.
   std::optional<BentLine> line_beside(const Stretch& stretch, const Eigen::Vector3d& up) const {
-    BentLine line{beside(stretch), {}, {}};
-    if (line.points.size() < kFewestOnLine) return std::nullopt;
+    const auto found = beside(stretch);
+    BentLine line{found, {}, {}};
+    std::erase(line.points, stretch.number);
+    for (int rounds = 0; rounds < kMostRounds; ++rounds) {
+      if (line.points.size() < kFewestOnLine) return std::nullopt;
+      lead_through_points(stretch, up, line);
+      auto near = near_to(line, stretch, found);
+      if (near == line.points) break;
+      line.points = std::move(near);
+    }
+    if (!(line.beside_place().norm() <= kReach * apart_)) return std::nullopt;
+    return line;
+  }
+
+  void lead_through_points(const Stretch& stretch, const Eigen::Vector3d& up,
+                           BentLine& line) const {
     Moments moments;
     for (const auto point : line.points) {
       const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
@@ -141,8 +190,21 @@ class LineAverages {
       sides += weight * terms * arm.transpose();
     }
     line.coefficients = normal.ldlt().solve(sides);
-    if (!(line.beside_place().norm() <= kReach * apart_)) return std::nullopt;
-    return line;
+  }
+
+  /// Those of some points that are no further off a line than noise puts those on it.
+  std::vector<std::size_t> near_to(const BentLine& line, const Stretch& stretch,
+                                   const std::vector<std::size_t>& found) const {
+    const auto off = [&](std::size_t point) {
+      return line.off(slab_.places[point] - stretch.place).norm();
+    };
+    std::vector<double> offs;
+    for (const auto point : line.points) offs.push_back(off(point));
+    const double most = std::max(kFarOff * median(std::move(offs)), kExact * apart_);
+    std::vector<std::size_t> near;
+    std::copy_if(found.begin(), found.end(), std::back_inserter(near),
+                 [&](std::size_t point) { return off(point) <= most; });
+    return near;
   }
 
   /// Moves a place onto the mean of its stretch, as a line bent evenly leads there: the bend of the
@@ -154,13 +216,13 @@ class LineAverages {
     double squares = 0.0;
     for (const auto point : line.points) {
       const Eigen::Vector3d arm = slab_.places[point] - stretch.place;
-      const Eigen::Vector3d terms = line.terms_at(arm);
-      const Eigen::Vector3d off = arm - line.coefficients.transpose() * terms;
+      const Eigen::Vector3d off = line.off(arm);
       squares += off.squaredNorm();
-      const double weight = near_middle(terms[1]) * weight_of(point);
+      const double near = near_middle(line.along.dot(arm));
+      const double weight = near * weight_of(point);
       rest += weight * off;
       weights += weight;
-      variance += weight * near_middle(terms[1]);
+      variance += weight * near;
     }
     if (!(weights > 0.0)) return false;
     stretch.place += line.beside_place() + rest / weights;
@@ -204,12 +266,16 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
                         bool weighed) {
   if (slab.places.empty()) return slab;
-  const auto crowding = crowding_points(slab.places, lines.apart / kCells);
+  auto crowding = crowding_points(slab.places, lines.apart / kCells);
   const LineAverages averages(cloud, slab, lines.apart, weighed);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < crowding.size(); ++i) {
-    if (!crowding[i]) stretches.push_back(averages.round(i));
+    if (crowding[i]) continue;
+    const auto stretch = averages.round(i);
+    if (stretch) stretches.push_back(*stretch);
+    crowding[i] = !stretch;
   }
+  if (stretches.empty()) return {};
   if (usual_scatter(stretches) < kExact * lines.apart) return without(crowding, slab);
   const PlaneSlab averaged = slab_of(std::move(stretches), slab);
   return without(near_copies(averaged.places, kSameStretch * lines.apart / kStretches), averaged);
