@@ -36,14 +36,18 @@ constexpr double kExact = 1e-3;
 /// noise, averages of five points were 0.40 mm off; the least that they could be is 0.22.
 constexpr int kMostMoves = 8;
 constexpr double kOnLine = 0.01;
-/// Points further off a line than so many times as most of them, and than exact ones could be, are
+/// Points further off a line than so many times as most of them, and than this part of the gap, are
 /// strays; which they are is asked so many times at most, for one may hide another.
 constexpr double kFarOff = 6.0;
+constexpr double kBesideLine = 0.1;
 constexpr int kMostRounds = 4;
+/// Of lines that scatter by this part of the gap noise puts points as far off as strays are: all
+/// stay.
+constexpr double kThickLine = 0.1;
 /// A point on no line is a stray if it stands so many times as far from others as some of those
 /// round it: others may stand beside gaps, or be strays too. The last ones of a line stand twice as
 /// far.
-constexpr double kStraysApart = 2.2;
+constexpr double kStraysApart = 4.0;
 constexpr std::size_t kAskedRoundStray = 9;
 constexpr double kFewRoundStray = 0.25;
 /// Those nearer to each other than this part of a stretch share too many points.
@@ -53,13 +57,15 @@ constexpr double kSameStretch = 0.75;
 struct Stretch {
   std::size_t number;  ///< in the slab, of the point that it was made round
   Eigen::Vector3d place;
-  double share = 1.0;    ///< its noise against the point's
-  double scatter = 0.0;  ///< of points round their line; none of a point that stands alone
+  double share = 1.0;        ///< its noise against the point's
+  double scatter = 0.0;      ///< of points round their line; none of a point that stands alone
+  bool is_of_stray = false;  ///< so it seems; of thick lines noise does that too
 };
 
 /// Arms from a place to those of a line by how far along it they are, in gaps between lines.
 struct BentLine {
   std::vector<std::size_t> points;  ///< that it leads through
+  double thickness;                 ///< what is further off is a stray
   Eigen::Vector3d along;            ///< one over a gap long
   Eigen::Matrix3d coefficients;     ///< a row for each term
 
@@ -72,6 +78,7 @@ struct BentLine {
   Eigen::Vector3d off(const Eigen::Vector3d& arm) const {
     return arm - coefficients.transpose() * terms_at(arm);
   }
+  bool leads_through(const Eigen::Vector3d& arm) const { return off(arm).norm() <= thickness; }
 };
 
 /// How much a point counts in the average of a stretch by how far along the line it is from its
@@ -93,8 +100,7 @@ class LineAverages {
         apart_(apart),
         weighed_(weighed && cloud.has_sigma()) {}
 
-  /// Nothing round a stray.
-  std::optional<Stretch> round(std::size_t number) const {
+  Stretch round(std::size_t number) const {
     const Stretch alone{number, slab_.places[number]};
     const Eigen::Vector3d up = across_the_skin(alone.place);
     Stretch stretch = alone;
@@ -105,12 +111,13 @@ class LineAverages {
       stretch.place += move;
       line = line_beside(stretch, up);
     }
-    if (!line || !average(*line, stretch)) {
-      return is_stray(number) ? std::nullopt : std::optional(alone);
-    }
-    const bool leads_through_it =
-        std::binary_search(line->points.begin(), line->points.end(), number);
-    return leads_through_it ? std::optional(stretch) : std::nullopt;
+    // Of a line as thick as points are looked for none of them lies beside it.
+    const bool is_thick = line && line->thickness >= kReach * apart_;
+    if (!is_thick) line = line_without_strays(stretch, up);
+    const bool is_off = line && !line->leads_through(alone.place - stretch.place);
+    if (!line || !average(*line, stretch)) stretch = alone;
+    stretch.is_of_stray = is_off || (!line && is_stray(number));
+    return stretch;
   }
 
  private:
@@ -141,7 +148,6 @@ class LineAverages {
     for (const auto& one : index_.around(stretch.place, kReach * apart_)) {
       if (cloud_.was_seen(slab_.indices[one.index]) == seen) beside.push_back(one.index);
     }
-    std::sort(beside.begin(), beside.end());
     return beside;
   }
 
@@ -158,16 +164,33 @@ class LineAverages {
   /// The line beside a place as it bends evenly, `up` across the skin. Nothing where too few points
   /// are there, or where they tell none.
   std::optional<BentLine> line_beside(const Stretch& stretch, const Eigen::Vector3d& up) const {
+    return line_through(beside(stretch), stretch, up);
+  }
+
+  /// The same of those of its points that are no strays. The place's own is not asked at first: few
+  /// others could not tell it from one.
+  std::optional<BentLine> line_without_strays(const Stretch& stretch,
+                                              const Eigen::Vector3d& up) const {
     const auto found = beside(stretch);
-    BentLine line{found, {}, {}};
-    std::erase(line.points, stretch.number);
-    for (int rounds = 0; rounds < kMostRounds; ++rounds) {
-      if (line.points.size() < kFewestOnLine) return std::nullopt;
-      lead_through_points(stretch, up, line);
-      auto near = near_to(line, stretch, found);
-      if (near == line.points) break;
-      line.points = std::move(near);
+    auto others = found;
+    std::erase(others, stretch.number);
+    auto line = line_through(std::move(others), stretch, up);
+    for (int rounds = 1; line && rounds < kMostRounds; ++rounds) {
+      std::vector<std::size_t> near;
+      std::copy_if(found.begin(), found.end(), std::back_inserter(near), [&](std::size_t point) {
+        return line->leads_through(slab_.places[point] - stretch.place);
+      });
+      if (near == line->points) break;
+      line = line_through(std::move(near), stretch, up);
     }
+    return line;
+  }
+
+  std::optional<BentLine> line_through(std::vector<std::size_t> points, const Stretch& stretch,
+                                       const Eigen::Vector3d& up) const {
+    if (points.size() < kFewestOnLine) return std::nullopt;
+    BentLine line{std::move(points), 0.0, {}, {}};
+    lead_through_points(stretch, up, line);
     if (!(line.beside_place().norm() <= kReach * apart_)) return std::nullopt;
     return line;
   }
@@ -190,21 +213,11 @@ class LineAverages {
       sides += weight * terms * arm.transpose();
     }
     line.coefficients = normal.ldlt().solve(sides);
-  }
-
-  /// Those of some points that are no further off a line than noise puts those on it.
-  std::vector<std::size_t> near_to(const BentLine& line, const Stretch& stretch,
-                                   const std::vector<std::size_t>& found) const {
-    const auto off = [&](std::size_t point) {
-      return line.off(slab_.places[point] - stretch.place).norm();
-    };
     std::vector<double> offs;
-    for (const auto point : line.points) offs.push_back(off(point));
-    const double most = std::max(kFarOff * median(std::move(offs)), kExact * apart_);
-    std::vector<std::size_t> near;
-    std::copy_if(found.begin(), found.end(), std::back_inserter(near),
-                 [&](std::size_t point) { return off(point) <= most; });
-    return near;
+    for (const auto point : line.points) {
+      offs.push_back(line.off(slab_.places[point] - stretch.place).norm());
+    }
+    line.thickness = std::max(kFarOff * median(std::move(offs)), kBesideLine * apart_);
   }
 
   /// Moves a place onto the mean of its stretch, as a line bent evenly leads there: the bend of the
@@ -270,13 +283,16 @@ PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const Sc
   const LineAverages averages(cloud, slab, lines.apart, weighed);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < crowding.size(); ++i) {
-    if (crowding[i]) continue;
-    const auto stretch = averages.round(i);
-    if (stretch) stretches.push_back(*stretch);
-    crowding[i] = !stretch;
+    if (!crowding[i]) stretches.push_back(averages.round(i));
   }
-  if (stretches.empty()) return {};
-  if (usual_scatter(stretches) < kExact * lines.apart) return without(crowding, slab);
+  const double scatter = usual_scatter(stretches);
+  if (scatter < kThickLine * lines.apart) {
+    std::erase_if(stretches, [&](const Stretch& stretch) {
+      if (stretch.is_of_stray) crowding[stretch.number] = true;
+      return stretch.is_of_stray;
+    });
+  }
+  if (scatter < kExact * lines.apart) return without(crowding, slab);
   const PlaneSlab averaged = slab_of(std::move(stretches), slab);
   return without(near_copies(averaged.places, kSameStretch * lines.apart / kStretches), averaged);
 }

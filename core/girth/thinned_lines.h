@@ -9,8 +9,11 @@ namespace instep {
 /// Of points on lines that are far apart, as few on each as the lines beside it can be seen with:
 /// of more, patches of the nearest points would see no other line. Exact points are picked, those
 /// of noisy lines averaged along theirs, each over a stretch of its own: four fifths of what they
-/// tell are kept. Points that stand alone stay as they are. Within half a gap of a point on a line
-/// all have to be of that line: the middle of another sheet or of points all round would be taken.
+/// tell are kept. Points that stand alone stay as they are. Strays, beside a line or alone amid
+/// lines, are left out, unless the lines are thick with noise.
+///
+/// Within half a gap of a point on a line all have to be of that line: the middle of another sheet
+/// or of points all round would be taken.
 ///
 /// `slab` in its order, and of the cloud; `lines` in its unit. `weighed`: by what the cloud tells
 /// of the noise of each, if it does. O(m (log m + points within half a gap)) for its m points.

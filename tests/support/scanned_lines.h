@@ -14,6 +14,7 @@ struct ScannedLines {
   double apart;       ///< from line to line, of those along it as a rule
   double step;        ///< from point to point on a line, of those round it as a rule
   double sigma = 0.0;
+  double strays = 0.0;  ///< share of the points that lie 1 to 3 mm off, inside or out
 
   std::vector<Eigen::Vector3d> positions(std::uint64_t seed) const;
 };

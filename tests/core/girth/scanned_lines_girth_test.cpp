@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -146,6 +147,20 @@ TEST(ScannedLinesGirth, OfFewLinesAlongABodyIsRound) {
     const Errors errors = errors_of({45, 32, false, 14.0, step});
     EXPECT_EQ(errors.told, 12) << step;
     EXPECT_LT(errors.most, 0.1) << step;
+  }
+}
+
+/// Each kept a cell of its own where hundreds of points of the lines were thinned to one: contact
+/// lengths were up to 129 mm too long.
+TEST(ScannedLinesGirth, OfAFewStraysIsToldByTheLines) {
+  for (const bool round : {true, false}) {
+    for (const auto& [apart, step, sigma] :
+         {std::array{2.7, 0.15, 0.05}, {4.0, 0.15, 0.2}, {6.0, 0.4, 0.0}, {8.0, 0.4, 0.4}}) {
+      const Errors errors = errors_of({42, 32, round, apart, step, sigma, 0.005}, 2);
+      EXPECT_EQ(errors.told, 6) << round << " " << apart;
+      EXPECT_GE(errors.held, 5) << round << " " << apart;
+      EXPECT_LT(errors.most, 0.3) << round << " " << apart;
+    }
   }
 }
 

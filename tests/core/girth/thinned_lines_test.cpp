@@ -96,6 +96,19 @@ TEST(ThinnedLines, LieNoneBesideAnother) {
   }
 }
 
+/// Each kept a cell of its own, or bent the average of its line.
+TEST(ThinnedLines, LeaveOutStrays) {
+  for (const bool round : {true, false}) {
+    for (const double sigma : {0.0, 0.1}) {
+      PointCloud cloud;
+      cloud.positions = ScannedLines{kRadius, kRadius, round, 4.0, 0.2, sigma, 0.005}.positions(1);
+      for (const double height : heights_of(thinned_lines(cloud, slab_of(cloud), {0.2, 4.0}))) {
+        EXPECT_NEAR(height, 0.0, std::max(6.0 * sigma, 1e-9)) << round << " " << sigma;
+      }
+    }
+  }
+}
+
 /// Two scanners on the same lines, one of them a tenth as good.
 TEST(ThinnedLines, BelieveTheBetterPoints) {
   auto good = scanned(true, 6.0, 0.4, 0.05);
