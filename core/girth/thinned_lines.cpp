@@ -279,20 +279,20 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
                         bool weighed) {
   if (slab.places.empty()) return slab;
-  auto crowding = crowding_points(slab.places, lines.apart / kCells);
+  auto left_out = crowding_points(slab.places, lines.apart / kCells);
   const LineAverages averages(cloud, slab, lines.apart, weighed);
   std::vector<Stretch> stretches;
-  for (std::size_t i = 0; i < crowding.size(); ++i) {
-    if (!crowding[i]) stretches.push_back(averages.round(i));
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    if (!left_out[i]) stretches.push_back(averages.round(i));
   }
   const double scatter = usual_scatter(stretches);
   if (scatter < kThickLine * lines.apart) {
-    std::erase_if(stretches, [&](const Stretch& stretch) {
-      if (stretch.is_of_stray) crowding[stretch.number] = true;
-      return stretch.is_of_stray;
-    });
+    for (const auto& stretch : stretches) {
+      if (stretch.is_of_stray) left_out[stretch.number] = true;
+    }
+    std::erase_if(stretches, [](const Stretch& stretch) { return stretch.is_of_stray; });
   }
-  if (scatter < kExact * lines.apart) return without(crowding, slab);
+  if (scatter < kExact * lines.apart) return without(left_out, slab);
   const PlaneSlab averaged = slab_of(std::move(stretches), slab);
   return without(near_copies(averaged.places, kSameStretch * lines.apart / kStretches), averaged);
 }
