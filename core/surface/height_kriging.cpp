@@ -202,6 +202,16 @@ double HeightKriging::left_out(const Solution& solution) const {
   return sum / static_cast<double>(count);
 }
 
+HeightKriging::Odd HeightKriging::odd_one(const Solution& solution) const {
+  Odd odd{0, 0.0};
+  solution.on_null_space.head(samples()).cwiseAbs().maxCoeff(&odd.sample);
+  const Eigen::VectorXd own = off_polynomials(Eigen::VectorXd::Unit(scales_.size(), odd.sample));
+  const double square = std::pow(solution.on_null_space[odd.sample], 2);
+  const double share = square / (own.dot(solution.cholesky.solve(own)) * solution.excess);
+  odd.gain = -static_cast<double>(free()) * std::log1p(-std::min(share, 1.0 - 1e-15));
+  return odd;
+}
+
 HeightKriging::Sums HeightKriging::sums(const Solution& solution, const Eigen::Matrix2Xd& places,
                                         const Eigen::MatrixXd& shares) const {
   const Eigen::Index rank = basis_.cols();

@@ -72,6 +72,14 @@ class HeightKriging {
   /// same at all scales; less where the surface is smoother than the kernel takes it to be. O(n^3).
   double left_out(const Solution& solution) const;
 
+  /// The sample that the others tell least of, by what it counts for most.
+  struct Odd {
+    Eigen::Index sample;
+    double gain;  ///< of twice the log likelihood of the others, if it is left out
+  };
+  /// Among the heights. O(n^2).
+  Odd odd_one(const Solution& solution) const;
+
   /// What sums of the solution's heights rest on.
   struct Sums {
     Eigen::MatrixXd influence;  ///< by how much each reading moves each sum: a column

@@ -244,6 +244,16 @@ HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& position
   return sums;
 }
 
+HeightPatch::Odd HeightPatch::odd_one() const {
+  const auto [sample, gain] = kriging_->odd_one(solution_);
+  if (cells_.empty()) return {{static_cast<std::size_t>(sample)}, gain};
+  Odd odd{{}, gain};
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i] == sample) odd.points.push_back(i);
+  }
+  return odd;
+}
+
 bool HeightPatch::is_smooth() const {
   return kriging_->kernel() == HeightKernel::kSeptic;
 }

@@ -58,6 +58,14 @@ class HeightPatch {
   /// which hides it. O(samples^3).
   double fine_bending() const;
 
+  /// The point that is most likely a stray, or all points of a cell that were averaged, and by how
+  /// much the others are likelier without (twice the log likelihood). O(samples^2 + points).
+  struct Odd {
+    std::vector<std::size_t> points;  ///< ascending
+    double gain;
+  };
+  Odd odd_one() const;
+
   /// Whether the points carry no noise worth smoothing.
   bool is_exact() const { return exact_; }
 
