@@ -12,6 +12,12 @@ constexpr double kLeastDetermined = 1e-3;
 /// say in how rough the surface is.
 constexpr double kLargestScale = 1e3;
 
+/// A sample of which the others tell less than this, against the one that they tell most of, is
+/// told by the polynomial alone: it has nothing left over but rounding.
+constexpr double kLeastTold = 1e-9;
+/// Of what is left over: short of all of it, whose logarithm knows no end.
+constexpr double kMostShare = 1.0 - 1e-15;
+
 /// Diagonal of the inverse of what was decomposed, by the columns of the inverse of the factor:
 /// each begins as far down as it stands to the right.
 Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
@@ -185,30 +191,36 @@ Polynomial HeightKriging::polynomial(const Solution& solution) const {
   return polynomial;
 }
 
-double HeightKriging::left_out(const Solution& solution) const {
-  const Eigen::Index count = scales_.size();
+Eigen::ArrayXd HeightKriging::diagonal_of_inverse(const Solution& solution) const {
   const Eigen::Index rest = free();
-  // The diagonal of the inverse, reflected from both sides.
-  Eigen::MatrixXd solved = Eigen::MatrixXd::Zero(count, basis_.cols());
+  Eigen::MatrixXd solved = Eigen::MatrixXd::Zero(scales_.size(), basis_.cols());
   solved.bottomRows(rest) = solution.cholesky.solve(reflectors_.bottomRows(rest));
   const Eigen::MatrixXd square = reflectors_.transpose() * solved;
-  Eigen::VectorXd own =
+  Eigen::ArrayXd own =
       (scaled_reflectors_ * square - 2.0 * solved).cwiseProduct(scaled_reflectors_).rowwise().sum();
-  own.tail(rest) += inverse_diagonal(solution.cholesky);
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    if (own[i] > 0.0) sum += solution.on_null_space[i] * solution.on_null_space[i] / own[i];
-  }
-  return sum / static_cast<double>(count);
+  own.tail(rest) += inverse_diagonal(solution.cholesky).array();
+  return own;
 }
 
-HeightKriging::Odd HeightKriging::odd_one(const Solution& solution) const {
+double HeightKriging::left_out(const Solution& solution) const {
+  const Eigen::ArrayXd own = diagonal_of_inverse(solution);
+  const Eigen::ArrayXd squares = solution.on_null_space.array().square() / own;
+  return (own > 0.0).select(squares, 0.0).sum() / static_cast<double>(scales_.size());
+}
+
+double HeightKriging::most_leverage() const {
+  return basis_.topRows(samples()).rowwise().squaredNorm().maxCoeff();
+}
+
+HeightKriging::Odd HeightKriging::odd_one(const Solution& solution, double harmless) const {
   Odd odd{0, 0.0};
-  solution.on_null_space.head(samples()).cwiseAbs().maxCoeff(&odd.sample);
-  const Eigen::VectorXd own = off_polynomials(Eigen::VectorXd::Unit(scales_.size(), odd.sample));
-  const double square = std::pow(solution.on_null_space[odd.sample], 2);
-  const double share = square / (own.dot(solution.cholesky.solve(own)) * solution.excess);
-  odd.gain = -static_cast<double>(free()) * std::log1p(-std::min(share, 1.0 - 1e-15));
+  const Eigen::ArrayXd off = from_off_polynomials(free_heights_).col(0).array() / scales_;
+  if (!(off.head(samples()).abs().maxCoeff() > harmless)) return odd;
+  const Eigen::ArrayXd own = diagonal_of_inverse(solution).head(samples());
+  const Eigen::ArrayXd squares = solution.on_null_space.head(samples()).array().square() / own;
+  const auto told = own > kLeastTold * own.maxCoeff();
+  const double share = told.select(squares, 0.0).maxCoeff(&odd.sample) / solution.excess;
+  odd.gain = -static_cast<double>(free()) * std::log1p(-std::min(share, kMostShare));
   return odd;
 }
 

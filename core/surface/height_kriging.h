@@ -72,13 +72,19 @@ class HeightKriging {
   /// same at all scales; less where the surface is smoother than the kernel takes it to be. O(n^3).
   double left_out(const Solution& solution) const;
 
-  /// The sample that the others tell least of, by what it counts for most.
+  /// The most that the polynomial follows one height: of one, it passes through it whatever the
+  /// others are.
+  double most_leverage() const;
+
+  /// The height that is least like what the others tell of it.
   struct Odd {
     Eigen::Index sample;
     double gain;  ///< of twice the log likelihood of the others, if it is left out
   };
-  /// Among the heights. O(n^2).
-  Odd odd_one(const Solution& solution) const;
+  /// By what each takes of the excess: the square of its weight over its entry of the diagonal of
+  /// the inverse (Dubrule 1983). No gain where no height is more than `harmless` off the polynomial
+  /// alone; else O(n^3).
+  Odd odd_one(const Solution& solution, double harmless) const;
 
   /// What sums of the solution's heights rest on.
   struct Sums {
@@ -101,6 +107,8 @@ class HeightKriging {
   /// The part off the polynomials in the basis of reduced(), and back.
   Eigen::MatrixXd off_polynomials(const Eigen::MatrixXd& scaled) const;
   Eigen::MatrixXd from_off_polynomials(const Eigen::MatrixXd& reduced) const;
+  /// Of the system on the null space, reflected from both sides: for each reading.
+  Eigen::ArrayXd diagonal_of_inverse(const Solution& solution) const;
 
   HeightKernel kernel_ = HeightKernel::kCubic;
   Eigen::Matrix2Xd places_;

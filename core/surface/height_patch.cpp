@@ -42,6 +42,11 @@ struct SmootherKernel {
 };
 constexpr SmootherKernel kSmootherKernels[] = {{HeightKernel::kQuintic, 6.0},
                                                {HeightKernel::kSeptic, 30.0}};
+/// Of the terms that a smoother kernel asks for one point must not tell one alone: where that is a
+/// stray beside the lines of a scanner, surfaces were 20 mm off.
+constexpr double kMostLeverage = 0.95;
+/// A point so little off the quadratic (of the radius) is no stray worth asking for.
+constexpr double kHarmlesslyOff = 0.01;
 /// The variances of told slopes that are tried, against the roughness: normals may be as exact as
 /// the points, or made from these by whoever sent them, or smoothed over creases.
 constexpr double kExactSlopes = 1e-6;
@@ -143,7 +148,8 @@ std::optional<Fit> likeliest_exact_fit(const HeightSamples& samples, double usua
   auto fit = exact_fit(samples, Quadratic::RowsAtCompileTime, HeightKernel::kCubic, usual);
   for (const auto& [kernel, least_gain] : kSmootherKernels) {
     auto smoother = exact_fit(samples, fewest_terms(kernel), kernel, usual);
-    if (!smoother || (fit && !(smoother->misfit + least_gain < fit->misfit))) break;
+    if (!smoother || smoother->kriging.most_leverage() > kMostLeverage) break;
+    if (fit && !(smoother->misfit + least_gain < fit->misfit)) break;
     fit = std::move(smoother);
   }
   return fit;
@@ -245,7 +251,7 @@ HeightPatch::Sums HeightPatch::sums(const std::vector<Eigen::Vector3d>& position
 }
 
 HeightPatch::Odd HeightPatch::odd_one() const {
-  const auto [sample, gain] = kriging_->odd_one(solution_);
+  const auto [sample, gain] = kriging_->odd_one(solution_, kHarmlesslyOff);
   if (cells_.empty()) return {{static_cast<std::size_t>(sample)}, gain};
   Odd odd{{}, gain};
   for (std::size_t i = 0; i < cells_.size(); ++i) {

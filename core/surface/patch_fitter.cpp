@@ -56,7 +56,7 @@ constexpr double kFiner = 1.2;
 /// A crease is so much likelier than one smooth sheet.
 constexpr double kLeastGain = 8.0;
 /// Points are strays if the others are so much likelier without, for each of them (of twice the log
-/// likelihood). Of 216 rings and rows with half a percent of points 1 to 3 mm off, 193 girths hold,
+/// likelihood). Of 216 rings and rows with half a percent of points 1 to 3 mm off, 212 girths hold,
 /// and 124 with these left in. So many are looked for, as long as one counts for so much.
 constexpr double kGainOfStray = 30.0;
 constexpr int kMostStrays = 4;

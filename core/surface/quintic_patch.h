@@ -21,7 +21,8 @@ class QuinticPatch {
 
   /// `outward`: unit length, out of the body. `radius` > 0: of the neighbourhood round `centre`.
   /// Nothing if the points are off the polynomial by more than 9e-5 of the radius (root mean
-  /// square), or do not lie on all sides of the centre. O(points).
+  /// square), do not lie on all sides of the centre, or bend it by more than 0.02 of the radius in
+  /// a term of the fourth or fifth degree, as a single one may beside rows of others. O(points).
   static std::optional<QuinticPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre,
                                          const Eigen::Vector3d& outward, double radius);

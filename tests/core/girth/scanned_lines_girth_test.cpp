@@ -164,6 +164,19 @@ TEST(ScannedLinesGirth, OfAFewStraysIsToldByTheLines) {
   }
 }
 
+/// Where nothing is thinned they dented the surface: contact lengths were up to 32 mm too long.
+TEST(ScannedLinesGirth, OfAFewStraysIsToldByThePointsRound) {
+  for (const bool round : {true, false}) {
+    for (const auto& [apart, step, sigma] :
+         {std::array{0.8, 0.8, 0.05}, {1.5, 0.4, 0.0}, {2.7, 0.4, 0.0}, {2.7, 0.8, 0.2}}) {
+      const Errors errors = errors_of({42, 32, round, apart, step, sigma, 0.005}, 2);
+      EXPECT_EQ(errors.told, 6) << round << " " << apart << " " << sigma;
+      EXPECT_GE(errors.held, 5) << round << " " << apart << " " << sigma;
+      EXPECT_LT(errors.most, 0.3) << round << " " << apart << " " << sigma;
+    }
+  }
+}
+
 constexpr double kSigma = 0.2;
 
 PointCloud noisy_rings() {

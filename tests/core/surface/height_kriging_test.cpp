@@ -277,6 +277,62 @@ TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
   }
 }
 
+/// Of twice the log likelihood of the others, with the roughness that fits them best, if each in
+/// turn is left out: what is off by that is held against as many free readings as before.
+VectorXd gains_by_fitting_the_others(const HeightSamples& samples, double ratio,
+                                     const Model& model) {
+  const auto excess_of = [&](const HeightSamples& some) {
+    return model.of(some).value().solve(ratio).value().excess;
+  };
+  const auto free = static_cast<double>(samples.size() - model.terms);
+  const double excess = excess_of(samples);
+  VectorXd gains(samples.size());
+  for (Index i = 0; i < samples.size(); ++i)
+    gains[i] = free * std::log(excess / excess_of(without(samples, i)));
+  return gains;
+}
+
+TEST(HeightKriging, OddOneIsThatWithoutWhichTheOthersAreLikeliest) {
+  for (const Model& model : kModels) {
+    for (const double ratio : {1e-6, 1e-2}) {
+      for (const Index stray : {3, 17}) {
+        auto samples = wavy_samples(30, 9);
+        samples.variances.head(2).setConstant(1e-3);  // the scale, whichever is left out
+        samples.heights[stray] += 0.3;
+        const auto kriging = model.of(samples).value();
+        const auto odd = kriging.odd_one(kriging.solve(ratio).value(), 0.0);
+        const VectorXd gains = gains_by_fitting_the_others(samples, ratio, model);
+        Index likeliest = 0;
+        const double most = gains.maxCoeff(&likeliest);
+        EXPECT_EQ(odd.sample, likeliest) << ratio;
+        EXPECT_NEAR(odd.gain, most, 1e-5 * most) << ratio;
+      }
+    }
+  }
+}
+
+TEST(HeightKriging, NoneIsOddThatIsHarmlesslyOff) {
+  auto samples = wavy_samples(30, 10);
+  samples.heights = 0.2 * samples.places.row(0).transpose();
+  const auto gain_of = [&] {
+    const auto kriging = HeightKriging::of(samples, 6).value();
+    return kriging.odd_one(kriging.solve(1e-6).value(), 0.01).gain;
+  };
+  EXPECT_EQ(gain_of(), 0.0) << "on the polynomial";
+  samples.heights[4] += 0.005;
+  EXPECT_EQ(gain_of(), 0.0);
+  samples.heights[4] += 0.05;
+  EXPECT_GT(gain_of(), 30.0);
+}
+
+TEST(HeightKriging, LeverageIsThatOfTheOnlyPointBesideALine) {
+  auto samples = wavy_samples(20, 11);
+  EXPECT_LT(HeightKriging::of(samples, 3)->most_leverage(), 0.7);
+  samples.places.row(1).setZero();
+  samples.places(1, 6) = 0.5;
+  EXPECT_NEAR(HeightKriging::of(samples, 3)->most_leverage(), 1.0, 1e-9);
+}
+
 /// The variance of universal kriging, k - [k p] M^-1 [k p]' with M of eq. 7, less its noise.
 TEST(HeightKriging, WanderingIsTheKrigingVarianceByDenseAlgebra) {
   const Sought sought;

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/oriented_points.h"
@@ -389,6 +390,31 @@ TEST(HeightPatch, RefusesPointsThatDetermineNoSurface) {
     EXPECT_FALSE(fits(OrientedPoints(20, line.front())));
   }
   EXPECT_TRUE(fits(test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 4, 0.0, 17)));
+}
+
+TEST(HeightPatch, TellsAStray) {
+  auto points = test::cap_points(kSphere, 1.0, 60, 0.0, 21);
+  EXPECT_LT(cap_patch(points).odd_one().gain, 16.0);
+  points[23].position += 0.2 * points[23].normal;
+  const auto odd = cap_patch(points).odd_one();
+  EXPECT_EQ(odd.points, std::vector<std::size_t>{23});
+  EXPECT_GT(odd.gain, 30.0);
+}
+
+/// It cannot be told from those that it was averaged with.
+TEST(HeightPatch, TellsAStrayByItsCellWherePointsAreAveraged) {
+  auto points = test::cap_points(kSphere, 1.0, 400, 0.002, 22);
+  EXPECT_LT(cap_patch(points).odd_one().gain, 16.0);
+  points[77].position += 0.4 * points[77].normal;
+  const auto odd = cap_patch(points).odd_one();
+  EXPECT_GT(odd.gain, 30.0);
+  EXPECT_EQ(std::count(odd.points.begin(), odd.points.end(), 77U), 1);
+  EXPECT_LT(odd.points.size(), 25U);
+  EXPECT_TRUE(std::is_sorted(odd.points.begin(), odd.points.end()));
+  for (const std::size_t other : odd.points) {
+    EXPECT_LT((points[other].position - points[77].position).head<2>().cwiseAbs().maxCoeff(),
+              2.0 / 7.0 + 0.05);
+  }
 }
 
 }  // namespace
