@@ -65,9 +65,9 @@ struct Girth {
 /// A section of which more than a quarter has no points is refused; a narrower hole is bridged by
 /// the surface and reported, as far as patches span it: a slit along the body that opens more than
 /// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
-/// than a tenth of it to each side. Strays and loops that far fewer points make are left out; of
-/// several loops the one round the largest area counts, and the others are named in a warning. A
-/// crease such as a last's featherline stays sharp.
+/// than a tenth of it to each side, or that of its contact length than a fifth. Strays and loops
+/// that far fewer points make are left out; of several loops the one round the largest area counts,
+/// and the others are named in a warning. A crease such as a last's featherline stays sharp.
 ///
 /// Normals that come with exact points too far apart to tell the skin between them count with their
 /// slopes, where they agree with the points as right ones do; others only tell inside from outside,

@@ -41,6 +41,9 @@ constexpr double kLeastFounded = 0.25;
 /// the length.
 constexpr double kMostDoubt = 0.1;
 constexpr double kNotableDoubt = 0.02;
+/// The same of the contact length: with so many folds it may be no section at all. A hull of one
+/// was 63 mm short.
+constexpr double kMostFolded = 0.2;
 /// Contact against stretched length of a section that winds more than most bodies do.
 constexpr double kWinding = 1.05;
 /// What is this part of a doubt is its reason: half of its square.
@@ -347,7 +350,9 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   for (const auto& loop : loops) indices.push_back(&loop.index);
   const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
   widen(*band, unknowns, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
+  if (!(section.stretched_u95 <= kMostDoubt * length &&
+        section.contact_u95 <= kMostFolded * length))
+    return too_doubtful(unknowns, section);
 
   ToldGirth told{girth_of(*band, section, evidence)};
   told.girth.points = cloud.size();

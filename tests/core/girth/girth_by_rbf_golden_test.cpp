@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "tests/support/cases/case_classes.h"
+#include "tests/support/cases/drawn_cases.h"
 #include "tests/support/cases/outcome.h"
 
 namespace instep {
@@ -111,6 +113,15 @@ std::string test_name(const ::testing::TestParamInfo<Golden>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, GirthByRbfGolden, ::testing::ValuesIn(goldens()), test_name);
+
+/// Of a sparse noisy foot a contour folded over half of its length; its hull was 63 mm short, with
+/// an interval of 9.
+TEST(FoldedContours, AreRefusedOrHold) {
+  const auto outcome = test::measured(test::DrawnCases()(348));
+  if (outcome.refusal) return;
+  EXPECT_LE(std::abs(outcome.stretched_error_mm), *outcome.stretched_u95_mm);
+  EXPECT_LE(std::abs(outcome.contact_error_mm), *outcome.contact_u95_mm);
+}
 
 }  // namespace
 }  // namespace instep
