@@ -279,16 +279,18 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   return girth;
 }
 
-tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
-                                   const MeasuredSection& section) {
-  if (is_most_of(unknowns.skin.stretched, section)) {
-    return fail(ErrorCode::kInsufficientData,
-                std::string("points lead away from the section at the tape plane") + kNoSkinFound,
-                "take it away, scan from nearer, or move the plane");
-  }
+tl::unexpected<Error> too_few_or_noisy() {
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane are too few or too noisy to tell the girth",
               "scan again, with more or better frames");
+}
+
+tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
+                                   const MeasuredSection& section) {
+  if (!is_most_of(unknowns.skin.stretched, section)) return too_few_or_noisy();
+  return fail(ErrorCode::kInsufficientData,
+              std::string("points lead away from the section at the tape plane") + kNoSkinFound,
+              "take it away, scan from nearer, or move the plane");
 }
 
 /// For normals that let no section close, as those of which one stretch points inwards.
@@ -350,9 +352,8 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options) {
   for (const auto& loop : loops) indices.push_back(&loop.index);
   const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
   widen(*band, unknowns, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length &&
-        section.contact_u95 <= kMostFolded * length))
-    return too_doubtful(unknowns, section);
+  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
+  if (!(section.contact_u95 <= kMostFolded * length)) return too_few_or_noisy();
 
   ToldGirth told{girth_of(*band, section, evidence)};
   told.girth.points = cloud.size();

@@ -79,11 +79,12 @@ class HeightKriging {
   /// The height that is least like what the others tell of it.
   struct Odd {
     Eigen::Index sample;
-    double gain;  ///< of twice the log likelihood of the others, if it is left out
+    double gain;  ///< of twice the log likelihood, if this one may be off by anything
   };
   /// By what each takes of the excess: the square of its weight over its entry of the diagonal of
-  /// the inverse (Dubrule 1983). No gain where no height is more than `harmless` off the polynomial
-  /// alone; else O(n^3).
+  /// the inverse (Dubrule 1983). No gain where so few are left free that each takes most of it,
+  /// nor, to save the work, where no height is more than `harmless` off the polynomial; else
+  /// O(n^3).
   Odd odd_one(const Solution& solution, double harmless) const;
 
   /// What sums of the solution's heights rest on.

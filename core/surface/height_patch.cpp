@@ -45,7 +45,8 @@ constexpr SmootherKernel kSmootherKernels[] = {{HeightKernel::kQuintic, 6.0},
 /// Of the terms that a smoother kernel asks for one point must not tell one alone: where that is a
 /// stray beside the lines of a scanner, surfaces were 20 mm off.
 constexpr double kMostLeverage = 0.95;
-/// A point so little off the quadratic (of the radius) is no stray worth asking for.
+/// Where all points are so little off the polynomial (of the radius) no stray is worth the work of
+/// asking for it.
 constexpr double kHarmlesslyOff = 0.01;
 /// The variances of told slopes that are tried, against the roughness: normals may be as exact as
 /// the points, or made from these by whoever sent them, or smoothed over creases.

@@ -55,12 +55,15 @@ constexpr std::size_t kAskedOneIn = 6;
 constexpr double kFiner = 1.2;
 /// A crease is so much likelier than one smooth sheet.
 constexpr double kLeastGain = 8.0;
-/// Points are strays if the others are so much likelier without, for each of them (of twice the log
-/// likelihood). Of 216 rings and rows with half a percent of points 1 to 3 mm off, 212 girths hold,
-/// and 124 with these left in. So many are looked for, as long as one counts for so much.
+/// A point, or where points are averaged a cell of them, is a stray if the others gain so much by
+/// leaving it out. Of 216 rings and rows with half a percent of points 1 to 3 mm off, 212 girths
+/// hold, and 124 with these left in. A bump narrower than the
+/// spacing, of one to four points, is taken for some.
 constexpr double kGainOfStray = 30.0;
-constexpr int kMostStrays = 4;
+/// The first of two strays side by side gains at least so much.
 constexpr double kGainOfOdd = 16.0;
+/// Of a patch. Looking for eight finds no more of them.
+constexpr int kMostStrays = 4;
 /// An edge may be round where no points lie: part of what a length over it would lose by that.
 constexpr double kRounding = 0.2;
 
@@ -114,8 +117,8 @@ void erase_at(const std::vector<std::size_t>& positions, std::vector<std::size_t
 
 /// Fits a sheet of `numbers` again without those of them that are strays. One may hide another: the
 /// first of two that lie side by side gains little.
-template <class Fit>
-void leave_out_strays(const Fit& fit_of, std::vector<std::size_t>& numbers, HeightPatch& sheet) {
+template <class FitOf>
+void leave_out_strays(const FitOf& fit_of, std::vector<std::size_t>& numbers, HeightPatch& sheet) {
   std::vector<std::size_t> fewer = numbers;
   double gain = 0.0;
   auto odd = sheet.odd_one();
@@ -325,7 +328,6 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
         return creased;
     }
     if (auto creased = fit_creased(here, place, members, likely)) return creased;
-    const auto points = points_.at(members.front);
     auto patch = fit_sheet(here, place, members, likely);
     if (!patch) {
       // Points on a line, such as one row of a scan, ask for more.
@@ -334,7 +336,8 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       continue;
     }
     const auto& sheet = std::get<HeightPatch>(patch->field);
-    if (!nearest_only && blurs(sheet, points, patch->radius)) {
+    // Of all points: a cell that was left out may be detail that averages hide.
+    if (!nearest_only && blurs(sheet, points_.at(members.front), patch->radius)) {
       if (auto finer = fit_finer(here, place, sheet, likely)) return finer;
     }
     if (sheet.is_smooth() && nearest_only && here.nearest.size() <= points_.rule().points) {

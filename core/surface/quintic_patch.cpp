@@ -19,8 +19,9 @@ constexpr double kMostVariance = 8e-9;
 constexpr double kMostAtCentre = 18.0;
 
 /// Of the terms of the fourth and fifth degree, in unit scale. Where points stand in rows one stray
-/// may tell such a term alone, and would pass for lying on the surface: 0.2 mm off for 2 mm. On
-/// exact skin of a foot it is 0.005, at most 0.02.
+/// may tell such a term alone, and would pass for lying on the surface: 0.2 mm off for 2 mm. Of 134
+/// patches of exact feet of 50,000 and 200,000 points the largest was 0.0005 as a rule, 0.017 at
+/// most. It changes with the axes by up to twice; what is refused becomes a HeightPatch.
 constexpr double kMostBent = 0.02;
 
 using Terms = Eigen::Matrix<double, kTerms, 1>;
@@ -88,6 +89,7 @@ Square products_of(const Evidence& evidence) {
   return products;
 }
 
+/// The largest of those, by size.
 double most_bent(const Terms& terms) {
   double most = 0.0;
   Eigen::Index term = 0;

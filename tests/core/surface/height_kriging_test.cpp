@@ -325,6 +325,14 @@ TEST(HeightKriging, NoneIsOddThatIsHarmlesslyOff) {
   EXPECT_GT(gain_of(), 30.0);
 }
 
+/// One that is left free takes all of the excess.
+TEST(HeightKriging, NoneIsOddOfFew) {
+  auto samples = wavy_samples(7, 12);
+  samples.heights[3] += 0.5;
+  const auto kriging = HeightKriging::of(samples, 6).value();
+  EXPECT_EQ(kriging.odd_one(kriging.solve(1e-6).value(), 0.0).gain, 0.0);
+}
+
 TEST(HeightKriging, LeverageIsThatOfTheOnlyPointBesideALine) {
   auto samples = wavy_samples(20, 11);
   EXPECT_LT(HeightKriging::of(samples, 3)->most_leverage(), 0.7);
