@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/surface/point_lines.h"
+#include "core/surface/stray_free_sheet.h"
 
 namespace instep {
 namespace {
@@ -55,15 +56,6 @@ constexpr std::size_t kAskedOneIn = 6;
 constexpr double kFiner = 1.2;
 /// A crease is so much likelier than one smooth sheet.
 constexpr double kLeastGain = 8.0;
-/// A point, or where points are averaged a cell of them, is a stray if the others gain so much by
-/// leaving it out. Of 216 rings and rows with half a percent of points 1 to 3 mm off, 212 girths
-/// hold, and 124 with these left in. A bump narrower than the
-/// spacing, of one to four points, is taken for some.
-constexpr double kGainOfStray = 30.0;
-/// The first of two strays side by side gains at least so much.
-constexpr double kGainOfOdd = 16.0;
-/// Of a patch. Looking for eight finds no more of them.
-constexpr int kMostStrays = 4;
 /// An edge may be round where no points lie: part of what a length over it would lose by that.
 constexpr double kRounding = 0.2;
 
@@ -106,33 +98,6 @@ bool blurs(const HeightPatch& sheet, const std::vector<OrientedPoint>& points, d
   if (!sheet.is_exact() || points.size() <= kMostHeightSamples) return false;
   const double most = kBlurred * radius;
   return off_by(sheet, points) > most * most * static_cast<double>(points.size());
-}
-
-/// `positions`: ascending.
-void erase_at(const std::vector<std::size_t>& positions, std::vector<std::size_t>& numbers) {
-  for (auto position = positions.rbegin(); position != positions.rend(); ++position) {
-    numbers.erase(numbers.begin() + static_cast<std::ptrdiff_t>(*position));
-  }
-}
-
-/// Fits a sheet of `numbers` again without those of them that are strays. One may hide another: the
-/// first of two that lie side by side gains little.
-template <class FitOf>
-void leave_out_strays(const FitOf& fit_of, std::vector<std::size_t>& numbers, HeightPatch& sheet) {
-  std::vector<std::size_t> fewer = numbers;
-  double gain = 0.0;
-  auto odd = sheet.odd_one();
-  for (int strays = 1; strays <= kMostStrays && odd.gain > kGainOfOdd; ++strays) {
-    gain += odd.gain - kGainOfStray;
-    erase_at(odd.points, fewer);
-    auto without = fit_of(fewer);
-    if (!without) return;
-    odd = without->odd_one();
-    if (gain <= 0.0) continue;
-    gain = 0.0;
-    sheet = std::move(*without);
-    numbers = fewer;
-  }
 }
 
 }  // namespace
@@ -209,17 +174,18 @@ std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& 
 std::optional<SurfacePatch> PatchFitter::fit_sheet(const Surroundings& surroundings,
                                                    const Eigen::Vector3d& place,
                                                    const Members& members, double roughness) const {
-  const auto fit_of = [&](const std::vector<std::size_t>& numbers) {
-    return HeightPatch::fit(points_.at(numbers), place, members.outward, members.front_radius,
-                            roughness, surroundings.reach <= kCrowdedReach);
+  const auto front = points_.at(members.front);
+  const auto fit_to = [&](const std::vector<OrientedPoint>& points) {
+    return HeightPatch::fit(points, place, members.outward, members.front_radius, roughness,
+                            surroundings.reach <= kCrowdedReach);
   };
-  auto numbers = members.front;
-  auto sheet = fit_of(numbers);
+  auto sheet = StrayFreeSheet::of(front, fit_to);
   if (!sheet) return std::nullopt;
-  leave_out_strays(fit_of, numbers, *sheet);
+  auto& numbers = sheet->numbers;
+  for (auto& number : numbers) number = members.front[number];
   const Eigen::Vector3d middle = middle_of(points_.at(numbers));
-  return SurfacePatch{place, middle, members.front_radius, std::move(*sheet), std::move(numbers),
-                      0.0};
+  return SurfacePatch{
+      place, middle, members.front_radius, std::move(sheet->patch), std::move(numbers), 0.0};
 }
 
 /// A patch of the nearest points, if most of them tell about as well where the others lie as the
@@ -336,7 +302,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       continue;
     }
     const auto& sheet = std::get<HeightPatch>(patch->field);
-    // Of all points: a cell that was left out may be detail that averages hide.
+    // Of all points: what was left out may be detail that averages hide.
     if (!nearest_only && blurs(sheet, points_.at(members.front), patch->radius)) {
       if (auto finer = fit_finer(here, place, sheet, likely)) return finer;
     }

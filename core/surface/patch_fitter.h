@@ -16,9 +16,7 @@ namespace instep {
 /// neighbours make it, wider where noise asks for it and the surface allows it, over holes and
 /// across lines that the points of a smooth surface lie on; with two sheets where the points tell a
 /// crease; a field in space where a thin part shows both of its sides. A smooth sheet leaves out
-/// the few points, or cells of averaged ones, that the others plainly do not tell: strays that lie
-/// near the skin, and bumps of fewer than about four points or cells, which cannot be told from
-/// these. Read-only: may be used from several threads.
+/// strays that lie near the skin (StrayFreeSheet). Read-only: may be used from several threads.
 class PatchFitter {
  public:
   /// At least four points, in a unit in which the body is about one long, whose positions `index`
