@@ -86,13 +86,17 @@ std::vector<bool> stray_points(const PointIndex& index, double spacing) {
   return strays;
 }
 
+double own_spacing(const PointIndex& index, const Eigen::Vector3d& point) {
+  return own_spacing(index.nearest(point, kNeighbours + 1));
+}
+
 double usual_spacing(const PointIndex& index, std::size_t sample) {
   const auto& points = index.points();
   if (points.size() < 2 || sample == 0) return 0.0;
   std::vector<double> spacings;
   const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
   for (std::size_t i = 0; i < points.size(); i += stride) {
-    spacings.push_back(own_spacing(index.nearest(points[i], kNeighbours + 1)));
+    spacings.push_back(own_spacing(index, points[i]));
   }
   return median(std::move(spacings));
 }

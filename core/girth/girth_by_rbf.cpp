@@ -235,8 +235,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
   warn_if(!skin.is_any() && leaves_points_unexplained(band, loops, evidence, kNotableUnexplained),
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
-  const auto points = static_cast<double>(band.points.size() + band.strays);
-  warn_if(static_cast<double>(band.strays) > kNotableUnexplained * points,
+  warn_if(band.stray_share > kNotableUnexplained,
           "many points near the plane stand alone and were left out");
   for (auto& disbelief : disbelief_of(band)) girth.warnings.push_back(std::move(disbelief));
   if (!layers && !band.scattered.empty()) {
@@ -255,8 +254,10 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
   const bool out_of_sight = is_most_of(bends.stretched_u95, section);
+  const double doubt =
+      folds > 0.0 ? section.stretched_u95 : std::max(section.stretched_u95, section.contact_u95);
   warn_if(!is_most_of(skin.stretched, section) &&
-              section.stretched_u95 > kNotableDoubt * loops.front().contour.length(),
+              doubt > kNotableDoubt * loops.front().contour.length(),
           out_of_sight ? "the section may bend more sharply where no camera saw it, so that the "
                          "girth is uncertain: scan the body from there too"
                        : "the points are so few or noisy that the girth is uncertain");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/geometry/crowding_points.h"
+#include "core/geometry/hovering_points.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/stray_points.h"
@@ -30,6 +31,8 @@ constexpr double kCopy = 0.15;
 constexpr double kManyCopies = 0.6;
 /// A share of the points that stands alone, with which more are to be looked for.
 constexpr double kManyStrays = 0.005;
+/// Rounds in which those that hover over the skin are looked for.
+constexpr int kMostHovering = 12;
 /// Places where noise is looked for lie so near to the plane.
 constexpr double kNoisePlacesInSpacings = 1.5;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
@@ -110,6 +113,17 @@ PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sig
   }
 }
 
+/// Where many strays fly about, some have others beside them, and some came to lie near to the
+/// skin.
+void drop_strays_in_company(PlaneBand& band) {
+  for (int round = 0; round < kMostHovering; ++round) {
+    const auto hovering = hovering_points(band.index, band.spacing);
+    if (std::find(hovering.begin(), hovering.end(), true) == hovering.end()) break;
+    drop(hovering, band);
+  }
+  drop(off_skin_points(band.index, band.spacing), band);
+}
+
 void drop_strays(PlaneBand& band) {
   if (!(band.spacing > 0.0)) return;
   const std::size_t all = band.sources.size();
@@ -117,11 +131,9 @@ void drop_strays(PlaneBand& band) {
   const auto alone = std::count(strays.begin(), strays.end(), true);
   if (alone == 0) return;
   drop(strays, band);
-  // Where some fly about, others came to lie nearer to the skin.
-  if (static_cast<double>(alone) > kManyStrays * static_cast<double>(all)) {
-    drop(off_skin_points(band.index, band.spacing), band);
-  }
-  band.strays = all - band.sources.size();
+  if (static_cast<double>(alone) > kManyStrays * static_cast<double>(all))
+    drop_strays_in_company(band);
+  band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / static_cast<double>(all);
 }
 
 /// Points next to the plane that were seen, in the order in which they lie round the middle. Those
@@ -179,7 +191,7 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
   if (!noise) return std::nullopt;
   drop_strays(band);
   // What strays are beside them the whole crowd tells.
-  if (band.strays > 0) return std::nullopt;
+  if (band.stray_share > 0.0) return std::nullopt;
   return BandAndNoise{std::move(band), std::move(*noise)};
 }
 
@@ -313,6 +325,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
                 "give control points that cut the body");
   }
   if (!band.shares.empty()) band.usual_share = median(band.shares);
+  band.stray_share += slabs.stray_share();
   band.sigma = noise.sigma;
   band.shown_sigma = noise.shown;
   band.told_scale = noise.told_scale;

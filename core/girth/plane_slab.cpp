@@ -172,14 +172,20 @@ PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
     widest_ = slab_of(cloud_, plane_, half_width_);
-    if (lines_) widest_ = thinned_lines(cloud_, widest_, *lines_, weighed_);
+    if (lines_) thin_widest();
   }
   return within(widest_, half_width);
 }
 
 void SlabSource::thin(const ScanLines& lines) {
   lines_ = lines;
-  widest_ = thinned_lines(cloud_, widest_, lines, weighed_);
+  thin_widest();
+}
+
+void SlabSource::thin_widest() {
+  ThinnedLines thinned = thinned_lines(cloud_, widest_, *lines_, weighed_);
+  widest_ = std::move(thinned.slab);
+  stray_share_ = thinned.stray_share;
 }
 
 bool is_cut(const std::vector<Eigen::Vector3d>& places) {

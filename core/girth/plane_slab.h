@@ -52,12 +52,18 @@ class SlabSource {
   void thin(const ScanLines& lines);
   bool is_thinned() const { return lines_.has_value(); }
 
+  /// Of the points of the widest slab: strays amid lines, left out by thinning.
+  double stray_share() const { return stray_share_; }
+
  private:
+  void thin_widest();
+
   const PointCloud& cloud_;
   TapePlane plane_;
   bool weighed_;
   double size_ = 0.0;
   std::optional<ScanLines> lines_;
+  double stray_share_ = 0.0;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it
 };

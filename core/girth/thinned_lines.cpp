@@ -276,9 +276,9 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 
 }  // namespace
 
-PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
-                        bool weighed) {
-  if (slab.places.empty()) return slab;
+ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
+                           bool weighed) {
+  if (slab.places.empty()) return {};
   auto left_out = crowding_points(slab.places, lines.apart / kCells);
   const LineAverages averages(cloud, slab, lines.apart, weighed);
   std::vector<Stretch> stretches;
@@ -286,15 +286,18 @@ PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const Sc
     if (!left_out[i]) stretches.push_back(averages.round(i));
   }
   const double scatter = usual_scatter(stretches);
+  std::size_t strays = 0;
   if (scatter < kThickLine * lines.apart) {
     for (const auto& stretch : stretches) {
       if (stretch.is_of_stray) left_out[stretch.number] = true;
     }
-    std::erase_if(stretches, [](const Stretch& stretch) { return stretch.is_of_stray; });
+    strays = std::erase_if(stretches, [](const Stretch& stretch) { return stretch.is_of_stray; });
   }
-  if (scatter < kExact * lines.apart) return without(left_out, slab);
+  const double stray_share = static_cast<double>(strays) / static_cast<double>(slab.places.size());
+  if (scatter < kExact * lines.apart) return {without(left_out, slab), stray_share};
   const PlaneSlab averaged = slab_of(std::move(stretches), slab);
-  return without(near_copies(averaged.places, kSameStretch * lines.apart / kStretches), averaged);
+  const auto repeated = near_copies(averaged.places, kSameStretch * lines.apart / kStretches);
+  return {without(repeated, averaged), stray_share};
 }
 
 }  // namespace instep

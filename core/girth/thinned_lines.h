@@ -6,6 +6,12 @@
 
 namespace instep {
 
+/// What thinned_lines() leaves of a slab.
+struct ThinnedLines {
+  PlaneSlab slab;
+  double stray_share = 0.0;  ///< of the points: strays, left out
+};
+
 /// Of points on lines that are far apart, as few on each as the lines beside it can be seen with:
 /// of more, patches of the nearest points would see no other line. Exact points are picked, those
 /// of noisy lines averaged along theirs, each over a stretch of its own: four fifths of what they
@@ -17,7 +23,7 @@ namespace instep {
 ///
 /// `slab` in its order, and of the cloud; `lines` in its unit. `weighed`: by what the cloud tells
 /// of the noise of each, if it does. O(m (log m + points within half a gap)) for its m points.
-PlaneSlab thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
-                        bool weighed = true);
+ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
+                           bool weighed = true);
 
 }  // namespace instep

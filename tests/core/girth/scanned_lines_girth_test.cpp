@@ -164,6 +164,19 @@ TEST(ScannedLinesGirth, OfAFewStraysIsToldByTheLines) {
   }
 }
 
+/// They were left out without a word.
+TEST(ScannedLinesGirth, OfManyStraysTellsOfThese) {
+  const auto warnings_with = [](double strays) {
+    PointCloud cloud;
+    cloud.positions = ScannedLines{42, 32, true, 6.0, 0.2, 0.05, strays}.positions(1);
+    return girth_by_rbf(cloud, plane_askew(42, 32, 3)).value().warnings;
+  };
+  EXPECT_TRUE(warnings_with(0.005).empty());
+  const auto warnings = warnings_with(0.04);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings.front(), "many points near the plane stand alone and were left out");
+}
+
 /// Where nothing is thinned they dented the surface: contact lengths were up to 32 mm too long.
 TEST(ScannedLinesGirth, OfAFewStraysIsToldByThePointsRound) {
   for (const bool round : {true, false}) {
