@@ -53,6 +53,10 @@ constexpr double kMostOfDoubt = 0.7;
 /// a few millimetres between two of them passed for the section. A wall beside a body is as much.
 constexpr double kNotableUnexplained = 0.02;
 constexpr double kMostUnexplained = 0.67;
+/// A share of the patches that left out strays, with which these are looked for beforehand. Of
+/// 8,363 girths of bodies without strays one has more, of cylinders with 5 % of their points some 5
+/// mm off all do.
+constexpr double kManyWithStrays = 0.4;
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
 /// Of points that lead away from a section.
@@ -309,7 +313,8 @@ Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
 
 struct ToldGirth {
   Girth girth;
-  bool of_few = false;  ///< most of the points near the plane lie on no loop
+  bool of_few = false;            ///< most of the points near the plane lie on no loop
+  bool strays_near_skin = false;  ///< many of its patches left some out
 
   double doubt() const { return *girth.stretched_u95_mm + *girth.contact_u95_mm; }
 
@@ -321,9 +326,10 @@ struct ToldGirth {
 };
 
 /// Of slabs that are thinned already, or are here if their points ask for it.
-Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options) {
+Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
+                           bool strays_near_skin = false) {
   const PointCloud& cloud = slabs.cloud();
-  auto band = band_at(slabs, options.sigma_mm);
+  auto band = band_at(slabs, options.sigma_mm, strays_near_skin);
   if (!band) return tl::make_unexpected(band.error());
   // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
@@ -358,6 +364,7 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options) {
 
   ToldGirth told{girth_of(*band, section, evidence)};
   told.girth.points = cloud.size();
+  told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.of_few = leaves_points_unexplained(*band, loops, evidence, kMostUnexplained);
   add_warnings(*band, loops, evidence, unknowns, section, told.girth);
   return told;
@@ -375,10 +382,16 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   SlabSource slabs(cloud, plane, !options.sigma_mm);
   auto told = girth_at(slabs, options);
+  // What patches leave out has spoilt the noise and the normals that their points show.
+  const bool strays_near_skin = told && told->strays_near_skin;
+  if (strays_near_skin) {
+    auto cleaned = girth_at(slabs, options, true);
+    if (cleaned && !cleaned->of_few) told = std::move(cleaned);
+  }
   // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
   // seem exact.
   if ((!told || told->is_doubtful()) && thin_thick_lines(slabs)) {
-    auto thinned = girth_at(slabs, options);
+    auto thinned = girth_at(slabs, options, strays_near_skin);
     if (thinned && (!told || is_surer(*thinned, *told))) told = std::move(thinned);
   }
   if (!told) return tl::make_unexpected(std::move(told).error());

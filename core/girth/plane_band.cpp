@@ -113,26 +113,26 @@ PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sig
   }
 }
 
-/// Where many strays fly about, some have others beside them, and some came to lie near to the
-/// skin.
-void drop_strays_in_company(PlaneBand& band) {
+/// Those that have others beside them.
+void drop_hovering(PlaneBand& band) {
   for (int round = 0; round < kMostHovering; ++round) {
     const auto hovering = hovering_points(band.index, band.spacing);
-    if (std::find(hovering.begin(), hovering.end(), true) == hovering.end()) break;
+    if (std::find(hovering.begin(), hovering.end(), true) == hovering.end()) return;
     drop(hovering, band);
   }
-  drop(off_skin_points(band.index, band.spacing), band);
 }
 
-void drop_strays(PlaneBand& band) {
+/// Where many fly about, some came to lie near to the skin.
+void drop_strays(bool near_skin, PlaneBand& band) {
   if (!(band.spacing > 0.0)) return;
   const std::size_t all = band.sources.size();
   const auto strays = stray_points(band.index, band.spacing);
   const auto alone = std::count(strays.begin(), strays.end(), true);
-  if (alone == 0) return;
+  if (alone == 0 && !near_skin) return;
   drop(strays, band);
-  if (static_cast<double>(alone) > kManyStrays * static_cast<double>(all))
-    drop_strays_in_company(band);
+  const bool many = static_cast<double>(alone) > kManyStrays * static_cast<double>(all);
+  if (many) drop_hovering(band);
+  if (many || near_skin) drop(off_skin_points(band.index, band.spacing), band);
   band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / static_cast<double>(all);
 }
 
@@ -189,7 +189,7 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
   band.grain = grain_of(band.spacing, 0.0);
   auto noise = estimate_if_exact(band.index.points(), band.index, along_the_plane(cloud, band));
   if (!noise) return std::nullopt;
-  drop_strays(band);
+  drop_strays(false, band);
   // What strays are beside them the whole crowd tells.
   if (band.stray_share > 0.0) return std::nullopt;
   return BandAndNoise{std::move(band), std::move(*noise)};
@@ -197,14 +197,14 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
 
 /// All points of as wide a band as they ask for. Nothing if they form no surface.
 std::optional<BandAndNoise> whole(SlabSource& slabs, const SectionProbe& found,
-                                  std::optional<double> sigma_mm) {
+                                  std::optional<double> sigma_mm, bool strays_near_skin) {
   PlaneBand band = gather_enough(slabs, found, 0.0);
-  drop_strays(band);
+  drop_strays(strays_near_skin, band);
   if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return std::nullopt;
   NoiseEstimate noise = noise_of(slabs.cloud(), band, sigma_mm);
   if (grain_of(band.spacing, noise.sigma) > band.grain) {
     band = gather_enough(slabs, found, noise.sigma);
-    drop_strays(band);
+    drop_strays(strays_near_skin, band);
     if (band.sources.size() < kFewestPoints) return std::nullopt;
   }
   return BandAndNoise{std::move(band), std::move(noise)};
@@ -308,7 +308,8 @@ double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double s
          unit_mm;
 }
 
-Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
+Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,
+                          bool strays_near_skin) {
   const PointCloud& cloud = slabs.cloud();
   if (cloud.size() < kFewestPoints) {
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
@@ -316,8 +317,8 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm) {
   }
   const auto found = probe_section(slabs);
   if (!found) return tl::make_unexpected(found.error());
-  auto made = sigma_mm ? std::nullopt : thinned(slabs, *found);
-  if (!made) made = whole(slabs, *found, sigma_mm);
+  auto made = sigma_mm || strays_near_skin ? std::nullopt : thinned(slabs, *found);
+  if (!made) made = whole(slabs, *found, sigma_mm, strays_near_skin);
   if (!made) return no_surface();
   auto& [band, noise] = *made;
   if (!is_cut(band.index.points())) {

@@ -66,10 +66,15 @@ struct PlaneBand {
 /// Where they plainly show more than they are told to have, what is told of points that were seen
 /// is raised to that, everywhere or in those places that do.
 ///
+/// Points that stand alone are left out; of many such also those that have others of their kind for
+/// neighbours, and those that rise from the skin near it. `strays_near_skin`: there are known to be
+/// many of the latter, whether others stand alone or not.
+///
 /// The cloud of `slabs` has passed check_cloud(). Fails with kInsufficientData for too few points
 /// or none that form a surface, kInvalidInput for a plane that has none near it or all on one side.
 /// O(points of the cloud), and m log m for the m near the plane.
-Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm);
+Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,
+                          bool strays_near_skin = false);
 
 /// What is to be said where what came with the points was not believed: noise that they contradict,
 /// unless what they show is too little to matter, and normals that contradict each other.

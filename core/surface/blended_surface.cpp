@@ -146,4 +146,11 @@ double BlendedSurface::distance_to_data(const Eigen::Vector3d& place) const {
   return std::sqrt(fitter_.index().nearest(place, 1).front().squared_distance);
 }
 
+double BlendedSurface::share_with_strays() const {
+  if (patches_.empty()) return 0.0;
+  const auto with = std::count_if(patches_.begin(), patches_.end(),
+                                  [](const SurfacePatch& patch) { return patch.has_strays; });
+  return static_cast<double>(with) / static_cast<double>(patches_.size());
+}
+
 }  // namespace instep

@@ -37,6 +37,9 @@ class BlendedSurface {
 
   std::size_t patches() const { return patches_.size(); }
 
+  /// Of the patches, those that left out strays; nothing without patches.
+  double share_with_strays() const;
+
  private:
   /// Where a patch serves, as squares of distances: beside the patches themselves, for every place
   /// asks it of all of them.

@@ -182,10 +182,12 @@ std::optional<SurfacePatch> PatchFitter::fit_sheet(const Surroundings& surroundi
   auto sheet = StrayFreeSheet::of(front, fit_to);
   if (!sheet) return std::nullopt;
   auto& numbers = sheet->numbers;
+  const bool has_strays = numbers.size() < members.front.size();
   for (auto& number : numbers) number = members.front[number];
   const Eigen::Vector3d middle = middle_of(points_.at(numbers));
   return SurfacePatch{
-      place, middle, members.front_radius, std::move(sheet->patch), std::move(numbers), 0.0};
+      place, middle,    members.front_radius, std::move(sheet->patch), std::move(numbers), 0.0,
+      0.0,   has_strays};
 }
 
 /// A patch of the nearest points, if most of them tell about as well where the others lie as the

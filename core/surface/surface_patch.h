@@ -21,7 +21,8 @@ struct SurfacePatch {
   std::variant<HeightPatch, QuinticPatch, CreasedPatch, HermitePatch> field;
   std::vector<std::size_t> members;  ///< the points it was fitted to
   double variance = 0.0;             ///< of the surface round the true one, where no sheet can tell
-  double rounding = 0.0;  ///< likely error (standard deviation) of a length over its crease
+  double rounding = 0.0;    ///< likely error (standard deviation) of a length over its crease
+  bool has_strays = false;  ///< beside the members, which were left out
 
   FieldValue at(const Eigen::Vector3d& place) const;
 

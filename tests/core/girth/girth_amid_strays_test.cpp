@@ -1,0 +1,88 @@
+// Girths of clouds of which one point in twenty is none of the skin's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/girth/girth.h"
+#include "tests/support/analytic_shapes.h"
+#include "tests/support/cylinder_tape.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using test::cylinder;
+using test::level_plane;
+using test::oblique_plane;
+
+/// One in twenty is 20 mm off in any direction, so that some end just beside the skin.
+TEST(GirthAmidStrays, LeavesOutThoseBesideTheSkin) {
+  for (const double sigma : {0.0, 0.1, 0.5}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+      PointCloud cloud = cylinder(4000, sigma, seed);
+      test::RandomNumbers random(seed);
+      for (std::size_t i = 0; i < cloud.size(); i += 20) {
+        const Vector3d way(random.normal(), random.normal(), random.normal());
+        cloud.positions[i] += 20.0 * way.normalized();
+      }
+      const auto girth = girth_by_rbf(cloud, level_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      EXPECT_NEAR(girth->contact_mm, test::kCylinderGirth, 1.0) << sigma << " mm, seed " << seed;
+      EXPECT_FALSE(girth->warnings.empty());
+    }
+  }
+}
+
+/// Two thousand of them stand no further from each other than from the skin: girths were up to 8 mm
+/// too long, more than their intervals, or refused.
+TEST(GirthAmidStrays, LeavesOutThoseThatHaveOthersBesideThem) {
+  for (const double sigma : {0.0, 0.1, 0.3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      PointCloud cloud = cylinder(40000, sigma, seed);
+      test::RandomNumbers random(seed);
+      for (std::size_t i = 0; i < cloud.size(); i += 20) {
+        cloud.positions[i] += 20.0 * Vector3d(random.normal(), random.normal(), random.normal());
+      }
+      const auto girth = girth_by_rbf(cloud, oblique_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      const double truth = test::true_girth(test::elliptic_cylinder(40, 40), oblique_plane());
+      EXPECT_NEAR(girth->contact_mm, truth, 0.01 + sigma) << sigma << " mm, seed " << seed;
+    }
+  }
+}
+
+/// None stands alone, but they spoilt what was told of noise and normals: girths were up to 14 mm
+/// too long, without a warning.
+TEST(GirthAmidStrays, LeavesOutThoseNearTheSkin) {
+  for (const double sigma : {0.0, 0.1, 0.3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      PointCloud cloud = cylinder(2000, sigma, seed);
+      test::RandomNumbers random(seed);
+      for (std::size_t i = 0; i < cloud.size(); i += 20) {
+        Vector3d& position = cloud.positions[i];
+        position.head<2>() *= 1.0 + 5.0 * random.normal() / position.head<2>().norm();
+      }
+      const auto girth = girth_by_rbf(cloud, level_plane());
+      ASSERT_TRUE(girth) << girth.error().line();
+      EXPECT_NEAR(girth->contact_mm, test::kCylinderGirth, 0.1 + 2.0 * sigma)
+          << sigma << " mm, seed " << seed;
+      EXPECT_FALSE(girth->warnings.empty()) << sigma << " mm, seed " << seed;
+    }
+  }
+}
+
+TEST(GirthAmidStrays, LeavesOutThoseOnOneSide) {
+  PointCloud cloud = cylinder(6000, 0.1);
+  test::RandomNumbers random(4);
+  for (std::size_t i = 0; i < cloud.size(); i += 20) {
+    const Vector3d outward = Vector3d(cloud.positions[i].x(), cloud.positions[i].y(), 0);
+    cloud.positions[i] += random.uniform(10, 20) * outward.normalized();
+  }
+  const auto girth = girth_by_rbf(cloud, level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 80 * M_PI, 0.5);
+}
+
+}  // namespace
+}  // namespace instep
