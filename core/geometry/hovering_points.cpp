@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/geometry/moments.h"
 #include "core/geometry/stray_points.h"
@@ -10,22 +11,43 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbours = 12;
-/// Own spacing of points that stand far apart, against that of most.
+/// Own spacing of points that stand far apart, against that of most: as of points that stand alone
+/// against that of their neighbours.
 constexpr double kFarApart = 2.2;
-/// What is further above the skin than so many own spacings may be beyond a bend of it.
-constexpr double kReach = 4.0;
-/// Cosine to the normal of the skin below.
+/// Of the skin: they tell its normal.
+constexpr std::size_t kBelow = 12;
+/// Cosine to that normal.
 constexpr double kStraightAbove = 0.7;
+/// Of those that stand far apart, itself included: they tell whether it lies on a sheet.
+constexpr std::size_t kBeside = 9;
+/// How far a sheet spreads across itself, against along.
+constexpr double kFlat = 0.2;
+/// How much further off the points of a sheet are than all neighbours: beside denser skin these are
+/// of that.
+constexpr double kBesideDenser = 2.0;
 
-/// Of those round a point; without itself, which may be a stray near the skin.
-Eigen::Vector3d normal_at(const PointIndex& skin, std::size_t point) {
-  const Eigen::Vector3d& place = skin.points()[point];
+/// Whether a place is above the skin, and not beside it.
+bool is_above(const PointIndex& skin, const Eigen::Vector3d& place) {
+  const std::size_t below = skin.nearest(place, 1).front().index;
+  const Eigen::Vector3d& foot = skin.points()[below];
   Moments moments;
-  for (const auto& one : skin.nearest(place, kNeighbours)) {
-    if (one.index != point) moments.add(skin.points()[one.index] - place);
+  for (const auto& one : skin.nearest(foot, kBelow)) {
+    // Itself may be a stray near the skin.
+    if (one.index != below) moments.add(skin.points()[one.index] - foot);
   }
-  return moments.flattest();
+  const Eigen::Vector3d arm = place - foot;
+  return std::abs(moments.flattest().dot(arm)) > kStraightAbove * arm.norm();
+}
+
+/// Whether a point that stands far apart has others such beside it on a sheet. `own`: its spacing.
+bool is_on_sheet(const PointIndex& far_apart, const Eigen::Vector3d& place, double own) {
+  const auto beside = far_apart.nearest(place, kBeside);
+  if (beside.size() < kBeside) return false;
+  if (own_spacing(far_apart, place) > kBesideDenser * own) return false;
+  Moments moments;
+  for (const auto& one : beside) moments.add(far_apart.points()[one.index] - place);
+  const Eigen::Vector3d spreads = moments.axes().eigenvalues();
+  return spreads[0] < kFlat * kFlat * spreads[1];
 }
 
 }  // namespace
@@ -33,20 +55,19 @@ Eigen::Vector3d normal_at(const PointIndex& skin, std::size_t point) {
 std::vector<bool> hovering_points(const PointIndex& index, double spacing) {
   const auto& points = index.points();
   std::vector<double> own;
-  std::vector<Eigen::Vector3d> dense;
+  std::vector<Eigen::Vector3d> close;
+  std::vector<Eigen::Vector3d> far;
   for (const auto& point : points) {
     own.push_back(own_spacing(index, point));
-    if (own.back() <= kFarApart * spacing) dense.push_back(point);
+    (own.back() > kFarApart * spacing ? far : close).push_back(point);
   }
   std::vector<bool> hovering(points.size(), false);
-  if (dense.size() < kNeighbours || dense.size() == points.size()) return hovering;
-  const PointIndex skin(std::move(dense));
+  if (close.size() < kBelow || far.empty()) return hovering;
+  const PointIndex skin(std::move(close));
+  const PointIndex far_apart(std::move(far));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (own[i] <= kFarApart * spacing) continue;
-    const std::size_t below = skin.nearest(points[i], 1).front().index;
-    const Eigen::Vector3d arm = points[i] - skin.points()[below];
-    hovering[i] = arm.norm() < kReach * own[i] &&
-                  std::abs(normal_at(skin, below).dot(arm)) > kStraightAbove * arm.norm();
+    hovering[i] = is_above(skin, points[i]) && !is_on_sheet(far_apart, points[i], own[i]);
   }
   return hovering;
 }

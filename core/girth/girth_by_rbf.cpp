@@ -240,7 +240,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
   warn_if(band.stray_share > kNotableUnexplained,
-          "many points near the plane stand alone and were left out");
+          "many points near the plane lie off the skin and were left out");
   for (auto& disbelief : disbelief_of(band)) girth.warnings.push_back(std::move(disbelief));
   if (!layers && !band.scattered.empty()) {
     girth.warnings.push_back(warning_of(band.scattered, band.unit_mm));

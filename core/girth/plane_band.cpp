@@ -29,10 +29,10 @@ constexpr int kMostRounds = 3;
 /// of points along rows half.
 constexpr double kCopy = 0.15;
 constexpr double kManyCopies = 0.6;
-/// A share of the points that stands alone, with which more are to be looked for.
+/// Shares of the points that are strays, with which those over the skin, and those near it, are
+/// looked for: clean noisy clouds have a fortieth of a percent that stand alone.
+constexpr double kSomeStrays = 0.002;
 constexpr double kManyStrays = 0.005;
-/// Rounds in which those that hover over the skin are looked for.
-constexpr int kMostHovering = 12;
 /// Places where noise is looked for lie so near to the plane.
 constexpr double kNoisePlacesInSpacings = 1.5;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
@@ -113,27 +113,20 @@ PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sig
   }
 }
 
-/// Those that have others beside them.
-void drop_hovering(PlaneBand& band) {
-  for (int round = 0; round < kMostHovering; ++round) {
-    const auto hovering = hovering_points(band.index, band.spacing);
-    if (std::find(hovering.begin(), hovering.end(), true) == hovering.end()) return;
-    drop(hovering, band);
-  }
-}
-
-/// Where many fly about, some came to lie near to the skin.
 void drop_strays(bool near_skin, PlaneBand& band) {
   if (!(band.spacing > 0.0)) return;
-  const std::size_t all = band.sources.size();
-  const auto strays = stray_points(band.index, band.spacing);
-  const auto alone = std::count(strays.begin(), strays.end(), true);
-  if (alone == 0 && !near_skin) return;
-  drop(strays, band);
-  const bool many = static_cast<double>(alone) > kManyStrays * static_cast<double>(all);
-  if (many) drop_hovering(band);
-  if (many || near_skin) drop(off_skin_points(band.index, band.spacing), band);
-  band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / static_cast<double>(all);
+  const auto all = static_cast<double>(band.sources.size());
+  const auto drop_strays_among = [&](const std::vector<bool>& strays) {
+    drop(strays, band);
+    band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / all;
+  };
+  const auto alone = stray_points(band.index, band.spacing);
+  if (std::find(alone.begin(), alone.end(), true) != alone.end()) drop_strays_among(alone);
+  // Of many some have others beside them, and some came to lie near to the skin.
+  if (band.stray_share > kSomeStrays) drop_strays_among(hovering_points(band.index, band.spacing));
+  if (near_skin || band.stray_share > kManyStrays) {
+    drop_strays_among(off_skin_points(band.index, band.spacing));
+  }
 }
 
 /// Points next to the plane that were seen, in the order in which they lie round the middle. Those

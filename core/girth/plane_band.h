@@ -30,7 +30,7 @@ struct PlaneBand {
   double grain = 0.0;                     ///< finest detail that they tell, in the unit
   double sigma = 0.0;                     ///< noise of the places, in the unit: the usual one
   double shown_sigma = 0.0;               ///< the one that they show, whatever is told of them
-  double stray_share = 0.0;               ///< of all points: stood alone and were left out
+  double stray_share = 0.0;               ///< of the points, before thinning or after: left out
   std::size_t thinned_out = 0;            ///< exact points of a crowd that tell nothing more
   bool own_sigma = false;                 ///< each point counts by what the cloud tells of it
   double told_scale = 1.0;                ///< by which the noise that is told was raised, as a rule

@@ -20,15 +20,15 @@ constexpr int kMostStrays = 4;
 /// that one is.
 constexpr double kAsFarOff = 0.3;
 
-std::vector<OrientedPoint> at(const std::vector<OrientedPoint>& points,
-                              const std::vector<std::size_t>& numbers) {
+std::vector<OrientedPoint> at(const std::vector<std::size_t>& numbers,
+                              const std::vector<OrientedPoint>& points) {
   std::vector<OrientedPoint> chosen;
   chosen.reserve(numbers.size());
   for (const std::size_t number : numbers) chosen.push_back(points[number]);
   return chosen;
 }
 
-/// Those of `numbers` at other positions than these.
+/// `numbers` without those at the positions, which ascend.
 std::vector<std::size_t> without(const std::vector<std::size_t>& positions,
                                  std::vector<std::size_t> numbers) {
   for (auto position = positions.rbegin(); position != positions.rend(); ++position) {
@@ -37,22 +37,41 @@ std::vector<std::size_t> without(const std::vector<std::size_t>& positions,
   return numbers;
 }
 
-/// The positions of those points of a cell that are off the sheet without it as the furthest one
-/// is; none if most are.
+/// The positions among `numbers` of those points of a cell that are as far off the sheet without it
+/// as the furthest one; none if most are.
 std::vector<std::size_t> off_unlike_most(const HeightPatch& sheet,
-                                         const std::vector<OrientedPoint>& points,
-                                         const std::vector<std::size_t>& cell) {
+                                         const std::vector<std::size_t>& cell,
+                                         const std::vector<std::size_t>& numbers,
+                                         const std::vector<OrientedPoint>& points) {
   std::vector<double> heights;
-  for (const std::size_t position : cell)
-    heights.push_back(sheet.at(points[position].position).value);
+  for (const std::size_t position : cell) {
+    heights.push_back(sheet.at(points[numbers[position]].position).value);
+  }
   const double furthest = *std::max_element(
       heights.begin(), heights.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   std::vector<std::size_t> off;
   for (std::size_t i = 0; i < cell.size(); ++i) {
-    if (heights[i] / furthest > kAsFarOff) off.push_back(cell[i]);
+    if (heights[i] * furthest > kAsFarOff * furthest * furthest) off.push_back(cell[i]);
   }
-  if (2 * off.size() > cell.size()) return {};
-  return off;
+  return 2 * off.size() > cell.size() ? std::vector<std::size_t>{} : off;
+}
+
+/// Of `numbers` without the odd ones, or of a cell of these without those that are off unlike most
+/// of it. Nothing if there are none, or if the others tell no sheet.
+std::optional<StrayFreeSheet> sheet_without(std::vector<std::size_t> odd,
+                                            const std::vector<std::size_t>& numbers,
+                                            const std::vector<OrientedPoint>& points,
+                                            const StrayFreeSheet::FitTo& fit_to) {
+  const auto fitted_without = [&]() -> std::optional<StrayFreeSheet> {
+    auto fewer = without(odd, numbers);
+    auto patch = fit_to(at(fewer, points));
+    if (!patch) return std::nullopt;
+    return StrayFreeSheet{std::move(*patch), std::move(fewer)};
+  };
+  auto sheet = fitted_without();
+  if (!sheet || odd.size() == 1) return sheet;
+  odd = off_unlike_most(sheet->patch, odd, numbers, points);
+  return odd.empty() ? std::nullopt : fitted_without();
 }
 
 }  // namespace
@@ -66,21 +85,15 @@ std::optional<StrayFreeSheet> StrayFreeSheet::of(const std::vector<OrientedPoint
   auto numbers = sheet.numbers;
   double gain = 0.0;
   auto odd = sheet.patch.odd_one();
-  for (int strays = 1; strays <= kMostStrays && odd.gain > kGainOfOdd; ++strays) {
+  for (int round = 1; round <= kMostStrays && odd.gain > kGainOfOdd; ++round) {
     gain += odd.gain - kGainOfStray;
-    auto fewer = fit_to(at(points, without(odd.points, numbers)));
-    if (fewer && odd.points.size() > 1) {
-      const auto cell = odd.points;
-      odd.points = off_unlike_most(*fewer, at(points, numbers), cell);
-      if (odd.points.empty()) return sheet;
-      fewer = fit_to(at(points, without(odd.points, numbers)));
-    }
-    if (!fewer) return sheet;
-    numbers = without(odd.points, std::move(numbers));
-    odd = fewer->odd_one();
+    auto fewer = sheet_without(std::move(odd.points), numbers, points, fit_to);
+    if (!fewer) break;
+    numbers = fewer->numbers;
+    odd = fewer->patch.odd_one();
     if (gain <= 0.0) continue;
     gain = 0.0;
-    sheet = {std::move(*fewer), numbers};
+    sheet = std::move(*fewer);
   }
   return sheet;
 }

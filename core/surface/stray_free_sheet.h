@@ -19,7 +19,7 @@ struct StrayFreeSheet {
   /// near the skin. Of exact or few points these are also bumps of fewer than about four of them,
   /// which cannot be told from strays. Where points are averaged over cells a stray is off the
   /// sheet without its cell while most of the cell is not; if most is, the skin is bent there and
-  /// nothing is left out.
+  /// no more is left out, of other cells neither.
   ///
   /// `fit_to`: as HeightPatch::fit(), with all but the points bound. Nothing if it gives nothing
   /// for all of them. Calls it once if there is no stray, up to nine times else.

@@ -47,23 +47,18 @@ TEST(HoveringPoints, AreStraysAmongStrays) {
     }
     const auto alone = stray_points(PointIndex(joined(skin, strays)), 0.05);
     EXPECT_LT(std::count(alone.begin(), alone.end(), true), 200);
-    for (int round = 0; round < 12; ++round) {
-      const auto hovering = hovering_of(joined(skin, strays));
-      const auto of_strays = hovering.begin() + static_cast<std::ptrdiff_t>(skin.size());
-      EXPECT_EQ(std::count(hovering.begin(), of_strays, true), 0) << sigma;
-      Points left;
-      for (std::size_t i = 0; i < strays.size(); ++i) {
-        if (!hovering[skin.size() + i]) left.push_back(strays[i]);
-      }
-      strays = std::move(left);
-    }
-    EXPECT_LT(strays.size(), 10U) << sigma;
+    const auto hovering = hovering_of(joined(skin, strays));
+    const auto of_strays = hovering.begin() + static_cast<std::ptrdiff_t>(skin.size());
+    EXPECT_EQ(std::count(hovering.begin(), of_strays, true), 0) << sigma;
+    EXPECT_GT(std::count(of_strays, hovering.end(), true), 285) << sigma;
   }
 }
 
 TEST(HoveringPoints, AreNoneOfSkinAlone) {
   EXPECT_EQ(found_in(dense_sphere()), 0);
   EXPECT_EQ(found_in(dense_sphere(0.05)), 0);
+  // Four times as thick with noise as its points are apart: one in fifty.
+  EXPECT_LT(found_in(dense_sphere(0.2)), 120);
 }
 
 /// Up to a sixth of the radius from each other.
@@ -80,10 +75,31 @@ TEST(HoveringPoints, AreNoneOfASparsePartOfASkin) {
   }
 }
 
+/// Straight below the walls round them: of a face three times as sparse a sixth was left out.
+TEST(HoveringPoints, AreNoneOfASparseFaceOfABox) {
+  Points points;
+  std::size_t sparse = 0;
+  test::RandomNumbers random(6);
+  for (int i = 0; i < 20000; ++i) {
+    const double along = random.uniform(-1.0, 1.0);
+    const double up = random.uniform(-1.0, 1.0);
+    const int wall = i % 4;
+    if (wall == 3 && i % 9 != 0) continue;
+    if (wall == 3) ++sparse;
+    points.push_back(wall == 0   ? Vector3d(along, 1.0, up)
+                     : wall == 1 ? Vector3d(1.0, along, up)
+                     : wall == 2 ? Vector3d(-1.0, along, up)
+                                 : Vector3d(along, -1.0, up));
+  }
+  EXPECT_LT(found_in(points), static_cast<std::ptrdiff_t>(sparse / 30));
+}
+
 TEST(HoveringPoints, AreNoneOfAFew) {
-  EXPECT_EQ(found_in({}), 0);
-  EXPECT_EQ(found_in({{0, 0, 1}}), 0);
-  EXPECT_EQ(found_in(Points(30, {0, 0, 1})), 0);
+  EXPECT_EQ(hovering_points(PointIndex(Points{}), 1.0), std::vector<bool>{});
+  EXPECT_EQ(hovering_points(PointIndex({{0, 0, 1}}), 1.0), std::vector<bool>{false});
+  Points points(30, {0, 0, 1});
+  points.emplace_back(0, 0, 40);
+  EXPECT_EQ(hovering_points(PointIndex(points), 1.0).size(), points.size());
   EXPECT_EQ(found_in({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.2, 40}}), 0);
 }
 

@@ -47,7 +47,7 @@ TEST(GirthAmidStrays, LeavesOutThoseThatHaveOthersBesideThem) {
       const auto girth = girth_by_rbf(cloud, oblique_plane());
       ASSERT_TRUE(girth) << girth.error().line();
       const double truth = test::true_girth(test::elliptic_cylinder(40, 40), oblique_plane());
-      EXPECT_NEAR(girth->contact_mm, truth, 0.01 + sigma) << sigma << " mm, seed " << seed;
+      EXPECT_NEAR(girth->contact_mm, truth, 0.01 + 0.25 * sigma) << sigma << " mm, seed " << seed;
     }
   }
 }
