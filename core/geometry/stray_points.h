@@ -13,8 +13,8 @@ namespace instep {
 /// cells of that size are well filled nobody is asked for neighbours.
 std::vector<bool> stray_points(const PointIndex& index, double spacing);
 
-/// Side of the square that a point has for itself, by the distance to its eighth neighbour; it is
-/// one of the index, or else counts as one of its own neighbours. At least one point.
+/// Side of the square that a point of the index has for itself, by the distance to its eighth
+/// neighbour.
 double own_spacing(const PointIndex& index, const Eigen::Vector3d& point);
 
 /// The middle one of the spacings of some `sample` points (fewer than twice as many) spread over

@@ -258,6 +258,7 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
   const bool out_of_sight = is_most_of(bends.stretched_u95, section);
+  // Of a folded one the contact length was warned of.
   const double doubt =
       folds > 0.0 ? section.stretched_u95 : std::max(section.stretched_u95, section.contact_u95);
   warn_if(!is_most_of(skin.stretched, section) &&
