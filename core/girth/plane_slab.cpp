@@ -19,6 +19,12 @@ namespace {
 /// The first slab that is asked for is to tell how wide the others have to be.
 constexpr double kWiderThanFirst = 6.0;
 constexpr double kWiderThanOthers = 1.2;
+/// Places are rounded to this part, in powers of two, of what the control points are apart: to a
+/// ten-thousandth of a millionth of a millimetre round a foot, and yet a thousand times what is
+/// left where a cloud was turned.
+constexpr int kRoundedBits = 38;
+/// So that the step of control points a power of two apart is the same wherever they lie.
+constexpr double kNoRoundSpread = 1.3;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
 
@@ -54,16 +60,37 @@ bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
   return std::tuple(one.x(), one.y(), one.z(), a) < std::tuple(other.x(), other.y(), other.z(), b);
 }
 
+/// What the plane sees of a point, rounded: of points of a lattice those that are equally far stay
+/// so wherever the cloud lies, and come in one order.
+class RoundedView {
+ public:
+  explicit RoundedView(const TapePlane& plane) : plane_(plane) {
+    const auto& [first, second, third] = plane.control_points();
+    const double spread = std::max((second - first).norm(), (third - first).norm());
+    step_ = std::ldexp(1.0, std::ilogb(kNoRoundSpread * spread) - kRoundedBits);
+  }
+
+  Eigen::Vector3d of(const Eigen::Vector3d& point, double height) const {
+    const Eigen::Vector2d place = plane_.project(point);
+    const Eigen::Vector3d steps = Eigen::Vector3d(place.x(), place.y(), height) / step_;
+    return steps.array().round() * step_;
+  }
+
+ private:
+  const TapePlane& plane_;
+  double step_;
+};
+
 /// As they come.
 PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
   PlaneSlab slab;
+  const RoundedView view(plane);
   const std::span<const Eigen::Vector3d> points(cloud.positions);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double height = plane.distance(points[i]);
     if (std::abs(height) > half_width) continue;
-    const Eigen::Vector2d place = plane.project(points[i]);
     slab.indices.push_back(i);
-    slab.places.emplace_back(place.x(), place.y(), height);
+    slab.places.push_back(view.of(points[i], height));
   }
   return slab;
 }

@@ -13,7 +13,8 @@ namespace instep {
 
 /// The points of a cloud on and beside a tape plane, each place once (of copies counts_before()
 /// tells which), or averages of them, in an order that the places alone decide, so that the cloud's
-/// does not matter.
+/// does not matter. Places are rounded to a part in 2^38 of what the control points are apart, so
+/// that it does not matter either where the cloud lies.
 struct PlaneSlab {
   std::vector<std::size_t> indices;     ///< in the cloud; of an average one of its points
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it

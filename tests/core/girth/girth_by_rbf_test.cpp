@@ -9,6 +9,7 @@
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/cylinder_tape.h"
+#include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -226,6 +227,28 @@ TEST(GirthByRbf, GivesTheSameBytesTwice) {
   ASSERT_TRUE(first && second);
   EXPECT_EQ(first->contact_mm, second->contact_mm);
   EXPECT_EQ(first->contour, second->contour);
+}
+
+/// Which of the points that are equally far are among the nearest, rounding decided: girths of one
+/// box were up to 0.1 mm apart.
+TEST(GirthByRbf, OfALatticeDoesNotDependOnWhereItLies) {
+  PointCloud box;
+  for (const auto& point : test::prism_points(60.0, 80.0, 1.5, 0.0, 1)) {
+    box.positions.push_back(point.position);
+  }
+  const auto plane = TapePlane::through({30, 0, 3.4}, {0, 30, 0.4}, {-30, -10, -2.6}).value();
+  const auto here = girth_by_rbf(box, plane);
+  ASSERT_TRUE(here) << here.error().line();
+  for (int turn = 1; turn <= 5; ++turn) {
+    RigidTransform away = RigidTransform::Identity();
+    away.rotate(Eigen::AngleAxisd(0.7 * turn, Vector3d(0.3 * turn, 1, -0.2).normalized()));
+    away.pretranslate(Vector3d(11.3 * turn, -77, 31 * turn));
+    const auto there = girth_by_rbf(transformed(away, box), plane.transformed(away));
+    ASSERT_TRUE(there) << there.error().line();
+    EXPECT_NEAR(there->stretched_mm, here->stretched_mm, 1e-9) << turn;
+    EXPECT_NEAR(there->contact_mm, here->contact_mm, 1e-9) << turn;
+    EXPECT_NEAR(*there->contact_u95_mm, *here->contact_u95_mm, 1e-8) << turn;
+  }
 }
 
 TEST(GirthByRbf, IsNotMovedByDuplicates) {
