@@ -25,17 +25,24 @@ constexpr double kFlat = 0.2;
 /// How much further off the points of a sheet are than all neighbours: beside denser skin these are
 /// of that.
 constexpr double kBesideDenser = 2.0;
+/// What is further above the skin than so many own spacings may be beyond a bend of it.
+constexpr double kReach = 4.0;
+/// Strays hide each other: those above them stand further apart without them.
+constexpr int kMostRounds = 8;
+/// Of the points: more that stand far apart are a skin of their own, less densely seen.
+constexpr double kMostStrays = 0.2;
 
-/// Whether a place is above the skin, and not beside it.
-bool is_above(const PointIndex& skin, const Eigen::Vector3d& place) {
+/// Whether a place is above the skin, and not beside it nor further than `reach`.
+bool is_above(const PointIndex& skin, const Eigen::Vector3d& place, double reach) {
   const std::size_t below = skin.nearest(place, 1).front().index;
   const Eigen::Vector3d& foot = skin.points()[below];
+  const Eigen::Vector3d arm = place - foot;
+  if (arm.norm() > reach) return false;
   Moments moments;
   for (const auto& one : skin.nearest(foot, kBelow)) {
     // Itself may be a stray near the skin.
     if (one.index != below) moments.add(skin.points()[one.index] - foot);
   }
-  const Eigen::Vector3d arm = place - foot;
   return std::abs(moments.flattest().dot(arm)) > kStraightAbove * arm.norm();
 }
 
@@ -50,24 +57,38 @@ bool is_on_sheet(const PointIndex& far_apart, const Eigen::Vector3d& place, doub
   return spreads[0] < kFlat * kFlat * spreads[1];
 }
 
+std::vector<Eigen::Vector3d> at(const std::vector<std::size_t>& numbers, const PointIndex& index) {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(numbers.size());
+  for (const std::size_t number : numbers) points.push_back(index.points()[number]);
+  return points;
+}
+
 }  // namespace
 
 std::vector<bool> hovering_points(const PointIndex& index, double spacing) {
-  const auto& points = index.points();
-  std::vector<double> own;
-  std::vector<Eigen::Vector3d> close;
-  std::vector<Eigen::Vector3d> far;
-  for (const auto& point : points) {
-    own.push_back(own_spacing(index, point));
-    (own.back() > kFarApart * spacing ? far : close).push_back(point);
+  const std::size_t count = index.points().size();
+  std::vector<std::size_t> close;
+  std::vector<std::size_t> far;
+  for (std::size_t i = 0; i < count; ++i) {
+    (own_spacing(index, index.points()[i]) > kFarApart * spacing ? far : close).push_back(i);
   }
-  std::vector<bool> hovering(points.size(), false);
-  if (close.size() < kBelow || far.empty()) return hovering;
-  const PointIndex skin(std::move(close));
-  const PointIndex far_apart(std::move(far));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (own[i] <= kFarApart * spacing) continue;
-    hovering[i] = is_above(skin, points[i]) && !is_on_sheet(far_apart, points[i], own[i]);
+  std::vector<bool> hovering(count, false);
+  if (close.size() < kBelow) return hovering;
+  if (static_cast<double>(far.size()) > kMostStrays * static_cast<double>(count)) return hovering;
+  const PointIndex skin(at(close, index));
+  for (int round = 0; round < kMostRounds && !far.empty(); ++round) {
+    const PointIndex far_apart(at(far, index));
+    auto rest = skin.points();
+    rest.insert(rest.end(), far_apart.points().begin(), far_apart.points().end());
+    const PointIndex all(std::move(rest));
+    const auto found = std::erase_if(far, [&](std::size_t point) {
+      const Eigen::Vector3d& place = index.points()[point];
+      const double own = own_spacing(all, place);
+      hovering[point] = is_above(skin, place, kReach * own) && !is_on_sheet(far_apart, place, own);
+      return hovering[point];
+    });
+    if (found == 0) break;
   }
   return hovering;
 }
