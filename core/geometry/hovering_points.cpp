@@ -7,6 +7,7 @@
 
 #include "core/geometry/moments.h"
 #include "core/geometry/stray_points.h"
+#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -57,33 +58,27 @@ bool is_on_sheet(const PointIndex& far_apart, const Eigen::Vector3d& place, doub
   return spreads[0] < kFlat * kFlat * spreads[1];
 }
 
-std::vector<Eigen::Vector3d> at(const std::vector<std::size_t>& numbers, const PointIndex& index) {
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(numbers.size());
-  for (const std::size_t number : numbers) points.push_back(index.points()[number]);
-  return points;
-}
-
 }  // namespace
 
 std::vector<bool> hovering_points(const PointIndex& index, double spacing) {
-  const std::size_t count = index.points().size();
+  const auto& points = index.points();
+  const std::size_t count = points.size();
   std::vector<std::size_t> close;
   std::vector<std::size_t> far;
   for (std::size_t i = 0; i < count; ++i) {
-    (own_spacing(index, index.points()[i]) > kFarApart * spacing ? far : close).push_back(i);
+    (own_spacing(index, points[i]) > kFarApart * spacing ? far : close).push_back(i);
   }
   std::vector<bool> hovering(count, false);
   if (close.size() < kBelow) return hovering;
   if (static_cast<double>(far.size()) > kMostStrays * static_cast<double>(count)) return hovering;
-  const PointIndex skin(at(close, index));
+  const PointIndex skin(picked(points, close));
   for (int round = 0; round < kMostRounds && !far.empty(); ++round) {
-    const PointIndex far_apart(at(far, index));
+    const PointIndex far_apart(picked(points, far));
     auto rest = skin.points();
     rest.insert(rest.end(), far_apart.points().begin(), far_apart.points().end());
     const PointIndex all(std::move(rest));
     const auto found = std::erase_if(far, [&](std::size_t point) {
-      const Eigen::Vector3d& place = index.points()[point];
+      const Eigen::Vector3d& place = points[point];
       const double own = own_spacing(all, place);
       hovering[point] = is_above(skin, place, kReach * own) && !is_on_sheet(far_apart, place, own);
       return hovering[point];

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/picked.h"
+
 namespace instep {
 namespace {
 
@@ -22,15 +24,6 @@ void append_list(std::vector<T>& target, const std::vector<T>& source, bool was_
   } else {
     target.insert(target.end(), source.begin(), source.end());
   }
-}
-
-template <typename T>
-std::vector<T> pick(const std::vector<T>& list, const std::vector<std::size_t>& indices) {
-  std::vector<T> picked;
-  if (list.empty()) return picked;
-  picked.reserve(indices.size());
-  for (const std::size_t index : indices) picked.push_back(list[index]);
-  return picked;
 }
 
 /// Also false for what is no number.
@@ -88,11 +81,11 @@ void PointCloud::append(const PointCloud& other) {
 
 PointCloud PointCloud::subset(const std::vector<std::size_t>& indices) const {
   PointCloud part;
-  part.positions = pick(positions, indices);
-  part.normals = pick(normals, indices);
-  part.sigma_mm = pick(sigma_mm, indices);
-  part.view_directions = pick(view_directions, indices);
-  part.origins = pick(origins, indices);
+  part.positions = picked(positions, indices);
+  part.normals = picked(normals, indices);
+  part.sigma_mm = picked(sigma_mm, indices);
+  part.view_directions = picked(view_directions, indices);
+  part.origins = picked(origins, indices);
   return part;
 }
 

@@ -240,7 +240,8 @@ void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
   warn_if(band.stray_share > kNotableUnexplained,
-          "many points near the plane lie off the skin and were left out");
+          "many points near the plane lie off the skin and were left out: take away what shines or "
+          "moves before the cameras");
   for (auto& disbelief : disbelief_of(band)) girth.warnings.push_back(std::move(disbelief));
   if (!layers && !band.scattered.empty()) {
     girth.warnings.push_back(warning_of(band.scattered, band.unit_mm));
@@ -386,7 +387,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   // What patches leave out has spoilt the noise and the normals that their points show.
   const bool strays_near_skin = told && told->strays_near_skin;
   if (strays_near_skin) {
-    auto cleaned = girth_at(slabs, options, true);
+    auto cleaned = girth_at(slabs, options, strays_near_skin);
     if (cleaned && !cleaned->of_few) told = std::move(cleaned);
   }
   // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and

@@ -7,6 +7,7 @@
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/spanning_tree.h"
+#include "core/picked.h"
 #include "core/surface/box_normals.h"
 #include "core/surface/off_surface_points.h"
 
@@ -19,14 +20,6 @@ constexpr double kOffSurface = 0.1;
 constexpr double kDuplicate = 1e-3;
 /// What the preparation takes of the whole.
 constexpr double kPrepared = 0.3;
-
-template <typename T>
-std::vector<T> pick(const std::vector<T>& list, const std::vector<std::uint32_t>& indices) {
-  std::vector<T> picked;
-  picked.reserve(indices.size());
-  for (const std::uint32_t index : indices) picked.push_back(list[index]);
-  return picked;
-}
 
 tl::unexpected<Error> no_surface() {
   return fail(ErrorCode::kInsufficientData,
@@ -57,7 +50,7 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   const auto groups =
       combined_points(octree, options.most, [&](const std::vector<std::uint32_t>& members) {
         return members.size() >= options.fewest &&
-               has_unique_solution(pick(samples.positions, members));
+               has_unique_solution(picked(samples.positions, members));
       });
   report(kPrepared);
 
@@ -66,8 +59,8 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   surface.longest_edge_ = tree.back().length;
   std::size_t solved = 0;
   for (const auto& members : groups) {
-    surface.fields_.push_back(TriharmonicRbf::fit(pick(samples.positions, members),
-                                                  pick(samples.values, members),
+    surface.fields_.push_back(TriharmonicRbf::fit(picked(samples.positions, members),
+                                                  picked(samples.values, members),
                                                   std::vector<double>(members.size(), 0.0)));
     if (surface.fields_.back()) ++solved;
     report(kPrepared + (1.0 - kPrepared) * static_cast<double>(surface.fields_.size()) /

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/picked.h"
 #include "core/surface/point_lines.h"
 #include "core/surface/stray_free_sheet.h"
 
@@ -181,13 +182,12 @@ std::optional<SurfacePatch> PatchFitter::fit_sheet(const Surroundings& surroundi
   };
   auto sheet = StrayFreeSheet::of(front, fit_to);
   if (!sheet) return std::nullopt;
-  auto& numbers = sheet->numbers;
-  const bool has_strays = numbers.size() < members.front.size();
-  for (auto& number : numbers) number = members.front[number];
+  auto numbers = picked(members.front, sheet->numbers);
   const Eigen::Vector3d middle = middle_of(points_.at(numbers));
-  return SurfacePatch{
-      place, middle,    members.front_radius, std::move(sheet->patch), std::move(numbers), 0.0,
-      0.0,   has_strays};
+  SurfacePatch patch{place, middle, members.front_radius, std::move(sheet->patch),
+                     std::move(numbers)};
+  patch.has_strays = patch.members.size() < members.front.size();
+  return patch;
 }
 
 /// A patch of the nearest points, if most of them tell about as well where the others lie as the

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -180,10 +181,7 @@ PatchPoints::Members PatchPoints::nearer_of(const Members& members,
 }
 
 std::vector<OrientedPoint> PatchPoints::at(const std::vector<std::size_t>& indices) const {
-  std::vector<OrientedPoint> points;
-  points.reserve(indices.size());
-  for (const auto i : indices) points.push_back(points_[i]);
-  return points;
+  return picked(points_, indices);
 }
 
 /// The mean normal of the nearest points on this side of the body: those that do not face away from

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/picked.h"
+
 namespace instep {
 namespace {
 
@@ -19,14 +21,6 @@ constexpr int kMostStrays = 4;
 /// Points of a cell off the sheet without it by more than this part of the furthest one are off as
 /// that one is.
 constexpr double kAsFarOff = 0.3;
-
-std::vector<OrientedPoint> at(const std::vector<std::size_t>& numbers,
-                              const std::vector<OrientedPoint>& points) {
-  std::vector<OrientedPoint> chosen;
-  chosen.reserve(numbers.size());
-  for (const std::size_t number : numbers) chosen.push_back(points[number]);
-  return chosen;
-}
 
 /// `numbers` without those at the positions, which ascend.
 std::vector<std::size_t> without(const std::vector<std::size_t>& positions,
@@ -64,7 +58,7 @@ std::optional<StrayFreeSheet> sheet_without(std::vector<std::size_t> odd,
                                             const StrayFreeSheet::FitTo& fit_to) {
   const auto fitted_without = [&]() -> std::optional<StrayFreeSheet> {
     auto fewer = without(odd, numbers);
-    auto patch = fit_to(at(fewer, points));
+    auto patch = fit_to(picked(points, fewer));
     if (!patch) return std::nullopt;
     return StrayFreeSheet{std::move(*patch), std::move(fewer)};
   };

@@ -75,7 +75,7 @@ TEST(HoveringPoints, AreNoneOfASparsePartOfASkin) {
   }
 }
 
-/// Straight below the walls round them: of a face three times as sparse a sixth was left out.
+/// Straight below the walls round it: of a face three times as sparse a twelfth was left out.
 TEST(HoveringPoints, AreNoneOfASparseFaceOfABox) {
   Points points;
   std::size_t sparse = 0;

@@ -174,7 +174,7 @@ TEST(ScannedLinesGirth, OfManyStraysTellsOfThese) {
   EXPECT_TRUE(warnings_with(0.005).empty());
   const auto warnings = warnings_with(0.04);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_EQ(warnings.front(), "many points near the plane lie off the skin and were left out");
+  EXPECT_EQ(warnings.front().find("many points near the plane lie off the skin"), 0U);
 }
 
 /// Where nothing is thinned they dented the surface: contact lengths were up to 32 mm too long.
