@@ -20,11 +20,9 @@ namespace {
 constexpr double kWiderThanFirst = 6.0;
 constexpr double kWiderThanOthers = 1.2;
 /// Places are rounded to this part, in powers of two, of what the control points are apart: to a
-/// ten-thousandth of a millionth of a millimetre round a foot, and yet a thousand times what is
-/// left where a cloud was turned.
-constexpr int kRoundedBits = 38;
-/// So that the step of control points a power of two apart is the same wherever they lie.
-constexpr double kNoRoundSpread = 1.3;
+/// few millionths of a thousandth of a millimetre round a foot, and yet ten thousand times
+/// what rounding leaves where a cloud was turned or told in other units.
+constexpr int kRoundedBits = 34;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
 
@@ -64,11 +62,7 @@ bool comes_before(const PlaneSlab& slab, std::size_t a, std::size_t b) {
 /// so wherever the cloud lies, and come in one order.
 class RoundedView {
  public:
-  explicit RoundedView(const TapePlane& plane) : plane_(plane) {
-    const auto& [first, second, third] = plane.control_points();
-    const double spread = std::max((second - first).norm(), (third - first).norm());
-    step_ = std::ldexp(1.0, std::ilogb(kNoRoundSpread * spread) - kRoundedBits);
-  }
+  explicit RoundedView(const TapePlane& plane) : plane_(plane), step_(rounding_step(plane)) {}
 
   Eigen::Vector3d of(const Eigen::Vector3d& point, double height) const {
     const Eigen::Vector2d place = plane_.project(point);
@@ -147,6 +141,11 @@ PlaneSlab ordered_slab(const PointCloud& cloud, const PlaneSlab& found) {
 }
 
 }  // namespace
+
+double rounding_step(const TapePlane& plane) {
+  const auto& [first, second, third] = plane.control_points();
+  return std::ldexp(std::max((second - first).norm(), (third - first).norm()), -kRoundedBits);
+}
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
   return ordered_slab(cloud, unordered_slab(cloud, plane, half_width));

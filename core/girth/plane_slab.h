@@ -13,8 +13,8 @@ namespace instep {
 
 /// The points of a cloud on and beside a tape plane, each place once (of copies counts_before()
 /// tells which), or averages of them, in an order that the places alone decide, so that the cloud's
-/// does not matter. Places are rounded to a part in 2^38 of what the control points are apart, so
-/// that it does not matter either where the cloud lies.
+/// does not matter. Places are rounded to the plane's rounding_step(), so that it does not matter
+/// either where the cloud lies, or in which unit it is told.
 struct PlaneSlab {
   std::vector<std::size_t> indices;     ///< in the cloud; of an average one of its points
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it
@@ -22,6 +22,9 @@ struct PlaneSlab {
 
   double share_of(std::size_t place) const { return shares.empty() ? 1.0 : shares[place]; }
 };
+
+/// A part in 2^34 of what the plane's control points are apart.
+double rounding_step(const TapePlane& plane);
 
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width);

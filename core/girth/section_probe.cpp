@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,6 +31,9 @@ constexpr double kWidestForThick = 0.1;
 constexpr double kFarApart = 8.0;
 /// A slab of lines reaches so many gaps to each side to hold several all round the section.
 constexpr double kGapsOfSlab = 2.0;
+/// Added before a middle is rounded down to whole steps, so that one half-way between two always
+/// goes to the lower.
+constexpr double kSpareOfHalf = 0.25;
 
 Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
   Eigen::AlignedBox2d box;
@@ -48,14 +52,15 @@ std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width, d
 }
 
 /// The section that points lie round, which are fewer than make a surface or within less than
-/// their spacing of the plane: nothing.
-std::optional<SectionProbe> probe_of(PlaneSlab slab, double half_width) {
+/// their spacing of the plane: nothing. Its unit and middle are whole numbers of `step`.
+std::optional<SectionProbe> probe_of(PlaneSlab slab, double half_width, double step) {
   if (slab.places.size() < kFewestPoints) return std::nullopt;
   const Eigen::AlignedBox2d box = section_box(slab.places);
-  const double unit = box.diagonal().norm();
+  const double unit = std::round(box.diagonal().norm() / step) * step;
+  const Eigen::Array2d middle = (box.center().array() / step + kSpareOfHalf).floor() * step;
   const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
   if (half_width < spacing || !(unit > 0.0)) return std::nullopt;
-  return SectionProbe{{box.center().x(), box.center().y(), 0.0}, unit, spacing / unit};
+  return SectionProbe{{middle.x(), middle.y(), 0.0}, unit, spacing / unit};
 }
 
 }  // namespace
@@ -67,17 +72,23 @@ tl::unexpected<Error> no_surface() {
 
 PlaneSlab SectionProbe::slab(SlabSource& slabs, double half_width) const {
   PlaneSlab slab = slabs.slab(half_width * unit_mm);
-  for (auto& place : slab.places) place = (place - middle_mm) / unit_mm;
+  // In whole steps, which are the same numbers whichever unit the cloud is told in.
+  const double step = rounding_step(slabs.plane());
+  const double unit = std::round(unit_mm / step);
+  for (auto& place : slab.places) {
+    place = ((place - middle_mm) / step).array().round() / unit;
+  }
   return slab;
 }
 
 Result<SectionProbe> probe_section(SlabSource& slabs) {
   const double size = slabs.size();
+  const double step = rounding_step(slabs.plane());
   bool found_some = false;
   for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
     PlaneSlab slab = slabs.slab(half_width);
     found_some = found_some || slab.places.size() >= kFewestPoints;
-    const auto found = probe_of(std::move(slab), half_width);
+    const auto found = probe_of(std::move(slab), half_width, step);
     if (!found) continue;
     const double look = std::max(kLookInSpacings * found->spacing * found->unit_mm, half_width);
     if (slabs.is_thinned() || !stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) {
@@ -87,7 +98,7 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     if (!lines) return *found;
     slabs.thin(*lines);
     const double several_lines = kGapsOfSlab * lines->apart;
-    return probe_of(slabs.slab(several_lines), several_lines).value_or(*found);
+    return probe_of(slabs.slab(several_lines), several_lines, step).value_or(*found);
   }
   if (found_some) return no_surface();
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",

@@ -229,25 +229,54 @@ TEST(GirthByRbf, GivesTheSameBytesTwice) {
   EXPECT_EQ(first->contour, second->contour);
 }
 
+/// A box whose points stand in a lattice, 1.5 mm apart, and a plane through it, `scale` times as
+/// large.
+struct LatticeBox {
+  PointCloud cloud;
+  TapePlane plane;
+};
+
+LatticeBox lattice_box(double scale) {
+  PointCloud cloud;
+  for (const auto& point : test::prism_points(60.0, 80.0, 1.5, 0.0, 1)) {
+    cloud.positions.push_back(scale * point.position);
+  }
+  const Vector3d first(30, 0, 3.4);
+  const Vector3d second(0, 30, 0.4);
+  const Vector3d third(-30, -10, -2.6);
+  return {std::move(cloud),
+          TapePlane::through(scale * first, scale * second, scale * third).value()};
+}
+
 /// Which of the points that are equally far are among the nearest, rounding decided: girths of one
 /// box were up to 0.1 mm apart.
 TEST(GirthByRbf, OfALatticeDoesNotDependOnWhereItLies) {
-  PointCloud box;
-  for (const auto& point : test::prism_points(60.0, 80.0, 1.5, 0.0, 1)) {
-    box.positions.push_back(point.position);
-  }
-  const auto plane = TapePlane::through({30, 0, 3.4}, {0, 30, 0.4}, {-30, -10, -2.6}).value();
-  const auto here = girth_by_rbf(box, plane);
+  const LatticeBox box = lattice_box(1.0);
+  const auto here = girth_by_rbf(box.cloud, box.plane);
   ASSERT_TRUE(here) << here.error().line();
   for (int turn = 1; turn <= 5; ++turn) {
     RigidTransform away = RigidTransform::Identity();
     away.rotate(Eigen::AngleAxisd(0.7 * turn, Vector3d(0.3 * turn, 1, -0.2).normalized()));
     away.pretranslate(Vector3d(11.3 * turn, -77, 31 * turn));
-    const auto there = girth_by_rbf(transformed(away, box), plane.transformed(away));
+    const auto there = girth_by_rbf(transformed(away, box.cloud), box.plane.transformed(away));
     ASSERT_TRUE(there) << there.error().line();
     EXPECT_NEAR(there->stretched_mm, here->stretched_mm, 1e-9) << turn;
     EXPECT_NEAR(there->contact_mm, here->contact_mm, 1e-9) << turn;
     EXPECT_NEAR(*there->contact_u95_mm, *here->contact_u95_mm, 1e-8) << turn;
+  }
+}
+
+TEST(GirthByRbf, OfALatticeDoesNotDependOnItsUnit) {
+  const LatticeBox box = lattice_box(1.0);
+  const auto here = girth_by_rbf(box.cloud, box.plane);
+  ASSERT_TRUE(here) << here.error().line();
+  for (const double scale : {10.0, 25.4, 0.1, 1000.0, 1.0 / 3.0}) {
+    const LatticeBox scaled = lattice_box(scale);
+    const auto there = girth_by_rbf(scaled.cloud, scaled.plane);
+    ASSERT_TRUE(there) << there.error().line();
+    EXPECT_NEAR(there->stretched_mm / scale, here->stretched_mm, 1e-9) << scale;
+    EXPECT_NEAR(there->contact_mm / scale, here->contact_mm, 1e-9) << scale;
+    EXPECT_NEAR(*there->contact_u95_mm / scale, *here->contact_u95_mm, 1e-8) << scale;
   }
 }
 
