@@ -74,6 +74,16 @@ TEST_F(Installation, PutsEverythingBelowItsPrefix) {
               HasSubstr("ExecStart=" + (prefix() / "bin/instepd").string() + "\n"));
 }
 
+/// Of the measuring, which both programs share and which is built for two kinds of processor.
+TEST_F(Installation, BringsItsLibraries) {
+  const auto linked = shell("ldd " + (prefix() / "bin/instep").string());
+  EXPECT_THAT(linked.text, HasSubstr((prefix() / "bin").string() + "/../lib"));
+  EXPECT_THAT(linked.text, HasSubstr("/instep/"));
+  EXPECT_THAT(linked.text, Not(HasSubstr("not found")));
+  const auto built = test::built_programs().parent_path();
+  EXPECT_THAT(linked.text, Not(HasSubstr(built.string())));
+}
+
 TEST_F(Installation, RunsWithItsOwnSettings) {
   const auto settings = prefix() / "etc/instep/instep.toml";
   test::StationProcess station;
