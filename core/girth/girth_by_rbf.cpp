@@ -182,7 +182,7 @@ bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
 MeasuredSection measured(SlabSource& slabs, const PlaneBand& band, const std::vector<Loop>& loops,
                          const BlendedSurface& surface, const SectionEvidence& evidence) {
   const Contour& contour = loops.front().contour;
-  const LengthDoubt doubt = doubt_of(contour, surface);
+  const LengthDoubt doubt = doubt_of(contour, surface, band.sigma);
   const MeasuredSection patches{contour, contour.length() + doubt.waves,
                                 contour.tape_length() + doubt.waves, doubt.contact_u95,
                                 doubt.stretched_u95};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -197,7 +198,7 @@ double half_width(const std::vector<double>& influence, double wandering, const 
 
 }  // namespace
 
-LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
+LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface, double sigma) {
   const auto& points = surface.points();
   Sums sums;
   sums.contact.assign(points.size(), 0.0);
@@ -214,9 +215,18 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface) {
   }
   const double length = contour.length();
   const double most = kMostWaves * length;
+  const double direction = doubt_of_direction(sigma, length);
+  const auto half_width_of = [&](const std::vector<double>& influence, double wandering) {
+    return std::hypot(half_width(influence, wandering, sums, points, length), direction);
+  };
   return {std::clamp(sums.likely_waves - kBlendedNoise * sums.noise_waves, -most, most),
-          half_width(sums.contact, sums.contact_wandering, sums, points, length),
-          half_width(sums.stretched, sums.stretched_wandering, sums, points, length)};
+          half_width_of(sums.contact, sums.contact_wandering),
+          half_width_of(sums.stretched, sums.stretched_wandering)};
+}
+
+double doubt_of_direction(double sigma, double length) {
+  // The square of the bend, summed up round a circle.
+  return sigma * sigma * std::pow(2.0 * std::numbers::pi, 2) / length;
 }
 
 }  // namespace instep

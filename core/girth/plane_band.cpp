@@ -38,6 +38,9 @@ constexpr double kNoisePlacesInSpacings = 1.5;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
 constexpr double kGrainInSigmas = 2.0;
 constexpr double kCoarsestGrain = 0.018;
+/// Noise of more spacings is told anew in the wider band that it asks for: in one that was made for
+/// exact points no neighbourhood is as wide as the noise is thick.
+constexpr double kThickInSpacings = 1.5;
 /// Exact points are thinned where they stand nearer than this part of the finest grain: of others
 /// few share a cell as wide as that.
 constexpr double kCrowded = 0.85;
@@ -199,6 +202,9 @@ std::optional<BandAndNoise> whole(SlabSource& slabs, const SectionProbe& found,
     band = gather_enough(slabs, found, noise.sigma);
     drop_strays(strays_near_skin, band);
     if (band.sources.size() < kFewestPoints) return std::nullopt;
+    if (noise.sigma > kThickInSpacings * band.spacing) {
+      noise = noise_of(slabs.cloud(), band, sigma_mm);
+    }
   }
   return BandAndNoise{std::move(band), std::move(noise)};
 }

@@ -9,6 +9,7 @@
 #include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_turns.h"
 #include "core/girth/fair_line.h"
+#include "core/girth/length_doubt.h"
 #include "core/surface/ribbon_spline.h"
 
 namespace instep {
@@ -132,9 +133,11 @@ Contour moved(const FairLine& line, const RibbonSpline& ribbon, const std::vecto
   return contour;
 }
 
+/// `sigma`: of the points.
 double u95_of(const RibbonSpline& ribbon, const std::vector<double>& ways,
-              const std::vector<double>& turns, double length) {
-  return kDeviations * std::sqrt(ribbon.variance_of_sum(ways, turns)) + kLeast * length;
+              const std::vector<double>& turns, double length, double sigma) {
+  const double seen = kDeviations * std::sqrt(ribbon.variance_of_sum(ways, turns));
+  return std::hypot(seen + kLeast * length, doubt_of_direction(sigma, length));
 }
 
 }  // namespace
@@ -157,8 +160,8 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
   section.contact = section.contour.length();
   section.stretched = section.contour.tape_length();
   const auto turns = turns_of(section.contour);
-  section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section.contact);
-  section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section.contact);
+  section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section.contact, band.sigma);
+  section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section.contact, band.sigma);
   return section;
 }
 

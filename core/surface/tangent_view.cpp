@@ -20,8 +20,13 @@ constexpr std::array<std::size_t, 3> kTriedFirst = {kNearest, 30, 20};
 constexpr std::array<std::size_t, 3> kTriedThen = {120, 240, 480};
 /// The nearest ones of a crowd reach no further.
 constexpr double kCrowdedReach = 0.05;
-/// So many times as far as the nearest ones lie some eight times as many.
+/// So many times as far as some lie eight times as many.
 constexpr double kWider = 2.83;
+constexpr std::size_t kMoreWithin = 8;
+/// Where the widest view is the flattest, or none is flatter than a ball by more than this, noise
+/// may be thicker than they are wide: wider ones are tried up to this reach.
+constexpr double kHardlyFlat = 0.42;
+constexpr double kWidestReach = 0.2;
 
 /// `nearest`: to its middle, in that order.
 TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
@@ -42,17 +47,24 @@ TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
   return view;
 }
 
-/// Whether the view of so many of the nearest is flat enough, for one of the counts; the flattest
-/// of those looked at goes into `best`.
-bool find_flat_view(const std::vector<Eigen::Vector3d>& points,
-                    std::span<const PointIndex::Neighbour> nearest,
-                    std::span<const std::size_t> counts, TangentView& best) {
+/// The flattest view of those that were looked at.
+struct Flattest {
+  TangentView view;
+  bool is_widest = false;  ///< of them
+
+  bool is_enough() const { return view.thickness <= kFlatEnough; }
+};
+
+/// Looks at so many of the nearest, until a view is flat enough.
+void look(const std::vector<Eigen::Vector3d>& points,
+          std::span<const PointIndex::Neighbour> nearest, std::span<const std::size_t> counts,
+          Flattest& best) {
   for (const std::size_t count : counts) {
+    if (best.is_enough()) return;
     TangentView view = tangent_view(points, nearest.first(std::min(count, nearest.size())));
-    if (view.thickness < best.thickness) best = std::move(view);
-    if (best.thickness <= kFlatEnough) return true;
+    best.is_widest = view.thickness < best.view.thickness;
+    if (best.is_widest) best.view = std::move(view);
   }
-  return false;
 }
 
 }  // namespace
@@ -63,15 +75,20 @@ double TangentView::spacing() const {
 
 TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                           const Eigen::Vector3d& centre) {
-  TangentView best;
+  Flattest best;
   const auto nearest = index.nearest(centre, kNearest);
   const double reach = std::sqrt(nearest.back().squared_distance);
-  if (!find_flat_view(points, nearest, kTriedFirst, best)) {
+  look(points, nearest, kTriedFirst, best);
+  auto counts = kTriedThen;
+  for (double wide = kWider * reach; !best.is_enough(); wide *= kWider) {
     // Within a radius many are found far quicker than one by one.
-    find_flat_view(points, index.within(centre, kWider * reach), kTriedThen, best);
+    look(points, index.within(centre, wide), counts, best);
+    const bool all_noise = best.is_widest || best.view.thickness > kHardlyFlat;
+    if (!all_noise || wide > kWidestReach) break;
+    for (auto& count : counts) count *= kMoreWithin;
   }
-  best.crowded = reach <= kCrowdedReach;
-  return best;
+  best.view.crowded = reach <= kCrowdedReach;
+  return std::move(best.view);
 }
 
 }  // namespace instep
