@@ -227,7 +227,7 @@ bool is_most_of(double doubt, const MeasuredSection& section) {
 void add_warnings(const PlaneBand& band, const std::vector<Loop>& loops,
                   const SectionEvidence& evidence, const SectionUnknowns& unknowns,
                   const MeasuredSection& section, Girth& girth) {
-  const auto& [bends, layers, skin, folds] = unknowns;
+  const auto& [bends, layers, skin, folds, edge] = unknowns;
   const auto warn_if = [&](bool so, const char* warning) {
     if (so) girth.warnings.emplace_back(warning);
   };

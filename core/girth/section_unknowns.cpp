@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/girth/cloud_edge.h"
 #include "core/girth/contour_turns.h"
 
 namespace instep {
@@ -36,7 +37,8 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
   SectionUnknowns unknowns{unseen_bends_of(section, evidence.ways, near),
                            layers_near_plane(band, surface, near),
                            {},
-                           folds_by_noise(band, section)};
+                           folds_by_noise(band, section),
+                           doubt_of_edge(band, *loops.front(), near)};
   // What lies off the one layer is the other one, which counts already.
   if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, section, loops);
   return unknowns;
@@ -48,11 +50,11 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   // What scatters in a part may be ribs, or two layers and the skin either of them.
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  const auto& [bends, layers, skin, folds] = unknowns;
-  section.contact_u95 =
-      std::hypot(distrust * section.contact_u95, bends.contact_u95) + reach + skin.contact + folds;
-  section.stretched_u95 =
-      std::hypot(distrust * section.stretched_u95, bends.stretched_u95) + reach + skin.stretched;
+  const auto& [bends, layers, skin, folds, edge] = unknowns;
+  section.contact_u95 = std::hypot(distrust * section.contact_u95, bends.contact_u95, edge) +
+                        reach + skin.contact + folds;
+  section.stretched_u95 = std::hypot(distrust * section.stretched_u95, bends.stretched_u95, edge) +
+                          reach + skin.stretched;
 }
 
 }  // namespace instep

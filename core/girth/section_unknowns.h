@@ -20,6 +20,7 @@ struct SectionUnknowns {
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length
+  double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())
 };
 
 /// `loops`: all that the plane cuts, the section's first. `near`: how far from a contour or the
