@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_turns.h"
 
 namespace instep {
@@ -38,6 +38,10 @@ constexpr double kBentAcross = 1.6;
 constexpr double kSteepestWaves = 0.01;
 /// What first order leaves out, against the length.
 constexpr double kLeast = 1e-5;
+/// Bends are told of as many pieces of a contour: of finer ones noise would tell more. Where a
+/// piece turns more (radians) it is a crease, whose sides do not bend.
+constexpr std::size_t kWindows = 40;
+constexpr double kSharpestRound = 1.0;
 /// A surface hardly crosses the plane where its slope on it is less.
 constexpr double kLeastSlope = 0.1;
 
@@ -215,7 +219,7 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface, doub
   }
   const double length = contour.length();
   const double most = kMostWaves * length;
-  const double direction = doubt_of_direction(sigma, length);
+  const double direction = doubt_of_direction(sigma, contour);
   const auto half_width_of = [&](const std::vector<double>& influence, double wandering) {
     return std::hypot(half_width(influence, wandering, sums, points, length), direction);
   };
@@ -224,9 +228,21 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface, doub
           half_width_of(sums.stretched, sums.stretched_wandering)};
 }
 
-double doubt_of_direction(double sigma, double length) {
-  // The square of the bend, summed up round a circle.
-  return sigma * sigma * std::pow(2.0 * std::numbers::pi, 2) / length;
+double doubt_of_direction(double sigma, const Contour& contour) {
+  const std::size_t corners = contour.points.size();
+  const std::size_t windows = std::min(kWindows, corners);
+  double bends = 0.0;  // the square of the bend, summed up along the line
+  for (std::size_t window = 0; window < windows; ++window) {
+    const std::size_t from = window * corners / windows;
+    const std::size_t to = (window + 1) * corners / windows;
+    double way = 0.0;
+    for (std::size_t i = from; i < to; ++i) {
+      way += (contour.points[(i + 1) % corners] - contour.points[i]).norm();
+    }
+    const double turn = turn_between(contour.outward[from], contour.outward[to % corners]);
+    bends += std::pow(std::min(std::abs(turn), kSharpestRound), 2) / way;
+  }
+  return sigma * sigma * bends;
 }
 
 }  // namespace instep

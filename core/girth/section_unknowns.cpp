@@ -38,7 +38,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
                            layers_near_plane(band, surface, near),
                            {},
                            folds_by_noise(band, section),
-                           doubt_of_edge(band, *loops.front(), near)};
+                           doubt_of_edge(band, *loops.front())};
   // What lies off the one layer is the other one, which counts already.
   if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, section, loops);
   return unknowns;

@@ -135,9 +135,9 @@ Contour moved(const FairLine& line, const RibbonSpline& ribbon, const std::vecto
 
 /// `sigma`: of the points.
 double u95_of(const RibbonSpline& ribbon, const std::vector<double>& ways,
-              const std::vector<double>& turns, double length, double sigma) {
+              const std::vector<double>& turns, const MeasuredSection& section, double sigma) {
   const double seen = kDeviations * std::sqrt(ribbon.variance_of_sum(ways, turns));
-  return std::hypot(seen + kLeast * length, doubt_of_direction(sigma, length));
+  return std::hypot(seen + kLeast * section.contact, doubt_of_direction(sigma, section.contour));
 }
 
 }  // namespace
@@ -160,8 +160,8 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
   section.contact = section.contour.length();
   section.stretched = section.contour.tape_length();
   const auto turns = turns_of(section.contour);
-  section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section.contact, band.sigma);
-  section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section.contact, band.sigma);
+  section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section, band.sigma);
+  section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section, band.sigma);
   return section;
 }
 

@@ -26,7 +26,9 @@ constexpr std::size_t kMoreWithin = 8;
 /// Where the widest view is the flattest, or none is flatter than a ball by more than this, noise
 /// may be thicker than they are wide: wider ones are tried up to this reach.
 constexpr double kHardlyFlat = 0.42;
-constexpr double kWidestReach = 0.2;
+constexpr double kWidestReach = 0.3;
+/// Of more an even part is put in order.
+constexpr std::size_t kMostInOrder = 8000;
 
 /// `nearest`: to its middle, in that order.
 TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
@@ -64,7 +66,26 @@ void look(const std::vector<Eigen::Vector3d>& points,
     TangentView view = tangent_view(points, nearest.first(std::min(count, nearest.size())));
     best.is_widest = view.thickness < best.view.thickness;
     if (best.is_widest) best.view = std::move(view);
+    if (count >= nearest.size()) return;
   }
+}
+
+/// As many of the nearest as lie within reach, nearest first.
+struct Nearest {
+  std::vector<PointIndex::Neighbour> some;  ///< of very many every so many-th
+  std::size_t one_in = 1;
+};
+
+Nearest nearest_within(const PointIndex& index, const Eigen::Vector3d& centre, double reach) {
+  Nearest nearest{index.around(centre, reach)};
+  auto& some = nearest.some;
+  nearest.one_in = 1 + some.size() / kMostInOrder;
+  for (std::size_t i = 0; i * nearest.one_in < some.size(); ++i) some[i] = some[i * nearest.one_in];
+  some.resize((some.size() + nearest.one_in - 1) / nearest.one_in);
+  std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.squared_distance, a.index) < std::pair(b.squared_distance, b.index);
+  });
+  return nearest;
 }
 
 }  // namespace
@@ -79,13 +100,18 @@ TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const Poin
   const auto nearest = index.nearest(centre, kNearest);
   const double reach = std::sqrt(nearest.back().squared_distance);
   look(points, nearest, kTriedFirst, best);
-  auto counts = kTriedThen;
-  for (double wide = kWider * reach; !best.is_enough(); wide *= kWider) {
-    // Within a radius many are found far quicker than one by one.
-    look(points, index.within(centre, wide), counts, best);
+  // Within a radius many are found far quicker than one by one.
+  double wide = kWider * reach;
+  std::size_t times = 1;
+  while (!best.is_enough() && wide > 0.0) {
+    const auto [some, one_in] = nearest_within(index, centre, wide);
+    auto counts = kTriedThen;
+    for (auto& count : counts) count = std::max(count * times / one_in, kNearest);
+    look(points, some, counts, best);
     const bool all_noise = best.is_widest || best.view.thickness > kHardlyFlat;
-    if (!all_noise || wide > kWidestReach) break;
-    for (auto& count : counts) count *= kMoreWithin;
+    if (!all_noise || wide >= kWidestReach) break;
+    wide = std::min(kWider * wide, kWidestReach);
+    times = std::min(kMoreWithin * times, points.size());
   }
   best.view.crowded = reach <= kCrowdedReach;
   return std::move(best.view);

@@ -83,5 +83,19 @@ TEST(ThickNoiseGirth, HoldsInWhicheverDirectionPointsAreOff) {
   EXPECT_GE(held, 8);
 }
 
+/// Where it bends much noise along normals puts it most too low: of these one in six held.
+TEST(ThickNoiseGirth, HoldsOfLongSections) {
+  const auto shape = test::elliptic_cylinder(50, 20);
+  const double truth = test::true_girth(shape, oblique_plane());
+  int held = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    const auto cloud = test::random_points(shape, 200000, -40, 40, 1.0, seed);
+    const auto girth = girth_by_rbf(cloud, oblique_plane());
+    ASSERT_TRUE(girth) << girth.error().line();
+    if (std::abs(girth->contact_mm - truth) <= *girth->contact_u95_mm) ++held;
+  }
+  EXPECT_GE(held, 5);
+}
+
 }  // namespace
 }  // namespace instep
