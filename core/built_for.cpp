@@ -3,11 +3,7 @@
 namespace instep {
 
 const char* built_for() {
-#ifdef __AVX2__
-  return "x86-64-v3";
-#else
-  return "any processor";
-#endif
+  return INSTEP_BUILT_FOR;
 }
 
 }  // namespace instep
