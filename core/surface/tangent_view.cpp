@@ -23,8 +23,8 @@ constexpr double kCrowdedReach = 0.05;
 /// So many times as far as some lie eight times as many.
 constexpr double kWider = 2.83;
 constexpr std::size_t kMoreWithin = 8;
-/// Where the widest view is the flattest, or none is flatter than a ball by more than this, noise
-/// may be thicker than they are wide: wider ones are tried up to this reach.
+/// Where the widest view of a crowd is the flattest, or none is flatter than a ball by more than
+/// this, noise may be thicker than they are wide: wider ones are tried up to this reach.
 constexpr double kHardlyFlat = 0.42;
 constexpr double kWidestReach = 0.3;
 /// Of more an even part is put in order.
@@ -66,7 +66,6 @@ void look(const std::vector<Eigen::Vector3d>& points,
     TangentView view = tangent_view(points, nearest.first(std::min(count, nearest.size())));
     best.is_widest = view.thickness < best.view.thickness;
     if (best.is_widest) best.view = std::move(view);
-    if (count >= nearest.size()) return;
   }
 }
 
@@ -100,20 +99,24 @@ TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const Poin
   const auto nearest = index.nearest(centre, kNearest);
   const double reach = std::sqrt(nearest.back().squared_distance);
   look(points, nearest, kTriedFirst, best);
+  const bool crowded = reach <= kCrowdedReach;
   // Within a radius many are found far quicker than one by one.
   double wide = kWider * reach;
   std::size_t times = 1;
   while (!best.is_enough() && wide > 0.0) {
     const auto [some, one_in] = nearest_within(index, centre, wide);
-    auto counts = kTriedThen;
-    for (auto& count : counts) count = std::max(count * times / one_in, kNearest);
+    std::vector<std::size_t> counts;
+    for (const std::size_t count : kTriedThen) {
+      counts.push_back(std::max(count * times / one_in, kNearest));
+      if (counts.back() >= some.size()) break;
+    }
     look(points, some, counts, best);
     const bool all_noise = best.is_widest || best.view.thickness > kHardlyFlat;
-    if (!all_noise || wide >= kWidestReach) break;
+    if (!crowded || !all_noise || wide >= kWidestReach) break;
     wide = std::min(kWider * wide, kWidestReach);
     times = std::min(kMoreWithin * times, points.size());
   }
-  best.view.crowded = reach <= kCrowdedReach;
+  best.view.crowded = crowded;
   return std::move(best.view);
 }
 
