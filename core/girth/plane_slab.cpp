@@ -20,9 +20,9 @@ namespace {
 constexpr double kWiderThanFirst = 6.0;
 constexpr double kWiderThanOthers = 1.2;
 /// Places are rounded to this part, in powers of two, of what the control points are apart: to a
-/// few millionths of a thousandth of a millimetre round a foot, and yet ten thousand times
-/// what rounding leaves where a cloud was turned or told in other units.
-constexpr int kRoundedBits = 34;
+/// ten-thousandth of a millionth of a millimetre round a foot, and yet a thousand times what is
+/// left where a cloud was turned or told in other units.
+constexpr int kRoundedBits = 38;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
 

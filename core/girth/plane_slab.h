@@ -23,7 +23,7 @@ struct PlaneSlab {
   double share_of(std::size_t place) const { return shares.empty() ? 1.0 : shares[place]; }
 };
 
-/// A part in 2^34 of what the plane's control points are apart.
+/// A part in 2^38 of what the plane's control points are apart.
 double rounding_step(const TapePlane& plane);
 
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.

@@ -23,9 +23,11 @@ constexpr double kCrowdedReach = 0.05;
 /// So many times as far as some lie eight times as many.
 constexpr double kWider = 2.83;
 constexpr std::size_t kMoreWithin = 8;
-/// Where the widest view of a crowd is the flattest, or none is flatter than a ball by more than
-/// this, noise may be thicker than they are wide: wider ones are tried up to this reach.
-constexpr double kHardlyFlat = 0.42;
+/// Where the views of a crowd are thicker than this, and the widest of them is the flattest, or
+/// none is flatter than a ball by more than that, noise may be thicker than they are wide: wider
+/// ones are tried up to this reach.
+constexpr double kHardlyFlat = 0.3;
+constexpr double kNearlyABall = 0.42;
 constexpr double kWidestReach = 0.3;
 /// Of more an even part is put in order.
 constexpr std::size_t kMostInOrder = 8000;
@@ -55,6 +57,9 @@ struct Flattest {
   bool is_widest = false;  ///< of them
 
   bool is_enough() const { return view.thickness <= kFlatEnough; }
+  bool may_be_all_noise() const {
+    return view.thickness > (is_widest ? kHardlyFlat : kNearlyABall);
+  }
 };
 
 /// Looks at so many of the nearest, until a view is flat enough.
@@ -111,8 +116,7 @@ TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const Poin
       if (counts.back() >= some.size()) break;
     }
     look(points, some, counts, best);
-    const bool all_noise = best.is_widest || best.view.thickness > kHardlyFlat;
-    if (!crowded || !all_noise || wide >= kWidestReach) break;
+    if (!crowded || !best.may_be_all_noise() || wide >= kWidestReach) break;
     wide = std::min(kWider * wide, kWidestReach);
     times = std::min(kMoreWithin * times, points.size());
   }
