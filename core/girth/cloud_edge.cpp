@@ -20,8 +20,9 @@ constexpr double kLeastDoubt = 1e-5;
 constexpr double kPieceInGrains = 3.0;
 constexpr double kFewestPieces = 8.0;
 constexpr double kMostPieces = 72.0;
-/// So many grains from the plane it no longer matters. Of those cylinders a girth is off by a third
-/// of what it is with the edge on the plane where that is two grains away.
+/// So many grains from the plane it hardly matters. Of those cylinders with 1 mm of noise girths
+/// are 0.20 mm short where the edge is one grain away, 0.12 where it is two, 0.08 where it is
+/// three.
 constexpr double kFarInGrains = 4.0;
 /// Points further from the contour are of other skin, but for as much as skin leans.
 constexpr double kNearInGrains = 2.5;

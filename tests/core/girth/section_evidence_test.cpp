@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/support/circle_contour.h"
+#include "tests/support/empty_band.h"
 
 namespace instep {
 namespace {
@@ -38,15 +39,7 @@ struct Place {
 };
 
 SectionEvidence evidence_of(const std::vector<Place>& places) {
-  PlaneBand band{.middle_mm = {0, 0},
-                 .points = {},
-                 .index = PointIndex({}),
-                 .sources = {},
-                 .shares = {},
-                 .seen = {},
-                 .uneven = {},
-                 .scattered = {},
-                 .roughness = {}};
+  PlaneBand band = test::empty_band();
   for (const auto& place : places) {
     band.points.push_back({place.position, place.outward, 0.0});
     band.seen.push_back(place.seen);

@@ -11,6 +11,7 @@
 #include "core/girth/girth.h"
 #include "tests/support/circle_contour.h"
 #include "tests/support/cylinder_tape.h"
+#include "tests/support/empty_band.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -36,16 +37,9 @@ std::vector<OrientedPoint> line_out(double from, double to, double height = 0.0)
 }
 
 UnfollowedSkin skin_of(std::vector<OrientedPoint> points, const Contour* other = nullptr) {
-  const PlaneBand band{.middle_mm = {0, 0},
-                       .points = std::move(points),
-                       .index = PointIndex({}),
-                       .sources = {},
-                       .shares = {},
-                       .seen = {},
-                       .grain = kGrain,
-                       .uneven = {},
-                       .scattered = {},
-                       .roughness = {}};
+  PlaneBand band = test::empty_band();
+  band.points = std::move(points);
+  band.grain = kGrain;
   const Contour section = test::circle_contour(kRadius, 3600);
   const ContourIndex index(section);
   if (other == nullptr) return unfollowed_skin(band, section, {&index});
