@@ -6,10 +6,11 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/geometry/crowding_points.h"
+#include "core/geometry/cell_crowds.h"
 #include "core/geometry/hovering_points.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
+#include "core/geometry/piled_points.h"
 #include "core/geometry/stray_points.h"
 #include "core/girth/section_probe.h"
 #include "core/median.h"
@@ -108,6 +109,7 @@ void drop_copies(PlaneBand& band) {
 PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sigma) {
   double half_width = kBandInGrains * grain_of(found.spacing, sigma);
   for (int round = 0;; ++round) {
+    slabs.level_piles(kFinestGrain * found.unit_mm, half_width * found.unit_mm);
     PlaneBand band = gather(slabs, found, half_width);
     drop_copies(band);
     band.grain = grain_of(band.spacing, sigma);
@@ -180,7 +182,10 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
   const bool told = cloud.has_normals() || cloud.has_sigma() || !cloud.origins.empty();
   if (told || found.spacing > kCrowded * kFinestGrain) return std::nullopt;
   const PlaneSlab slab = found.slab(slabs, kBandInGrains * kFinestGrain);
-  PlaneBand band = band_of(without(crowding_points(slab.places, kFinestGrain), slab), found);
+  const CellCrowds crowds = crowds_in_cells(slab.places, kFinestGrain);
+  // Of a pile one point would stay that need not lie on the skin.
+  if (usual_beside_piles(crowds.counts)) return std::nullopt;
+  PlaneBand band = band_of(without(crowds.crowding, slab), found);
   band.thinned_out = slab.places.size() - band.sources.size();
   band.grain = grain_of(band.spacing, 0.0);
   auto noise = estimate_if_exact(band.index.points(), band.index, along_the_plane(cloud, band));

@@ -56,9 +56,10 @@ struct PlaneBand {
 /// they tell no more than fewer would, a part of the section.
 ///
 /// Of a crowd of which nothing is told and which shows no noise, wherever it is looked at, nor
-/// strays, as many points are kept as the finest grain needs (core/geometry/crowding_points.h).
-/// Of points on lines that are far apart, as many on each as the lines beside it can be seen with,
-/// or averages of them (core/girth/thinned_lines.h).
+/// strays, as many points are kept as the finest grain needs (core/geometry/cell_crowds.h).
+/// Where some parts hold many times as many as others do, as many there as elsewhere
+/// (core/geometry/piled_points.h). Of points on lines that are far apart, as many on each as the
+/// lines beside it can be seen with, or averages of them (core/girth/thinned_lines.h).
 ///
 /// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
 /// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place,

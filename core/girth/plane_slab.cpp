@@ -9,7 +9,9 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/cell_crowds.h"
 #include "core/geometry/distinct_points.h"
+#include "core/geometry/piled_points.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/thinned_lines.h"
 
@@ -198,6 +200,7 @@ PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
     widest_ = slab_of(cloud_, plane_, half_width_);
+    if (usual_in_cell_ > 0) level_widest();
     if (lines_) thin_widest();
   }
   return within(widest_, half_width);
@@ -206,6 +209,19 @@ PlaneSlab SlabSource::slab(double half_width) {
 void SlabSource::thin(const ScanLines& lines) {
   lines_ = lines;
   thin_widest();
+}
+
+void SlabSource::level_piles(double side, double half_width) {
+  if (lines_) return;
+  const auto usual = usual_beside_piles(crowds_in_cells(slab(half_width).places, side).counts);
+  if (!usual) return;
+  cell_side_ = side;
+  usual_in_cell_ = *usual;
+  level_widest();
+}
+
+void SlabSource::level_widest() {
+  widest_ = without(piled_points(widest_.places, cell_side_, usual_in_cell_), widest_);
 }
 
 void SlabSource::thin_widest() {

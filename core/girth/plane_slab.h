@@ -56,10 +56,15 @@ class SlabSource {
   void thin(const ScanLines& lines);
   bool is_thinned() const { return lines_.has_value(); }
 
+  /// From now on slabs have no piles of points in cubic cells of `side`, where those at most
+  /// `half_width` from the plane have some (core/geometry/piled_points.h). Thinned slabs stay.
+  void level_piles(double side, double half_width);
+
   /// Of the points of the widest slab: strays amid lines, left out by thinning.
   double stray_share() const { return stray_share_; }
 
  private:
+  void level_widest();
   void thin_widest();
 
   const PointCloud& cloud_;
@@ -67,6 +72,8 @@ class SlabSource {
   bool weighed_;
   double size_ = 0.0;
   std::optional<ScanLines> lines_;
+  double cell_side_ = 0.0;
+  std::size_t usual_in_cell_ = 0;  ///< nothing is levelled if zero
   double stray_share_ = 0.0;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/crowding_points.h"
+#include "core/geometry/cell_crowds.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/point_index.h"
@@ -279,7 +279,7 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
                            bool weighed) {
   if (slab.places.empty()) return {};
-  auto left_out = crowding_points(slab.places, lines.apart / kCells);
+  auto left_out = crowds_in_cells(slab.places, lines.apart / kCells).crowding;
   const LineAverages averages(cloud, slab, lines.apart, weighed);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < left_out.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "core/geometry/crowding_points.h"
+#include "core/geometry/cell_crowds.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,17 +28,20 @@ struct Member {
 
 }  // namespace
 
-std::vector<bool> crowding_points(const std::vector<Eigen::Vector3d>& points, double side) {
-  std::vector<bool> crowding(points.size(), false);
-  if (points.empty()) return crowding;
+CellCrowds crowds_in_cells(const std::vector<Eigen::Vector3d>& points, double side) {
+  CellCrowds crowds{std::vector<bool>(points.size(), false), {}};
+  if (points.empty()) return crowds;
   Eigen::Array3d least = points.front();
   for (const auto& point : points) least = least.min(point.array());
   std::vector<Member> layer;
   std::int64_t column = 0;
   const auto mark_layer = [&] {
     std::sort(layer.begin(), layer.end());
-    for (std::size_t i = 1; i < layer.size(); ++i) {
-      crowding[layer[i].point] = layer[i].shares_cell_with(layer[i - 1]);
+    for (std::size_t i = 0; i < layer.size(); ++i) {
+      const bool crowding = i > 0 && layer[i].shares_cell_with(layer[i - 1]);
+      crowds.crowding[layer[i].point] = crowding;
+      if (!crowding) crowds.counts.push_back(0);
+      ++crowds.counts.back();
     }
     layer.clear();
   };
@@ -51,7 +54,7 @@ std::vector<bool> crowding_points(const std::vector<Eigen::Vector3d>& points, do
     layer.push_back({cell.y(), cell.z(), off, i});
   }
   mark_layer();
-  return crowding;
+  return crowds;
 }
 
 }  // namespace instep

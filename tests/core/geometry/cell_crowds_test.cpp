@@ -1,9 +1,10 @@
-#include "core/geometry/crowding_points.h"
+#include "core/geometry/cell_crowds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "tests/support/random_numbers.h"
@@ -26,7 +27,7 @@ Places random_places(std::size_t count) {
   return places;
 }
 
-TEST(CrowdingPoints, AreAllOfACellButTheOneNearestToItsMiddle) {
+TEST(CellCrowds, LeaveTheOneNearestToTheMiddleOfItsCell) {
   constexpr double kSide = 0.4;
   const Places places = random_places(3000);
   std::map<std::tuple<double, double, double>, std::pair<double, std::size_t>> nearest;
@@ -38,20 +39,27 @@ TEST(CrowdingPoints, AreAllOfACellButTheOneNearestToItsMiddle) {
   }
   std::vector<bool> expected(places.size(), true);
   for (const auto& [cell, one] : nearest) expected[one.second] = false;
-  EXPECT_EQ(crowding_points(places, kSide), expected);
+  const auto crowds = crowds_in_cells(places, kSide);
+  EXPECT_EQ(crowds.crowding, expected);
+  EXPECT_EQ(crowds.counts.size(), nearest.size());
+  EXPECT_EQ(std::accumulate(crowds.counts.begin(), crowds.counts.end(), std::size_t{0}),
+            places.size());
   EXPECT_GT(std::count(expected.begin(), expected.end(), true), 2000);
 }
 
-TEST(CrowdingPoints, AreNoneWherePointsStandApart) {
+TEST(CellCrowds, AreNoneWherePointsStandApart) {
   Places places;
   for (int i = 0; i < 100; ++i) places.emplace_back(i / 10 * 2.0, i % 10 * 2.0, 1e6 * (i % 3));
-  EXPECT_EQ(crowding_points(places, 1.0), std::vector<bool>(100, false));
+  const auto crowds = crowds_in_cells(places, 1.0);
+  EXPECT_EQ(crowds.crowding, std::vector<bool>(100, false));
+  EXPECT_EQ(crowds.counts, std::vector<std::size_t>(100, 1));
 }
 
-TEST(CrowdingPoints, AreAllButTheFirstOfThoseAtOnePlace) {
-  EXPECT_EQ(crowding_points(Places(4, {1.0, 2.0, 3.0}), 0.5),
-            (std::vector<bool>{false, true, true, true}));
-  EXPECT_TRUE(crowding_points({}, 1.0).empty());
+TEST(CellCrowds, LeaveTheFirstOfThoseAtOnePlace) {
+  const auto crowds = crowds_in_cells(Places(4, {1.0, 2.0, 3.0}), 0.5);
+  EXPECT_EQ(crowds.crowding, (std::vector<bool>{false, true, true, true}));
+  EXPECT_EQ(crowds.counts, (std::vector<std::size_t>{4}));
+  EXPECT_TRUE(crowds_in_cells({}, 1.0).crowding.empty());
 }
 
 }  // namespace
