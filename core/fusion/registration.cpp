@@ -117,7 +117,9 @@ Vector3d corrected_centroid(const MovingView& view) {
 /// How `distance` of a match changes with a small turn about the centroid and a small shift.
 Vector6 gradient(const MovingView& view, const Vector3d& point, const Vector3d& normal) {
   Vector6 row;
-  row << (point - corrected_centroid(view)).cross(normal), normal;
+  // Not by commas: with wide vectors GCC 12 takes those for reads beyond the cross product.
+  row.head<3>() = (point - corrected_centroid(view)).cross(normal);
+  row.tail<3>() = normal;
   return row;
 }
 

@@ -93,7 +93,8 @@ struct Girth {
 /// Intervals also know that noise may lie along normals or along a camera's rays, and that a noisy
 /// cloud's edge beside the plane bends the skin (doubt_of_direction(), doubt_of_edge()).
 ///
-/// Deterministic: the same cloud gives the same bytes.
+/// Deterministic: the same cloud gives the same bytes, on processors that built_for() names alike;
+/// on others the same to 1e-9 mm.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 

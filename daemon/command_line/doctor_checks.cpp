@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/built_for.h"
 #include "daemon/build_facts.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
@@ -160,9 +161,9 @@ void check_outputs(const Result<json>& status, const Settings& settings,
 
 DoctorCheck library_versions() {
   return good("software",
-              fmt::format("instep {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
-                          program_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
-                          FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
+              fmt::format("instep {} for {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
+                          program_version(), built_for(), FMT_VERSION / 10000,
+                          FMT_VERSION / 100 % 100, FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR,
                           NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH,
                           EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
 }

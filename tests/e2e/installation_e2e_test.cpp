@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -72,6 +73,23 @@ TEST_F(Installation, PutsEverythingBelowItsPrefix) {
   }
   EXPECT_THAT(bytes_of(unit()),
               HasSubstr("ExecStart=" + (prefix() / "bin/instepd").string() + "\n"));
+}
+
+/// The measuring, which the programs share and which may be built for two kinds of processor; moved
+/// to another place all the same.
+TEST_F(Installation, BringsItsLibraries) {
+  const auto moved = folder_.path() / "moved";
+  fs::rename(prefix(), moved);
+  const auto linked = shell("ldd " + (moved / "bin/instep").string());
+  EXPECT_THAT(linked.text, HasSubstr((moved / "bin").string() + "/../lib"));
+  EXPECT_THAT(linked.text, Not(HasSubstr("not found")));
+  EXPECT_THAT(linked.text, Not(HasSubstr(test::built_programs().parent_path().string())));
+
+  const auto libraries = shell("find " + moved.string() + " -name libinstep_core.so").text;
+  EXPECT_EQ(std::count(libraries.begin(), libraries.end(), '\n'), INSTEP_BUILT_WIDE ? 2 : 1)
+      << libraries;
+  const bool wide = libraries.find("/instep/glibc-hwcaps/x86-64-v3/") != std::string::npos;
+  EXPECT_EQ(wide, bool{INSTEP_BUILT_WIDE}) << libraries;
 }
 
 TEST_F(Installation, RunsWithItsOwnSettings) {
