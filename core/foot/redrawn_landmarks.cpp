@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -29,10 +28,11 @@ std::uint64_t mixed(std::uint64_t bits) {
   return bits ^ (bits >> 31U);
 }
 
+/// By whole micrometres: in its last bits a place depends on the processor.
 std::uint64_t hash_of(const Vector3d& point) {
   std::uint64_t hash = 0x9E3779B97F4A7C15ULL;
   for (int axis = 0; axis < 3; ++axis) {
-    hash = mixed(hash + std::bit_cast<std::uint64_t>(point(axis)));
+    hash = mixed(hash + static_cast<std::uint64_t>(std::llround(1e3 * point(axis))));
   }
   return hash;
 }

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "core/foot/alignment.h"
+#include "core/foot/landmarks.h"
+#include "tests/support/foot_body.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -52,6 +55,24 @@ TEST(Redraws, SayNothingFromTooFew) {
   EXPECT_FALSE(u95_of_redraws({}, {2, false}));
   EXPECT_FALSE(u95_of_redraws(Values{1.0, 2.0}, {2, false}));
   EXPECT_FALSE(u95_of_redraws(Values{1.0, std::nullopt, 2.0, std::nullopt}, {4, true}));
+}
+
+/// They were other draws wherever a processor rounds otherwise.
+TEST(Redraws, AreTheSameWhateverTheLastBitsOfPlaces) {
+  const PointCloud cloud = test::FootBody{}.points();
+  PointCloud rounded = cloud;
+  for (auto& position : rounded.positions) position *= 1.0 + 1e-14;
+  const auto draws = align_foot(cloud).and_then(find_landmarks).value().redraws.landmarks;
+  const auto others = align_foot(rounded).and_then(find_landmarks).value().redraws.landmarks;
+  ASSERT_FALSE(draws.empty());
+  ASSERT_EQ(others.size(), draws.size());
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    for (const auto& [name, landmark] : draws[i].landmarks) {
+      const auto other = others[i].landmarks.find(name);
+      ASSERT_NE(other, others[i].landmarks.end()) << name;
+      EXPECT_NEAR((other->second.position_mm - landmark.position_mm).norm(), 0.0, 1e-6) << name;
+    }
+  }
 }
 
 }  // namespace
