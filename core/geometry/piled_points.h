@@ -10,7 +10,7 @@ namespace instep {
 /// Points pile up where a cell holds many times as many as others do: a spot that one camera saw a
 /// thousand times, or a strip that a second one saw from near. Most of the points, they have the
 /// say on how far apart all are and how noisy, and where they end no patch of the nearest ones sees
-/// both sides. Of a body with 0.3 mm of noise, a fiftieth of which was seen a hundred times as
+/// both sides. Of a body with 0.3 mm of noise, a thirtieth of which was seen eighty times as
 /// densely with 0.1 mm, girths were up to 21 mm too long.
 
 /// How many points cells hold where some are piles: what three quarters of them hold at most.

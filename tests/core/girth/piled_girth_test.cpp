@@ -79,7 +79,7 @@ void expect_right(const PointCloud& cloud, double most_u95_mm) {
 
 /// Contact lengths were up to 27 mm too long where the part had less noise than the rest; with as
 /// much the section did not close.
-TEST(PiledGirth, IsRightWithAPartAHundredTimesAsDense) {
+TEST(PiledGirth, IsRightWithAPartEightyTimesAsDense) {
   for (const std::uint64_t seed : {1U, 2U}) {
     expect_right(with_dense_part(0.3, 0.1, seed), 0.3);
     expect_right(with_dense_part(0.6, 0.3, seed), 0.6);
