@@ -29,6 +29,9 @@ constexpr double kAlmostThere = 0.15;
 constexpr double kNearby = 0.03;
 /// A section needs some hundred; points that ask for more form no surface.
 constexpr std::size_t kMostPatches = 1500;
+/// Of the places where none can be fitted, of which a section has hardly any: lines that lead there
+/// end, but of a dense part that the rest does not go on from there are thousands.
+constexpr std::size_t kMostFailures = 500;
 
 struct Weight {
   double value = 0.0;
@@ -99,9 +102,12 @@ bool BlendedSurface::visit(const Eigen::Vector3d& place) {
   const auto& near = patches_near(place);
   if (std::any_of(near.rbegin(), near.rend(), [&](auto i) { return serves(i, place); }))
     return true;
-  if (patches_.size() >= kMostPatches) return false;
+  if (patches_.size() >= kMostPatches || failures_ >= kMostFailures) return false;
   auto patch = fitter_.fit(place);
-  if (!patch) return false;
+  if (!patch) {
+    ++failures_;
+    return false;
+  }
   patches_.push_back(std::move(*patch));
   zones_.emplace_back(patches_.back());
   near_.push_back(zones_.size() - 1);

@@ -21,7 +21,8 @@ class BlendedSurface {
  public:
   explicit BlendedSurface(PatchFitter fitter);
 
-  /// Makes sure that a patch is centred nearby. False if none can be fitted there.
+  /// Makes sure that a patch is centred nearby. False if none can be fitted there, or where so many
+  /// were asked for that the points form no surface.
   bool visit(const Eigen::Vector3d& place);
 
   /// Nothing outside all patches.
@@ -61,7 +62,8 @@ class BlendedSurface {
 
   PatchFitter fitter_;
   std::vector<SurfacePatch> patches_;
-  std::vector<Zone> zones_;  ///< of the patches
+  std::vector<Zone> zones_;   ///< of the patches
+  std::size_t failures_ = 0;  ///< places where none could be fitted
   /// Places are asked for one beside the other: the patches that may serve or count near the last
   /// one that was far from those before, in their order.
   mutable std::vector<std::size_t> near_;

@@ -218,5 +218,22 @@ TEST(BlendedSurface, IsFiniteOnAnything) {
   }
 }
 
+/// Lines that set out from a dense part which the rest did not go on from asked for 18,000 patches,
+/// none of which could be fitted: 150 s.
+TEST(BlendedSurface, FitsNoMoreWhereAlmostNoPlaceHasAPatch) {
+  auto points = test::sphere_points(kRadius, 2000, 0.0, 6);
+  for (int i = 0; i < 200; ++i) {
+    points.push_back({{20.0 + 0.01 * i, 0.0, 0.0}, Vector3d::UnitY(), 1e-18});
+  }
+  auto surface = surface_of(points);
+  const Vector3d on_line(21.0, 0.0, 0.0);
+  ASSERT_TRUE(surface.visit(on_equator(0.0)));
+  for (int i = 0; i < 400; ++i) ASSERT_FALSE(surface.visit(on_line));
+  EXPECT_TRUE(surface.visit(on_equator(1.0)));
+  for (int i = 0; i < 200; ++i) ASSERT_FALSE(surface.visit(on_line));
+  EXPECT_FALSE(surface.visit(on_equator(2.0)));
+  EXPECT_TRUE(surface.visit(on_equator(1.0)));
+}
+
 }  // namespace
 }  // namespace instep
