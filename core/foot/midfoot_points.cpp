@@ -8,7 +8,7 @@
 
 #include "core/foot/robust_extreme.h"
 #include "core/foot/rough_tape.h"
-#include "core/foot/skin_summit.h"
+#include "core/geometry/quadratic_skin.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {

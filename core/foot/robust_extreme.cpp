@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/foot/skin_summit.h"
+#include "core/geometry/quadratic_skin.h"
 
 namespace instep {
 namespace {
