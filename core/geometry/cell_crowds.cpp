@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <tuple>
 
+#include "core/median.h"
+
 namespace instep {
 namespace {
 
@@ -26,7 +28,16 @@ struct Member {
   }
 };
 
+/// Times what three quarters of the cells hold at most.
+constexpr std::size_t kPile = 8;
+constexpr double kUsual = 0.75;
+
 }  // namespace
+
+bool CellCrowds::has_pile() const {
+  const std::size_t most = kPile * quantile(counts, kUsual);
+  return std::any_of(counts.begin(), counts.end(), [&](std::size_t count) { return count > most; });
+}
 
 CellCrowds crowds_in_cells(const std::vector<Eigen::Vector3d>& points, double side) {
   CellCrowds crowds{std::vector<bool>(points.size(), false), {}};

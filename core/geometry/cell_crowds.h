@@ -13,6 +13,10 @@ struct CellCrowds {
   /// that stand further apart all stay.
   std::vector<bool> crowding;
   std::vector<std::size_t> counts;  ///< of points, for each cell that has some
+
+  /// Whether a cell holds many times as many as three quarters of them do: the one nearest to its
+  /// middle need not lie on the skin then.
+  bool has_pile() const;
 };
 
 /// `points` in the order of their first coordinate, all finite; `side` > 0: of a cell. Cells are

@@ -10,7 +10,6 @@
 #include "core/geometry/hovering_points.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
-#include "core/geometry/piled_points.h"
 #include "core/geometry/stray_points.h"
 #include "core/girth/section_probe.h"
 #include "core/median.h"
@@ -109,7 +108,8 @@ void drop_copies(PlaneBand& band) {
 PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sigma) {
   double half_width = kBandInGrains * grain_of(found.spacing, sigma);
   for (int round = 0;; ++round) {
-    slabs.level_piles(kFinestGrain * found.unit_mm, half_width * found.unit_mm);
+    slabs.level_piles(found.middle_mm.head<2>(), kFinestGrain * found.unit_mm,
+                      half_width * found.unit_mm);
     PlaneBand band = gather(slabs, found, half_width);
     drop_copies(band);
     band.grain = grain_of(band.spacing, sigma);
@@ -183,8 +183,7 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
   if (told || found.spacing > kCrowded * kFinestGrain) return std::nullopt;
   const PlaneSlab slab = found.slab(slabs, kBandInGrains * kFinestGrain);
   const CellCrowds crowds = crowds_in_cells(slab.places, kFinestGrain);
-  // Of a pile one point would stay that need not lie on the skin.
-  if (usual_beside_piles(crowds.counts)) return std::nullopt;
+  if (crowds.has_pile()) return std::nullopt;
   PlaneBand band = band_of(without(crowds.crowding, slab), found);
   band.thinned_out = slab.places.size() - band.sources.size();
   band.grain = grain_of(band.spacing, 0.0);

@@ -9,9 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/geometry/cell_crowds.h"
 #include "core/geometry/distinct_points.h"
-#include "core/geometry/piled_points.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/thinned_lines.h"
 
@@ -142,6 +140,12 @@ PlaneSlab ordered_slab(const PointCloud& cloud, const PlaneSlab& found) {
   return slab;
 }
 
+/// In whole steps, which are the same numbers whichever unit the cloud is told in.
+std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, double step) {
+  for (auto& place : places) place = (place / step).array().round();
+  return places;
+}
+
 }  // namespace
 
 double rounding_step(const TapePlane& plane) {
@@ -200,7 +204,7 @@ PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
     widest_ = slab_of(cloud_, plane_, half_width_);
-    if (usual_in_cell_ > 0) level_widest();
+    if (level_) level_widest();
     if (lines_) thin_widest();
   }
   return within(widest_, half_width);
@@ -211,17 +215,28 @@ void SlabSource::thin(const ScanLines& lines) {
   thin_widest();
 }
 
-void SlabSource::level_piles(double side, double half_width) {
-  if (lines_) return;
-  const auto usual = usual_beside_piles(crowds_in_cells(slab(half_width).places, side).counts);
-  if (!usual) return;
-  cell_side_ = side;
-  usual_in_cell_ = *usual;
-  level_widest();
+void SlabSource::level_piles(const Eigen::Vector2d& middle, double least_side, double half_width) {
+  if (lines_ || level_) return;
+  const double step = rounding_step(plane_);
+  level_ = level_beside_piles(in_steps(slab(half_width).places, step), middle / step,
+                              2.0 * half_width / step, std::round(least_side / step));
+  if (level_) level_widest();
 }
 
 void SlabSource::level_widest() {
-  widest_ = without(piled_points(widest_.places, cell_side_, usual_in_cell_), widest_);
+  const auto places = in_steps(widest_.places, rounding_step(plane_));
+  widest_ = without(surplus_in_piles(places, *level_, told_noise(widest_)), widest_);
+}
+
+/// Of each place, the most of those that nobody saw; none if nothing is told that counts.
+std::vector<double> SlabSource::told_noise(const PlaneSlab& slab) const {
+  if (!weighed_ || !cloud_.has_sigma()) return {};
+  std::vector<double> sigmas;
+  sigmas.reserve(slab.indices.size());
+  for (const std::size_t i : slab.indices) {
+    sigmas.push_back(cloud_.was_seen(i) ? cloud_.sigma_mm[i] : std::numeric_limits<double>::max());
+  }
+  return sigmas;
 }
 
 void SlabSource::thin_widest() {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/piled_points.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/scan_lines.h"
 #include "core/girth/tape_plane.h"
@@ -56,15 +57,17 @@ class SlabSource {
   void thin(const ScanLines& lines);
   bool is_thinned() const { return lines_.has_value(); }
 
-  /// From now on slabs have no piles of points in cubic cells of `side`, where those at most
-  /// `half_width` from the plane have some (core/geometry/piled_points.h). Thinned slabs stay.
-  void level_piles(double side, double half_width);
+  /// From now on slabs have no piles (core/geometry/piled_points.h), if those at most `half_width`
+  /// from the plane have some: in cells of `least_side` or more, round `middle`. Of a pile the
+  /// points stay that the least noise is told of. Thinned slabs stay, and levelled ones.
+  void level_piles(const Eigen::Vector2d& middle, double least_side, double half_width);
 
   /// Of the points of the widest slab: strays amid lines, left out by thinning.
   double stray_share() const { return stray_share_; }
 
  private:
   void level_widest();
+  std::vector<double> told_noise(const PlaneSlab& slab) const;
   void thin_widest();
 
   const PointCloud& cloud_;
@@ -72,8 +75,7 @@ class SlabSource {
   bool weighed_;
   double size_ = 0.0;
   std::optional<ScanLines> lines_;
-  double cell_side_ = 0.0;
-  std::size_t usual_in_cell_ = 0;  ///< nothing is levelled if zero
+  std::optional<PileLevel> level_;  ///< in rounding steps
   double stray_share_ = 0.0;
   PlaneSlab widest_;
   double half_width_ = -1.0;  ///< of it

@@ -62,5 +62,15 @@ TEST(CellCrowds, LeaveTheFirstOfThoseAtOnePlace) {
   EXPECT_TRUE(crowds_in_cells({}, 1.0).crowding.empty());
 }
 
+TEST(CellCrowds, HaveAPileWhereACellHoldsManyTimesWhatOthersDo) {
+  CellCrowds crowds{{}, std::vector<std::size_t>(1000, 3)};
+  EXPECT_FALSE(crowds.has_pile());
+  crowds.counts.push_back(24);
+  EXPECT_FALSE(crowds.has_pile());
+  crowds.counts.push_back(25);
+  EXPECT_TRUE(crowds.has_pile());
+  EXPECT_FALSE(CellCrowds{}.has_pile());
+}
+
 }  // namespace
 }  // namespace instep
