@@ -6,21 +6,28 @@
 #   GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2 instep girth ...   as on a processor without them
 set(INSTEP_WIDE_VECTORS AUTO CACHE STRING
   "Build the measuring for x86-64-v3 as well: ON, OFF, or AUTO, where it is optimised and not sanitized")
-set(wide_vectors ${INSTEP_WIDE_VECTORS})
+string(TOUPPER "${INSTEP_WIDE_VECTORS}" wide_vectors)
+string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 if(wide_vectors STREQUAL "AUTO")
   set(wide_vectors OFF)
-  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64"
-     AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug" AND NOT INSTEP_SANITIZE)
+  # Whoever names a processor has the library built for it alone.
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64" AND CMAKE_SIZEOF_VOID_P EQUAL 8
+     AND build_type MATCHES "^(RELEASE|RELWITHDEBINFO|MINSIZEREL)$" AND NOT INSTEP_SANITIZE
+     AND NOT CMAKE_CXX_FLAGS MATCHES "-march=")
     set(wide_vectors ON)
   endif()
+elseif(NOT wide_vectors MATCHES "^(ON|OFF)$")
+  message(FATAL_ERROR "INSTEP_WIDE_VECTORS is ${INSTEP_WIDE_VECTORS}: give ON, OFF or AUTO")
 endif()
 
 # Where programs that are installed find their library.
 set(core_folder "${CMAKE_INSTALL_LIBDIR}/instep")
 set(wide_place glibc-hwcaps/x86-64-v3)
 file(RELATIVE_PATH core_from_programs
-  "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${core_folder}")
-set(CMAKE_INSTALL_RPATH "$ORIGIN/${core_from_programs}")
+  "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}/instep")
+if(NOT DEFINED CMAKE_INSTALL_RPATH)
+  set(CMAKE_INSTALL_RPATH "$ORIGIN/${core_from_programs}")
+endif()
 
 # What the library allocates a program's headers may free. With wide vectors Eigen 3.4 allocates for
 # 32 bytes whatever it is told, and without them takes what malloc gives: so both are told 32, and 16
@@ -54,6 +61,9 @@ if(wide_vectors)
 else()
   # One of an earlier build or installation would go before the new one.
   file(REMOVE_RECURSE "${CMAKE_CURRENT_BINARY_DIR}/${wide_place}")
-  install(CODE "file(REMOVE_RECURSE
-    \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${core_folder}/${wide_place}\")")
+  set(installed_wide "${core_folder}/${wide_place}")
+  if(NOT IS_ABSOLUTE "${installed_wide}")
+    string(PREPEND installed_wide "\${CMAKE_INSTALL_PREFIX}/")
+  endif()
+  install(CODE "file(REMOVE_RECURSE \"\$ENV{DESTDIR}${installed_wide}\")")
 endif()

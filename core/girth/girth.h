@@ -44,7 +44,8 @@ struct Girth {
 
   std::size_t points = 0;  ///< points of the whole cloud
   /// Points near the plane that took part, and those of an exact crowd that would have told the
-  /// same again. Of lines that are far apart those that were kept, or averages of them.
+  /// same again. Of lines that are far apart those that were kept, or averages of them; of parts
+  /// that were seen many times as densely as the rest those that were kept.
   std::size_t band_points = 0;
   double sigma_mm = 0.0;  ///< noise that was used: the usual one near the plane, or its mean
   /// Longest stretch of the section without a seen point under it.
@@ -93,8 +94,9 @@ struct Girth {
 /// Intervals also know that noise may lie along normals or along a camera's rays, and that a noisy
 /// cloud's edge beside the plane bends the skin (doubt_of_direction(), doubt_of_edge()).
 ///
-/// Deterministic: the same cloud gives the same bytes, on processors that built_for() names alike;
-/// on others the same to 1e-9 mm.
+/// Deterministic: the same cloud gives the same bytes each time and with any number of threads; on
+/// processors of another kind the same to 1e-7 mm, for the C library rounds functions as each
+/// computes them fastest.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 

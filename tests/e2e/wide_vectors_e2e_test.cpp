@@ -26,14 +26,10 @@ class PlainProcessor {
   PlainProcessor& operator=(const PlainProcessor&) = delete;
 };
 
-/// Feature by feature, for clang does not know the level.
+/// As the loader sees it, for it asks for more than wide vectors.
 bool has_wide_vectors() {
-#ifdef __x86_64__
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-         __builtin_cpu_supports("bmi2");
-#else
-  return false;
-#endif
+  const auto loader = test::run_program("/lib64/ld-linux-x86-64.so.2", {"--help"});
+  return loader.output.find("x86-64-v3 (supported") != std::string::npos;
 }
 
 class WideVectors : public testing::Test {
@@ -84,7 +80,7 @@ TEST_F(WideVectors, MeasureTheSame) {
     const json narrow = girth_of(cloud);
     for (const char* key : {"stretched_mm", "contact_mm", "stretched_u95_mm", "contact_u95_mm"}) {
       ASSERT_TRUE(wide.contains(key) && wide[key].is_number()) << wide;
-      EXPECT_NEAR(wide[key].get<double>(), narrow[key].get<double>(), 1e-9) << key;
+      EXPECT_NEAR(wide[key].get<double>(), narrow[key].get<double>(), 1e-7) << key;
     }
   }
 }
