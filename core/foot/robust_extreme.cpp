@@ -26,6 +26,9 @@ constexpr double kDeepestMm = 4.0;
 constexpr std::size_t kFewestForSummit = 12;
 constexpr double kLargestCorrectionMm = 2.5;
 constexpr int kRounds = 4;
+/// The start is one of the points, and after a move of half of the widest patch lies just on the
+/// rim of the narrowest: rounding must not tell whether it counts.
+constexpr double kOnRim = 1.0 + 1e-9;
 
 Vector3d median_of_furthest(const std::vector<Vector3d>& points, const Vector3d& direction) {
   const std::size_t count = std::min(kMostExtreme, points.size());
@@ -40,7 +43,7 @@ SkinPatch within(const SkinPatch& patch, const Vector2d& middle, double radius) 
   SkinPatch close;
   for (const auto& point : patch) {
     const Vector2d offset = point.head<2>() - middle;
-    if (offset.squaredNorm() < radius * radius) {
+    if (offset.squaredNorm() < kOnRim * radius * radius) {
       close.emplace_back(offset.x(), offset.y(), point.z());
     }
   }

@@ -78,5 +78,21 @@ TEST(RobustExtreme, TakesWhatThereIsOfFewPoints) {
             Vector3d(2, 0, 0));
 }
 
+/// The start lay on the rim of the next patch or just off it, as the last bits were: toes of a last
+/// moved by 2.4 mm.
+TEST(RobustExtreme, DoesNotDependOnTheLastBitsOfPlaces) {
+  std::mt19937_64 generator(4);
+  for (int draw = 0; draw < 100; ++draw) {
+    auto points = sphere(5.0, 1.0);
+    for (auto& point : points) point *= 1.0 + 0.1 * normal_deviate(generator);
+    const Vector3d found = robust_extreme(points, Vector3d::UnitX());
+    for (const double scale : {1.0 + 3e-15, 1.0 - 5e-15, 1.0 + 1e-14}) {
+      auto scaled = points;
+      for (auto& point : scaled) point *= scale;
+      EXPECT_LT((robust_extreme(scaled, Vector3d::UnitX()) - found).norm(), 1e-6) << draw;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace instep
