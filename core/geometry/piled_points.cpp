@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::size_t kDirections = 64;
 constexpr double kSparser = 0.3;
-/// A cell of more times the usual count is a pile. Of 390 clouds of lasts and feet, even, random,
-/// as modelled or noisy, one has 13.
-constexpr double kPile = 20.0;
+/// A cell of more times the usual count is a pile. Of 390 bands of lasts and feet, even, random, as
+/// modelled or noisy, one has 13; where the meridians of a modelled foot meet, 20.
+constexpr double kPile = 30.0;
 /// A block of so many times what is usual is the foot of one.
 constexpr double kFoot = 2.0;
 /// Cells of a block that a level sheet meets.
