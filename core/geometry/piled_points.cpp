@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kDirections = 64;
 constexpr double kSparser = 0.3;
+/// Sparser than this, in least sides, is no skin but what strays about.
+constexpr double kWidestSide = 8.0;
 /// A cell of more times the usual count is a pile. Of 390 bands of lasts and feet, even, random, as
 /// modelled or noisy, one has 13; where the meridians of a modelled foot meet, 20.
 constexpr double kPile = 30.0;
@@ -165,6 +167,7 @@ std::optional<PileLevel> level_beside_piles(const std::vector<Eigen::Vector3d>& 
   const double density = usual_density(points, middle, height);
   if (!(density > 0.0)) return std::nullopt;
   const double side = std::max(least_side, 1.0 / std::sqrt(density));
+  if (side > kWidestSide * least_side) return std::nullopt;
   PileLevel level{side, density * side * side};
   if (!has_pile(points, level)) return std::nullopt;
   for (int i = 0; i < kMostWidenings && !is_mostly_flat(points, level); ++i) {

@@ -108,8 +108,7 @@ void drop_copies(PlaneBand& band) {
 PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sigma) {
   double half_width = kBandInGrains * grain_of(found.spacing, sigma);
   for (int round = 0;; ++round) {
-    slabs.level_piles(found.middle_mm.head<2>(), kFinestGrain * found.unit_mm,
-                      half_width * found.unit_mm);
+    slabs.level_piles(kFinestGrain * found.unit_mm, half_width * found.unit_mm);
     PlaneBand band = gather(slabs, found, half_width);
     drop_copies(band);
     band.grain = grain_of(band.spacing, sigma);

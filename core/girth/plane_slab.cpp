@@ -11,7 +11,9 @@
 
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/polygon.h"
+#include "core/geometry/voxel_grid.h"
 #include "core/girth/thinned_lines.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -25,6 +27,8 @@ constexpr double kWiderThanOthers = 1.2;
 constexpr int kRoundedBits = 38;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
+/// Of the cells that tell where the middle is, in least sides.
+constexpr double kMiddleCell = 4.0;
 
 /// From the least to the most of what a cloud measures along a direction; taken of two points at a
 /// time, which costs no more than of one.
@@ -146,6 +150,19 @@ std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, doubl
   return places;
 }
 
+/// The median of cells that have points: neither strays far off nor a pile move it.
+Eigen::Vector2d middle_of(const std::vector<Eigen::Vector3d>& places, double side) {
+  const VoxelGrid grid(places, side);
+  std::vector<double> x;
+  std::vector<double> y;
+  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+    const Eigen::Vector3d& place = places[grid.members(cell).front()];
+    x.push_back(place.x());
+    y.push_back(place.y());
+  }
+  return {median(std::move(x)), median(std::move(y))};
+}
+
 }  // namespace
 
 double rounding_step(const TapePlane& plane) {
@@ -215,10 +232,11 @@ void SlabSource::thin(const ScanLines& lines) {
   thin_widest();
 }
 
-void SlabSource::level_piles(const Eigen::Vector2d& middle, double least_side, double half_width) {
+void SlabSource::level_piles(double least_side, double half_width) {
   if (lines_ || level_) return;
   const double step = rounding_step(plane_);
-  level_ = level_beside_piles(in_steps(slab(half_width).places, step), middle / step,
+  const auto places = in_steps(slab(half_width).places, step);
+  level_ = level_beside_piles(places, middle_of(places, kMiddleCell * least_side / step),
                               2.0 * half_width / step, std::round(least_side / step));
   if (level_) level_widest();
 }

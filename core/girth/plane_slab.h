@@ -58,9 +58,9 @@ class SlabSource {
   bool is_thinned() const { return lines_.has_value(); }
 
   /// From now on slabs have no piles (core/geometry/piled_points.h), if those at most `half_width`
-  /// from the plane have some: in cells of `least_side` or more, round `middle`. Of a pile the
+  /// from the plane have some: in cells of `least_side` or more. Of a pile the
   /// points stay that the least noise is told of. Thinned slabs stay, and levelled ones.
-  void level_piles(const Eigen::Vector2d& middle, double least_side, double half_width);
+  void level_piles(double least_side, double half_width);
 
   /// Of the points of the widest slab: strays amid lines, left out by thinning.
   double stray_share() const { return stray_share_; }
