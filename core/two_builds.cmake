@@ -16,7 +16,7 @@ if(wide_vectors STREQUAL "AUTO")
      AND NOT CMAKE_CXX_FLAGS MATCHES "-march=")
     set(wide_vectors ON)
   endif()
-elseif(NOT wide_vectors MATCHES "^(ON|OFF)$")
+elseif(NOT wide_vectors MATCHES "^(ON|OFF|TRUE|FALSE|YES|NO|1|0)$")
   message(FATAL_ERROR "INSTEP_WIDE_VECTORS is ${INSTEP_WIDE_VECTORS}: give ON, OFF or AUTO")
 endif()
 

@@ -29,13 +29,13 @@ struct Member {
 };
 
 /// Times what three quarters of the cells hold at most.
-constexpr std::size_t kPile = 8;
+constexpr std::size_t kManyTimes = 8;
 constexpr double kUsual = 0.75;
 
 }  // namespace
 
 bool CellCrowds::has_pile() const {
-  const std::size_t most = kPile * quantile(counts, kUsual);
+  const std::size_t most = kManyTimes * quantile(counts, kUsual);
   return std::any_of(counts.begin(), counts.end(), [&](std::size_t count) { return count > most; });
 }
 

@@ -23,8 +23,9 @@ struct PileLevel {
 /// on a ring that is `height` > 0 high along z. `least_side` > 0 of the cells; wider where points
 /// are further apart, or where the noise of a pile is thicker.
 ///
-/// The usual density is that of the sparser third of all directions round the middle: neither
-/// strays nor a pile that covers half of the body count. O(n log n).
+/// The usual density is that of the sparser third of all directions round the middle: a pile that
+/// covers half of the body does not count, nor do strays where the skin lies all round. Nothing
+/// where that is so sparse that it is no skin. O(n log n).
 std::optional<PileLevel> level_beside_piles(const std::vector<Eigen::Vector3d>& points,
                                             const Eigen::Vector2d& middle, double height,
                                             double least_side);

@@ -58,8 +58,8 @@ class SlabSource {
   bool is_thinned() const { return lines_.has_value(); }
 
   /// From now on slabs have no piles (core/geometry/piled_points.h), if those at most `half_width`
-  /// from the plane have some: in cells of `least_side` or more. Of a pile the
-  /// points stay that the least noise is told of. Thinned slabs stay, and levelled ones.
+  /// from the plane have some: in cells of `least_side` or more. Of a pile the points stay
+  /// that the least noise is told of. Thinned slabs stay, and the level that was found first.
   void level_piles(double least_side, double half_width);
 
   /// Of the points of the widest slab: strays amid lines, left out by thinning.

@@ -143,6 +143,20 @@ TEST(PiledGirth, IsRightAmidManyStrays) {
   expect_right(cloud, 0.1);
 }
 
+/// The middle of the box round all lay off the body, and the density of strays passed for the
+/// skin's: the body was one pile, and up to 36 mm off or refused.
+TEST(PiledGirth, IsRightWithAFewStraysFarOff) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    RandomNumbers random(seed);
+    PointCloud cloud = cylinder(0.3, random);
+    for (int i = 0; i < 20; ++i) {
+      cloud.positions.emplace_back(random.uniform(-340.0, 340.0), random.uniform(-340.0, 340.0),
+                                   random.uniform(-30.0, 30.0));
+    }
+    expect_right(cloud, 0.2);
+  }
+}
+
 /// Of points with 0.05 mm of noise and a rough part beside them the rough ones stayed.
 TEST(PiledGirth, KeepsThePointsThatAreToldToBePrecise) {
   RandomNumbers random(4);
