@@ -78,6 +78,7 @@ PlaneBand band_of(PlaneSlab slab, const SectionProbe& found) {
                  .scattered = {},
                  .roughness = {}};
   band.spacing = usual_spacing(band.index, kSpacingSample);
+  band.stray_share = found.stray_share;
   return band;
 }
 
@@ -119,7 +120,7 @@ PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sig
 
 void drop_strays(bool near_skin, PlaneBand& band) {
   if (!(band.spacing > 0.0)) return;
-  const auto all = static_cast<double>(band.sources.size());
+  const double all = static_cast<double>(band.sources.size()) / (1.0 - band.stray_share);
   const auto drop_strays_among = [&](const std::vector<bool>& strays) {
     drop(strays, band);
     band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / all;

@@ -10,6 +10,7 @@
 #include "core/geometry/point_index.h"
 #include "core/geometry/scan_lines.h"
 #include "core/geometry/stray_points.h"
+#include "core/girth/section_box.h"
 
 namespace instep {
 namespace {
@@ -34,12 +35,9 @@ constexpr double kGapsOfSlab = 2.0;
 /// Added before a middle is rounded down to whole steps, so that one half-way between two always
 /// goes to the lower.
 constexpr double kSpareOfHalf = 0.25;
-
-Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places) {
-  Eigen::AlignedBox2d box;
-  for (const auto& place : places) box.extend(place.head<2>().eval());
-  return box;
-}
+/// How far beside the box round the section points may belong to it, for the body may be wider
+/// above the plane and below it; of the unit.
+constexpr double kBeside = 0.25;
 
 /// The lines that points within `half_width` or some more stand in, if they are far apart.
 std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width, double widest) {
@@ -51,16 +49,31 @@ std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width, d
   return std::nullopt;
 }
 
+bool is_beyond(const Eigen::Array2d& reach, const Eigen::Vector3d& arm) {
+  return (arm.head<2>().array().abs() > reach).any();
+}
+
 /// The section that points lie round, which are fewer than make a surface or within less than
 /// their spacing of the plane: nothing. Its unit and middle are whole numbers of `step`.
 std::optional<SectionProbe> probe_of(PlaneSlab slab, double half_width, double step) {
   if (slab.places.size() < kFewestPoints) return std::nullopt;
-  const Eigen::AlignedBox2d box = section_box(slab.places);
+  const auto box = section_box(slab.places, 2.0 * half_width, step);
   const double unit = std::round(box.diagonal().norm() / step) * step;
   const Eigen::Array2d middle = (box.center().array() / step + kSpareOfHalf).floor() * step;
+  SectionProbe found{.middle_mm = {middle.x(), middle.y(), 0.0}, .unit_mm = unit};
+  const Eigen::Array2d reach = box.sizes().array() / 2.0 + kBeside * unit;
+  std::vector<bool> strays;
+  for (const auto& place : slab.places) strays.push_back(is_beyond(reach, place - found.middle_mm));
+  if (std::find(strays.begin(), strays.end(), true) != strays.end()) {
+    const auto all = static_cast<double>(slab.places.size());
+    slab = without(strays, slab);
+    found.reach = reach / unit;
+    found.stray_share = 1.0 - static_cast<double>(slab.places.size()) / all;
+  }
   const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
   if (half_width < spacing || !(unit > 0.0)) return std::nullopt;
-  return SectionProbe{{middle.x(), middle.y(), 0.0}, unit, spacing / unit};
+  found.spacing = spacing / unit;
+  return found;
 }
 
 }  // namespace
@@ -75,10 +88,12 @@ PlaneSlab SectionProbe::slab(SlabSource& slabs, double half_width) const {
   // In whole steps, which are the same numbers whichever unit the cloud is told in.
   const double step = rounding_step(slabs.plane());
   const double unit = std::round(unit_mm / step);
+  std::vector<bool> beyond;
   for (auto& place : slab.places) {
     place = ((place - middle_mm) / step).array().round() / unit;
+    beyond.push_back(is_beyond(reach, place));
   }
-  return slab;
+  return stray_share > 0.0 ? without(beyond, slab) : slab;
 }
 
 Result<SectionProbe> probe_section(SlabSource& slabs) {

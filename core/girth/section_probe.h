@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 
 #include "core/girth/plane_slab.h"
 #include "core/result.h"
@@ -20,8 +21,12 @@ struct SectionProbe {
   Eigen::Vector3d middle_mm;
   double unit_mm = 1.0;  ///< the diagonal of the section
   double spacing = 0.0;  ///< of points on the skin, in the unit
+  /// How far to both sides of the middle points belong to the section, in the unit: what lies
+  /// further off strays.
+  Eigen::Array2d reach = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  double stray_share = 0.0;  ///< of the points, so far off
 
-  /// Points within `half_width` of the plane, seen from it, in the unit.
+  /// Points within `half_width` of the plane and the reach, seen from it, in the unit.
   PlaneSlab slab(SlabSource& slabs, double half_width) const;
 };
 
