@@ -1,200 +1,191 @@
 #include "core/geometry/piled_points.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <numbers>
-#include <span>
 #include <utility>
 
-#include "core/geometry/moments.h"
-#include "core/geometry/quadratic_skin.h"
+#include "core/geometry/near_copies.h"
+#include "core/geometry/pile_shadow.h"
+#include "core/geometry/skin_block.h"
 #include "core/geometry/voxel_grid.h"
-#include "core/median.h"
 
 namespace instep {
 namespace {
 
-constexpr std::size_t kDirections = 64;
-constexpr double kSparser = 0.3;
-/// Sparser than this, in least sides, is no skin but what strays about.
-constexpr double kWidestSide = 8.0;
-/// A cell of more times the usual count is a pile. Of 390 bands of lasts and feet, even, random, as
-/// modelled or noisy, one has 13; where the meridians of a modelled foot meet, 20.
-constexpr double kPile = 30.0;
-/// A block of so many times what is usual is the foot of one.
-constexpr double kFoot = 2.0;
-/// Cells of a block that a level sheet meets.
-constexpr double kCellsOfSheet = 9.0;
-/// A cell of a smaller part of the points of the fullest one beside it is the fringe of a pile.
-constexpr double kFringe = 0.5;
-/// Of the variances of a block across the skin and along it.
-constexpr double kFlat = 0.25;
-constexpr double kMostlyFlat = 0.5;
-constexpr int kMostWidenings = 2;
-/// Points of a block that tell its skin.
-constexpr std::size_t kEnough = 500;
-/// Of a side.
-constexpr double kTexture = 0.05;
+/// A column of so many times the usual count is of a pile.
+constexpr double kFull = 2.0;
+/// One of this part of the fullest one's is: beside it points may be the pile's, with all their
+/// noise.
+constexpr double kThick = 0.2;
+/// Of what usual points are apart.
+constexpr double kTooNear = 0.75;
+/// The blocks of nine cells beside each other, and so the points of them, share their errors.
+constexpr double kShared = 3.0;
+/// From the middle of a block, in sides: no point of it is further off.
+constexpr double kReach = 3.0 * 1.7321;
 
-/// Points for each square unit of the skin round a middle.
-double usual_density(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector2d& middle,
-                     double height) {
-  struct Sector {
-    double points = 0.0;
-    double reaches = 0.0;
-  };
-  std::array<Sector, kDirections> sectors;
-  for (const auto& point : points) {
-    const Eigen::Vector2d arm = point.head<2>() - middle;
-    const double turn = 0.5 + std::atan2(arm.y(), arm.x()) / (2.0 * std::numbers::pi);
-    const auto number = static_cast<std::size_t>(turn * kDirections);
-    Sector& sector = sectors[std::min(number, kDirections - 1)];
-    sector.points += 1.0;
-    sector.reaches += arm.norm();
-  }
-  std::vector<double> densities;
-  for (const auto& sector : sectors) {
-    if (!(sector.reaches > 0.0)) continue;
-    const double width = 2.0 * std::numbers::pi / kDirections * sector.reaches / sector.points;
-    densities.push_back(sector.points / (width * height));
-  }
-  return quantile(std::move(densities), kSparser);
-}
+/// A point that may stay.
+struct Candidate {
+  std::uint32_t point;
+  std::size_t company;  ///< points that it stands for
+  double error;
+};
 
-/// A cell and the 26 round it.
-class Block {
+/// What a column of a block holds, and the best of it.
+struct Column {
+  std::size_t count = 0;
+  std::uint32_t best = 0;
+  std::pair<double, double> rank;  ///< what is to be as little as possible, the first first
+
+  void add(std::uint32_t member, const std::pair<double, double>& rank_of_member) {
+    if (count++ > 0 && !(rank_of_member < rank)) return;
+    best = member;
+    rank = rank_of_member;
+  }
+};
+
+/// The columns of a block, on a square grid along its skin.
+class Columns {
  public:
-  Block(const VoxelGrid& grid, std::size_t cell) : grid_(grid), cell_(cell) {
-    grid.each_near(cell, [&](std::size_t near) {
-      count_ += grid.members(near).size();
-      fullest_ = std::max(fullest_, grid.members(near).size());
-    });
+  explicit Columns(double in_side)
+      : in_side_(in_side),
+        in_row_(static_cast<std::size_t>(std::ceil(2.0 * kReach * in_side))),
+        columns_(in_row_ * in_row_) {}
+
+  /// `seen`: as the block's view sees a point of it.
+  Column& at(const Eigen::Vector3d& seen) {
+    return columns_[number(seen.x()) * in_row_ + number(seen.y())];
   }
 
-  std::span<const std::uint32_t> members() const { return grid_.members(cell_); }
-
-  bool is_in_pile(const PileLevel& level) const {
-    return static_cast<double>(count_) > kFoot * kCellsOfSheet * level.usual;
-  }
-  bool is_fringe() const {
-    return static_cast<double>(members().size()) < kFringe * static_cast<double>(fullest_);
+  std::size_t fullest() const {
+    return std::max_element(columns_.begin(), columns_.end(),
+                            [](const auto& a, const auto& b) { return a.count < b.count; })
+        ->count;
   }
 
-  /// Some of all points, evenly over their order.
-  std::vector<std::uint32_t> sample() const {
-    const std::size_t stride = 1 + count_ / kEnough;
-    std::vector<std::uint32_t> some;
-    std::size_t passed = 0;
-    grid_.each_near(cell_, [&](std::size_t near) {
-      for (const auto member : grid_.members(near)) {
-        if (passed++ % stride == 0) some.push_back(member);
+  /// Whether one of the columns round it holds more.
+  bool is_beside(const Eigen::Vector3d& seen, double more) const {
+    const std::size_t x = number(seen.x());
+    const std::size_t y = number(seen.y());
+    for (std::size_t row = x - std::min<std::size_t>(x, 1); row < std::min(x + 2, in_row_); ++row) {
+      for (std::size_t i = y - std::min<std::size_t>(y, 1); i < std::min(y + 2, in_row_); ++i) {
+        if (static_cast<double>(columns_[row * in_row_ + i].count) > more) return true;
       }
-    });
-    return some;
+    }
+    return false;
   }
 
  private:
-  const VoxelGrid& grid_;
-  std::size_t cell_;
-  std::size_t count_ = 0;
-  std::size_t fullest_ = 0;
+  std::size_t number(double along) const {
+    const double column = std::max(0.0, (along + kReach) * in_side_);
+    return std::min(in_row_ - 1, static_cast<std::size_t>(column));
+  }
+
+  double in_side_;
+  std::size_t in_row_;
+  std::vector<Column> columns_;
 };
 
-/// What the points of a block show, in sides from one of them.
-class SkinOfBlock {
+/// Collects what may stay of piles, cell by cell.
+class Leveller {
  public:
-  SkinOfBlock(const std::vector<Eigen::Vector3d>& points, const Block& block, double side)
-      : origin_(points[block.members().front()]), side_(side) {
-    std::vector<Eigen::Vector3d> arms;
-    for (const auto member : block.sample()) arms.push_back((points[member] - origin_) / side);
-    Moments moments;
-    for (const auto& arm : arms) moments.add(arm);
-    middle_ = moments.middle();
-    const auto axes = moments.axes();
-    axes_ << axes.eigenvectors().rightCols<2>(), axes.eigenvectors().col(0);
-    flat_ = axes.eigenvalues()[0] < kFlat * axes.eigenvalues()[1];
-    if (!flat_) return;
-    for (auto& arm : arms) arm = axes_.transpose() * (arm - middle_);
-    skin_ = QuadraticSkin::through(arms, kTexture);
+  Leveller(const std::vector<Eigen::Vector3d>& points, const PileLevel& level,
+           const std::vector<double>& doubts)
+      : points_(points),
+        level_(level),
+        doubts_(doubts),
+        columns_in_side_(std::max(1.0, std::floor(std::sqrt(level.usual)))) {}
+
+  void add(const CellBlock& block) {
+    const BlockView view(points_, block, level_.side);
+    if (!view.is_flat()) return add_heap(block, view);
+    if (const auto skin = BlockSkin::through(points_, block, view)) add_skin(block, view, *skin);
   }
 
-  bool is_flat() const { return flat_; }
+  const std::vector<PileFace>& faces() const { return faces_; }
 
-  /// Of a point from the skin; where none shows, from the middle of all.
-  double distance(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3d seen = axes_.transpose() * ((point - origin_) / side_ - middle_);
-    return skin_ ? std::abs(seen.z() - skin_->at(seen.x(), seen.y())) : seen.norm();
+  /// But for those too near to one that stands for more: what is left of their noise would be a
+  /// steep slope between the two.
+  std::vector<Candidate> chosen() && {
+    std::stable_sort(candidates_.begin(), candidates_.end(),
+                     [](const auto& a, const auto& b) { return a.company > b.company; });
+    std::vector<Eigen::Vector3d> places;
+    for (const auto& one : candidates_) places.push_back(points_[one.point]);
+    const auto too_near = near_copies(places, kTooNear * level_.side / columns_in_side_);
+    std::vector<Candidate> chosen;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (!too_near[i]) chosen.push_back(candidates_[i]);
+    }
+    return chosen;
   }
 
  private:
-  Eigen::Vector3d origin_;
-  double side_;
-  Eigen::Vector3d middle_;
-  Eigen::Matrix3d axes_;  ///< along the skin, and over it
-  bool flat_ = false;
-  std::optional<QuadraticSkin> skin_;
+  double doubt_of(std::uint32_t member) const { return doubts_.empty() ? 0.0 : doubts_[member]; }
+
+  void add_heap(const CellBlock& block, const BlockView& view) {
+    if (block.is_fringe()) return;
+    Column heap;
+    for (const auto member : block.members()) {
+      heap.add(member, {doubt_of(member), view.of(points_[member]).norm()});
+    }
+    candidates_.push_back({heap.best, heap.count, 0.0});
+  }
+
+  void add_skin(const CellBlock& block, const BlockView& view, const BlockSkin& skin) {
+    Columns columns(columns_in_side_);
+    block.each([&](std::uint32_t member) {
+      const Eigen::Vector3d seen = view.of(points_[member]);
+      columns.at(seen).add(member, {doubt_of(member), skin.distance(seen)});
+    });
+    const double most = kFull * level_.usual / (columns_in_side_ * columns_in_side_);
+    const double of_pile = std::max(most, kThick * static_cast<double>(columns.fullest()));
+    bool is_full = false;
+    for (const auto member : block.members()) {
+      const Eigen::Vector3d seen = view.of(points_[member]);
+      const Column& column = columns.at(seen);
+      if (static_cast<double>(column.count) > most) {
+        is_full = true;
+        const double error = std::hypot(kShared * skin.error(), column.rank.second);
+        if (column.best == member)
+          candidates_.push_back({member, column.count, error * level_.side});
+      } else if (!columns.is_beside(seen, of_pile)) {
+        candidates_.push_back({member, 1, 0.0});
+      }
+    }
+    if (!is_full || block.is_fringe()) return;
+    faces_.push_back({points_[block.members().front()], view.normal()});
+  }
+
+  const std::vector<Eigen::Vector3d>& points_;
+  const PileLevel& level_;
+  const std::vector<double>& doubts_;
+  double columns_in_side_;
+  std::vector<Candidate> candidates_;
+  std::vector<PileFace> faces_;
 };
-
-/// Whether cells are wide enough for piles to look like skin.
-bool is_mostly_flat(const std::vector<Eigen::Vector3d>& points, const PileLevel& level) {
-  const VoxelGrid grid(points, level.side);
-  std::size_t all = 0;
-  std::size_t flat = 0;
-  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    const Block block(grid, cell);
-    if (!block.is_in_pile(level) || block.is_fringe()) continue;
-    ++all;
-    if (SkinOfBlock(points, block, level.side).is_flat()) ++flat;
-  }
-  return static_cast<double>(flat) >= kMostlyFlat * static_cast<double>(all);
-}
-
-bool has_pile(const std::vector<Eigen::Vector3d>& points, const PileLevel& level) {
-  const VoxelGrid grid(points, level.side);
-  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    if (static_cast<double>(grid.members(cell).size()) > kPile * level.usual) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
-std::optional<PileLevel> level_beside_piles(const std::vector<Eigen::Vector3d>& points,
-                                            const Eigen::Vector2d& middle, double height,
-                                            double least_side) {
-  const double density = usual_density(points, middle, height);
-  if (!(density > 0.0)) return std::nullopt;
-  const double side = std::max(least_side, 1.0 / std::sqrt(density));
-  if (side > kWidestSide * least_side) return std::nullopt;
-  PileLevel level{side, density * side * side};
-  if (!has_pile(points, level)) return std::nullopt;
-  for (int i = 0; i < kMostWidenings && !is_mostly_flat(points, level); ++i) {
-    level = {2.0 * level.side, 4.0 * level.usual};
-  }
-  return level;
-}
-
-std::vector<bool> surplus_in_piles(const std::vector<Eigen::Vector3d>& points,
-                                   const PileLevel& level, const std::vector<double>& doubts) {
+LevelledPoints levelled(const std::vector<Eigen::Vector3d>& points, const PileLevel& level,
+                        const std::vector<double>& doubts) {
   const VoxelGrid grid(points, level.side);
-  std::vector<bool> surplus(points.size(), false);
+  LevelledPoints result{std::vector<bool>(points.size(), false),
+                        std::vector<double>(points.size(), 0.0)};
+  Leveller leveller(points, level, doubts);
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    const Block block(grid, cell);
-    if (!block.is_in_pile(level)) continue;
-    for (const auto member : block.members()) surplus[member] = true;
-    if (block.is_fringe()) continue;
-    const SkinOfBlock skin(points, block, level.side);
-    const auto rank = [&](std::uint32_t member) {
-      return std::pair(doubts.empty() ? 0.0 : doubts[member], skin.distance(points[member]));
-    };
-    const auto members = block.members();
-    const auto staying = std::min_element(members.begin(), members.end(),
-                                          [&](auto a, auto b) { return rank(a) < rank(b); });
-    surplus[*staying] = false;
+    const CellBlock block(grid, cell);
+    if (!level.is_beside_pile(block)) continue;
+    for (const auto member : block.members()) result.surplus[member] = true;
+    leveller.add(block);
   }
-  return surplus;
+  mark_shadows(points, leveller.faces(), level, result.surplus);
+  for (const auto& one : std::move(leveller).chosen()) {
+    result.surplus[one.point] = false;
+    result.errors[one.point] = one.error;
+  }
+  return result;
 }
 
 }  // namespace instep

@@ -73,6 +73,7 @@ PlaneBand band_of(PlaneSlab slab, const SectionProbe& found) {
                  .index = PointIndex(std::move(slab.places)),
                  .sources = std::move(slab.indices),
                  .shares = std::move(slab.shares),
+                 .errors_mm = std::move(slab.errors_mm),
                  .seen = {},
                  .uneven = {},
                  .scattered = {},
@@ -89,10 +90,11 @@ PlaneBand gather(SlabSource& slabs, const SectionProbe& found, double half_width
 
 /// Leaves out the points that are marked.
 void drop(const std::vector<bool>& marked, PlaneBand& band) {
-  PlaneSlab rest =
-      without(marked, {std::move(band.sources), band.index.points(), std::move(band.shares)});
+  PlaneSlab rest = without(marked, {std::move(band.sources), band.index.points(),
+                                    std::move(band.shares), std::move(band.errors_mm)});
   band.sources = std::move(rest.indices);
   band.shares = std::move(rest.shares);
+  band.errors_mm = std::move(rest.errors_mm);
   band.index = PointIndex(std::move(rest.places));
 }
 
@@ -135,13 +137,13 @@ void drop_strays(bool near_skin, PlaneBand& band) {
 }
 
 /// Points next to the plane that were seen, in the order in which they lie round the middle. Those
-/// that were put where nobody looked have no noise.
+/// that were put where nobody looked have no noise, and those that stay of piles little.
 std::vector<std::size_t> along_the_plane(const PointCloud& cloud, const PlaneBand& band) {
   const auto& places = band.index.points();
   std::vector<std::pair<double, std::size_t>> angles;
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (std::abs(places[i].z()) > kNoisePlacesInSpacings * band.spacing) continue;
-    if (!cloud.was_seen(band.sources[i])) continue;
+    if (!cloud.was_seen(band.sources[i]) || band.error_of(i) > 0.0) continue;
     angles.emplace_back(std::atan2(places[i].y(), places[i].x()), i);
   }
   std::sort(angles.begin(), angles.end());
@@ -272,8 +274,9 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
   const bool slopes = trust == NormalTrust::kSlopes && !righted && band.spacing >= kFinestGrain;
   band.points.reserve(normals.size());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    const double sigma = std::max(
-        band.sigma_of(cloud, band.sources[i], band.share_of(i), band.index.points()[i]), least);
+    const double sigma = std::max(band.sigma_of(cloud, band.sources[i], band.share_of(i),
+                                                band.error_of(i), band.index.points()[i]),
+                                  least);
     const bool told = slopes && is_harmless(sigma * sigma, band.spacing);
     band.points.push_back({band.index.points()[i], normals[i], sigma * sigma, told});
   }
@@ -304,11 +307,13 @@ std::string disbelief_of_noise(const PlaneBand& band) {
 /// What stands for skin that nobody saw is told of by who put it there: what points show is no word
 /// on it.
 double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double share,
-                           const Eigen::Vector3d& place) const {
+                           double error_mm, const Eigen::Vector3d& place) const {
   const double times = uneven.empty() ? 1.0 : times_at(uneven, place);
+  const double error = error_mm / unit_mm;
+  if (!own_sigma && error > 0.0) return error;
   if (!own_sigma) return std::max(times * sigma, scatter_at(scattered, place));
-  return (cloud.was_seen(source) ? told_scale * times : 1.0) * share * cloud.sigma_mm[source] /
-         unit_mm;
+  const double told = (cloud.was_seen(source) ? told_scale * times : 1.0) * cloud.sigma_mm[source];
+  return std::max(share * told / unit_mm, error);
 }
 
 Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,

@@ -24,6 +24,7 @@ struct PlaneBand {
   PointIndex index;                       ///< of their positions
   std::vector<std::size_t> sources;       ///< their places in the cloud
   std::vector<double> shares;             ///< as PlaneSlab has them
+  std::vector<double> errors_mm;          ///< as PlaneSlab has them
   double usual_share = 1.0;               ///< the middle one of these
   std::vector<bool> seen;                 ///< whether a camera saw them
   double spacing = 0.0;                   ///< between points, in the unit
@@ -45,10 +46,12 @@ struct PlaneBand {
   }
 
   double share_of(std::size_t point) const { return shares.empty() ? 1.0 : shares[point]; }
+  double error_of(std::size_t point) const { return errors_mm.empty() ? 0.0 : errors_mm[point]; }
 
   /// Noise of any point of the cloud that the band was made of, near the plane or not, in the unit.
-  /// `place`: its own, as the band has it, with its `share` of the point's noise.
-  double sigma_of(const PointCloud& cloud, std::size_t source, double share,
+  /// `place`: its own, as the band has it, with its `share` of the point's noise. `error_mm` > 0: of
+  /// what stays of a pile, whatever points beside it show; at least that where more is told.
+  double sigma_of(const PointCloud& cloud, std::size_t source, double share, double error_mm,
                   const Eigen::Vector3d& place) const;
 };
 

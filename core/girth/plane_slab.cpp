@@ -10,10 +10,9 @@
 #include <utility>
 
 #include "core/geometry/distinct_points.h"
+#include "core/geometry/piled_points.h"
 #include "core/geometry/polygon.h"
-#include "core/geometry/voxel_grid.h"
 #include "core/girth/thinned_lines.h"
-#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -27,8 +26,6 @@ constexpr double kWiderThanOthers = 1.2;
 constexpr int kRoundedBits = 38;
 /// Few enough to be put in order one by one, where places lie evenly.
 constexpr std::size_t kPointsInAStrip = 4;
-/// Of the cells that tell where the middle is, in least sides.
-constexpr double kMiddleCell = 4.0;
 
 /// From the least to the most of what a cloud measures along a direction; taken of two points at a
 /// time, which costs no more than of one.
@@ -150,19 +147,6 @@ std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, doubl
   return places;
 }
 
-/// The median of cells that have points: neither strays far off nor a pile move it.
-Eigen::Vector2d middle_of(const std::vector<Eigen::Vector3d>& places, double side) {
-  const VoxelGrid grid(places, side);
-  std::vector<double> x;
-  std::vector<double> y;
-  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    const Eigen::Vector3d& place = places[grid.members(cell).front()];
-    x.push_back(place.x());
-    y.push_back(place.y());
-  }
-  return {median(std::move(x)), median(std::move(y))};
-}
-
 }  // namespace
 
 double rounding_step(const TapePlane& plane) {
@@ -183,6 +167,7 @@ PlaneSlab within(const PlaneSlab& slab, double half_width) {
     part.indices.push_back(slab.indices[i]);
     part.places.push_back(slab.places[i]);
     if (!slab.shares.empty()) part.shares.push_back(slab.shares[i]);
+    if (!slab.errors_mm.empty()) part.errors_mm.push_back(slab.errors_mm[i]);
   }
   return part;
 }
@@ -194,6 +179,7 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab) {
     rest.indices.push_back(slab.indices[i]);
     rest.places.push_back(slab.places[i]);
     if (!slab.shares.empty()) rest.shares.push_back(slab.shares[i]);
+    if (!slab.errors_mm.empty()) rest.errors_mm.push_back(slab.errors_mm[i]);
   }
   return rest;
 }
@@ -236,14 +222,16 @@ void SlabSource::level_piles(double least_side, double half_width) {
   if (lines_ || level_) return;
   const double step = rounding_step(plane_);
   const auto places = in_steps(slab(half_width).places, step);
-  level_ = level_beside_piles(places, middle_of(places, kMiddleCell * least_side / step),
-                              2.0 * half_width / step, std::round(least_side / step));
+  level_ = level_beside_piles(places, 2.0 * half_width / step, std::round(least_side / step));
   if (level_) level_widest();
 }
 
 void SlabSource::level_widest() {
-  const auto places = in_steps(widest_.places, rounding_step(plane_));
-  widest_ = without(surplus_in_piles(places, *level_, told_noise(widest_)), widest_);
+  const double step = rounding_step(plane_);
+  auto rest = levelled(in_steps(widest_.places, step), *level_, told_noise(widest_));
+  for (double& error : rest.errors) error *= step;
+  widest_.errors_mm = std::move(rest.errors);
+  widest_ = without(rest.surplus, widest_);
 }
 
 /// Of each place, the most of those that nobody saw; none if nothing is told that counts.

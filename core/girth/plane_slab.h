@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/piled_points.h"
+#include "core/geometry/pile_level.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/scan_lines.h"
 #include "core/girth/tape_plane.h"
@@ -20,8 +20,11 @@ struct PlaneSlab {
   std::vector<std::size_t> indices;     ///< in the cloud; of an average one of its points
   std::vector<Eigen::Vector3d> places;  ///< seen from the plane: x and y on it, z above it
   std::vector<double> shares;  ///< noise of each place against its point's; none if they are alike
+  /// Of points of a pile that stay a standard deviation, mm, 0 of others. None if there is no pile.
+  std::vector<double> errors_mm;
 
   double share_of(std::size_t place) const { return shares.empty() ? 1.0 : shares[place]; }
+  double error_of(std::size_t place) const { return errors_mm.empty() ? 0.0 : errors_mm[place]; }
 };
 
 /// A part in 2^38 of what the plane's control points are apart.
@@ -57,7 +60,7 @@ class SlabSource {
   void thin(const ScanLines& lines);
   bool is_thinned() const { return lines_.has_value(); }
 
-  /// From now on slabs have no piles (core/geometry/piled_points.h), if those at most `half_width`
+  /// From now on slabs have no piles (core/geometry/pile_level.h), if those at most `half_width`
   /// from the plane have some: in cells of `least_side` or more. Of a pile the points stay
   /// that the least noise is told of. Thinned slabs stay, and the level that was found first.
   void level_piles(double least_side, double half_width);

@@ -63,9 +63,9 @@ std::vector<RibbonPoint> ribbon_of(SlabSource& slabs, const PlaneBand& band, con
     const auto foot = line.foot_of(place);
     const double reach = kReach + kReachInSigmas * band.sigma + kLean * std::abs(off);
     if (!(foot.distance <= reach)) continue;
-    const double sigma =
-        band.sigma_of(cloud, slab.indices[i], slab.share_of(i), {place.x(), place.y(), off}) /
-        band.sigma;
+    const double sigma = band.sigma_of(cloud, slab.indices[i], slab.share_of(i), slab.error_of(i),
+                                       {place.x(), place.y(), off}) /
+                         band.sigma;
     ribbon.push_back({foot.way, off / half_width, foot.height, 1.0 / (sigma * sigma)});
   }
   return ribbon;

@@ -11,6 +11,7 @@ inline PlaneBand empty_band() {
           .index = PointIndex({}),
           .sources = {},
           .shares = {},
+          .errors_mm = {},
           .seen = {},
           .uneven = {},
           .scattered = {},

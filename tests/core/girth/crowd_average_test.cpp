@@ -23,6 +23,7 @@ PlaneBand band_of(const OrientedPoints& points, double spacing, std::vector<bool
           .index = PointIndex(test::positions_of(points)),
           .sources = {},
           .shares = {},
+          .errors_mm = {},
           .seen = std::move(seen),
           .spacing = spacing,
           .grain = kGrain,

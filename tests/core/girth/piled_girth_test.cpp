@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
@@ -107,6 +108,86 @@ TEST(PiledGirth, DoesNotDependOnWhereThePartLies) {
       add({50000, 0.3, -15.0, 15.0, 0.3, angle}, random, cloud);
       expect_right(cloud, 0.15);
     }
+  }
+}
+
+/// 2 mm too long within 0.95: the noise of a few points that was not the rest's.
+TEST(PiledGirth, IsRightWithAPartTenTimesAsDenseOfOtherNoise) {
+  for (const auto& [sigma_mm, sigma_of_part_mm] : {std::pair(0.0, 0.3), std::pair(0.6, 0.1)}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      RandomNumbers random(seed);
+      PointCloud cloud;
+      add({5000, std::numbers::pi, -30.0, 30.0, sigma_mm}, random, cloud);
+      add({2400, 0.3, -15.0, 15.0, sigma_of_part_mm}, random, cloud);
+      expect_right(cloud, 0.8);
+    }
+  }
+}
+
+/// Intervals of an exact body took no notice of what is left of the noise of a part.
+TEST(PiledGirth, IsRightWithANoisyPartOnAnExactBody) {
+  for (const double sigma_of_part_mm : {0.1, 0.3, 0.6}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      RandomNumbers random(seed);
+      PointCloud cloud = cylinder(0.0, random);
+      add({80000, 0.4, -15.0, 15.0, sigma_of_part_mm}, random, cloud);
+      expect_right(cloud, 0.2);
+    }
+  }
+}
+
+/// Strays of the part, as many times too many, outnumbered what stays of it: 13 mm too long.
+TEST(PiledGirth, IsRightWithStraysBeforeAndBehindThePart) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    RandomNumbers random(seed);
+    PointCloud cloud;
+    add({4000, std::numbers::pi, -30.0, 30.0, 0.1}, random, cloud);
+    const std::size_t rest = cloud.size();
+    add({16000, 0.4, -12.0, 12.0, 0.05}, random, cloud);
+    for (std::size_t i = rest; i < cloud.size(); i += 50) {
+      cloud.positions[i].head<2>() *= 1.0 + random.uniform(-0.4, 0.4);
+    }
+    expect_right(cloud, 0.3);
+  }
+}
+
+/// Most of the section looked exact, and so the rest passed for exact: up to 9 mm too long.
+TEST(PiledGirth, IsRightWithTwoThirdsSeenDensely) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    RandomNumbers random(seed);
+    PointCloud cloud;
+    add({5000, std::numbers::pi, -30.0, 30.0, 0.3}, random, cloud);
+    add({300000, 2.0, -30.0, 30.0, 0.3}, random, cloud);
+    expect_right(cloud, 0.2);
+  }
+}
+
+TEST(PiledGirth, IsRightWithASecondBodyAmidStrays) {
+  RandomNumbers random(2);
+  PointCloud cloud = cylinder(0.3, random);
+  add({50000, 0.3, 5.0, 25.0, 0.3}, random, cloud);
+  PointCloud other = cylinder(0.3, random);
+  for (const auto& position : other.positions) {
+    cloud.positions.push_back(position + Eigen::Vector3d(120.0, 0.0, 0.0));
+  }
+  for (int i = 0; i < 900; ++i) {
+    cloud.positions.emplace_back(random.uniform(-140.0, 260.0), random.uniform(-140.0, 140.0),
+                                 random.uniform(-30.0, 30.0));
+  }
+  expect_right(cloud, 0.3);
+}
+
+/// Two of six were answered, wrongly.
+TEST(PiledGirth, IsRefusedOfAnOpenBodyAmidStrays) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+    RandomNumbers random(seed);
+    PointCloud cloud;
+    add({20000, 0.6 * std::numbers::pi, -30.0, 30.0, 0.3}, random, cloud);
+    for (int i = 0; i < 300; ++i) {
+      cloud.positions.emplace_back(random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0),
+                                   random.uniform(-30.0, 30.0));
+    }
+    EXPECT_FALSE(girth_by_rbf(cloud, oblique_plane())) << seed;
   }
 }
 
