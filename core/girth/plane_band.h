@@ -49,8 +49,8 @@ struct PlaneBand {
   double error_of(std::size_t point) const { return errors_mm.empty() ? 0.0 : errors_mm[point]; }
 
   /// Noise of any point of the cloud that the band was made of, near the plane or not, in the unit.
-  /// `place`: its own, as the band has it, with its `share` of the point's noise. `error_mm` > 0: of
-  /// what stays of a pile, whatever points beside it show; at least that where more is told.
+  /// `place`: its own, as the band has it, with its `share` of the point's noise. `error_mm` > 0:
+  /// of what stays of a pile, whatever points beside it show; at least that where more is told.
   double sigma_of(const PointCloud& cloud, std::size_t source, double share, double error_mm,
                   const Eigen::Vector3d& place) const;
 };
