@@ -12,7 +12,7 @@ namespace instep {
 namespace {
 
 /// Sparser than this, in least sides, is no skin but what strays about.
-constexpr double kWidestSide = 8.0;
+constexpr double kWidestSide = 12.0;
 /// Of those that the density is told in, in least sides.
 constexpr double kCellOfDensity = 4.0;
 /// A cell of more times the usual count is a pile. Of 390 bands of lasts and feet, even, random, as
@@ -34,8 +34,8 @@ constexpr double kLeastNoise = 0.01;  // of a side
 constexpr std::size_t kAsked = 200;
 constexpr double kMostlyFlat = 0.5;
 constexpr int kMostWidenings = 2;
-/// In least sides; less than the other side of a body is far.
-constexpr double kShadow = 8.0;
+/// In least sides: a sixth of the section.
+constexpr double kShadow = 24.0;
 
 /// How far points scatter round the skin of each of some cells: one in `stride`. Nothing of those
 /// that show none.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
 
 namespace instep {
@@ -16,9 +17,11 @@ constexpr double kOffPile = 1.0;
 /// Half as wide as a cell's diagonal, and wider further off, for cameras do not look straight.
 constexpr double kHalfWidth = 0.7;
 constexpr double kWidening = 0.5;
-/// Of the shadow.
-constexpr double kHalfShade = 3.0;
+/// In sides: who is so near is company; and the part of what a skin has that is too little.
+constexpr double kCompany = 2.0;
 constexpr double kLonely = 0.5;
+/// Of the variances across a skin and along it.
+constexpr double kFlat = 0.3;
 
 /// `arm`: from the face, in sides.
 bool is_before_or_behind(const PileFace& face, const Eigen::Vector3d& arm) {
@@ -27,10 +30,15 @@ bool is_before_or_behind(const PileFace& face, const Eigen::Vector3d& arm) {
   return height > kOffPile && aside < kHalfWidth + kWidening * height;
 }
 
-/// Has fewer points round it than a skin.
-bool is_lonely(const Eigen::Vector3d& point, const PointIndex& index, const PileLevel& level) {
-  const auto company = static_cast<double>(index.around(point, level.side).size());
-  return company < kLonely * std::numbers::pi * level.usual;
+/// Has as many points round it as there are of a skin, and they lie as flat.
+bool is_of_skin(const Eigen::Vector3d& point, const PointIndex& index, const PileLevel& level) {
+  const auto company = index.around(point, kCompany * level.side);
+  const double usual = std::numbers::pi * kCompany * kCompany * level.usual;
+  if (static_cast<double>(company.size()) < kLonely * usual) return false;
+  Moments moments;
+  for (const auto& near : company) moments.add((index.points()[near.index] - point) / level.side);
+  const auto axes = moments.axes();
+  return axes.eigenvalues()[0] < kFlat * axes.eigenvalues()[1];
 }
 
 }  // namespace
@@ -46,13 +54,17 @@ void mark_shadows(const std::vector<Eigen::Vector3d>& points, const std::vector<
   }
   if (others.empty()) return;
   const PointIndex index(std::move(others));
+  std::vector<bool> of_skin(numbers.size(), false);
   for (const auto& face : faces) {
-    for (const auto& near : index.around(face.place, kHalfShade * level.shadow)) {
-      if (marked[numbers[near.index]]) continue;
+    for (const auto& near : index.around(face.place, level.shadow)) {
+      if (marked[numbers[near.index]] || of_skin[near.index]) continue;
       const Eigen::Vector3d& point = index.points()[near.index];
       if (!is_before_or_behind(face, (point - face.place) / level.side)) continue;
-      const bool in_shadow = near.squared_distance <= level.shadow * level.shadow;
-      if (in_shadow || is_lonely(point, index, level)) marked[numbers[near.index]] = true;
+      if (is_of_skin(point, index, level)) {
+        of_skin[near.index] = true;
+      } else {
+        marked[numbers[near.index]] = true;
+      }
     }
   }
 }

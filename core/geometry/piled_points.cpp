@@ -23,6 +23,8 @@ constexpr double kThick = 0.2;
 constexpr double kTooNear = 0.75;
 /// The blocks of nine cells beside each other, and so the points of them, share their errors.
 constexpr double kShared = 3.0;
+/// Of a side: exact points are not known to the last digit either.
+constexpr double kLeastError = 1e-4;
 /// From the middle of a block, in sides: no point of it is further off.
 constexpr double kReach = 3.0 * 1.7321;
 
@@ -100,8 +102,15 @@ class Leveller {
 
   void add(const CellBlock& block) {
     const BlockView view(points_, block, level_.side);
-    if (!view.is_flat()) return add_heap(block, view);
-    if (const auto skin = BlockSkin::through(points_, block, view)) add_skin(block, view, *skin);
+    const auto skin = view.is_flat() ? BlockSkin::through(points_, block, view) : std::nullopt;
+    if (skin) {
+      add_skin(block, view, *skin);
+    } else if (!view.is_flat() || level_.is_crowded(block.members().size())) {
+      add_heap(block, view);
+    } else {
+      // Beside a spot so tight that it shows no skin.
+      for (const auto member : block.members()) candidates_.push_back({member, 1, 0.0});
+    }
   }
 
   const std::vector<PileFace>& faces() const { return faces_; }
@@ -130,7 +139,8 @@ class Leveller {
     for (const auto member : block.members()) {
       heap.add(member, {doubt_of(member), view.of(points_[member]).norm()});
     }
-    candidates_.push_back({heap.best, heap.count, 0.0});
+    const double error = std::max(kLeastError, heap.rank.second);
+    candidates_.push_back({heap.best, heap.count, error * level_.side});
   }
 
   void add_skin(const CellBlock& block, const BlockView& view, const BlockSkin& skin) {
@@ -147,7 +157,8 @@ class Leveller {
       const Column& column = columns.at(seen);
       if (static_cast<double>(column.count) > most) {
         is_full = true;
-        const double error = std::hypot(kShared * skin.error(), column.rank.second);
+        const double error =
+            std::max(kLeastError, std::hypot(kShared * skin.error(), column.rank.second));
         if (column.best == member)
           candidates_.push_back({member, column.count, error * level_.side});
       } else if (!columns.is_beside(seen, of_pile)) {

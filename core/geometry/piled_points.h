@@ -10,7 +10,7 @@ namespace instep {
 /// What is to stay of points that have piles.
 struct LevelledPoints {
   std::vector<bool> surplus;   ///< those that are more than are needed
-  std::vector<double> errors;  ///< of those of piles that stay, a standard deviation; 0 of others
+  std::vector<double> errors;  ///< of those of piles that stay, > 0; 0 of others
 };
 
 /// Leaves points as far apart in piles as they are elsewhere. Where a column of a pile's skin, as
@@ -21,9 +21,8 @@ struct LevelledPoints {
 /// other share it, which would otherwise pass for shape. Of two that are too near to each other one
 /// stays, none beside a full column, and of a heap that is no skin the middle.
 ///
-/// What stands before and behind a pile within its shadow is surplus, and for three times as far
-/// what has too little company for skin: strays of the many points that see it, as many times too
-/// many.
+/// What stands before and behind a pile within its shadow is surplus if it has too little company
+/// for skin: strays of the many points that see it, as many times too many.
 ///
 /// `doubts`: for each point, as its noise; or none, if all are alike. O(n log n).
 LevelledPoints levelled(const std::vector<Eigen::Vector3d>& points, const PileLevel& level,

@@ -15,6 +15,10 @@ namespace {
 /// Of the box round all against that round most of the points.
 constexpr double kFarLarger = 1.5;
 constexpr double kFew = 0.05;
+/// How high a slab tells of the skin: against the one that is looked at first, and at most against
+/// the box round most of its points.
+constexpr double kThicker = 10.0;
+constexpr double kThickest = 0.2;
 /// Of a cell, in spacings.
 constexpr double kSide = 3.0;
 /// Of those that the density is told in.
@@ -51,16 +55,18 @@ Eigen::AlignedBox2d box_of_clusters(const std::vector<Eigen::Vector3d>& places, 
 
 }  // namespace
 
-Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places, double height,
-                                double step) {
+Eigen::AlignedBox2d section_box(
+    const std::vector<Eigen::Vector3d>& slab, double height, double step,
+    const std::function<std::vector<Eigen::Vector3d>(double height)>& wider) {
   Eigen::AlignedBox2d box;
-  for (const auto& place : places) box.extend(place.head<2>().eval());
-  const Eigen::AlignedBox2d of_most = box_of_most(places);
-  if (box.diagonal().norm() <= kFarLarger * of_most.diagonal().norm()) return box;
+  for (const auto& place : slab) box.extend(place.head<2>().eval());
+  const double most = box_of_most(slab).diagonal().norm();
+  if (box.diagonal().norm() <= kFarLarger * most) return box;
+  const double thick = std::max(height, std::min(kThicker * height, kThickest * most));
   // In whole steps, which are the same numbers whichever unit the cloud is told in.
   std::vector<Eigen::Vector3d> steps;
-  for (const auto& place : places) steps.push_back((place / step).array().round());
-  const auto outline = outline_of_skin(steps, height / step, kCellInHeights * height / step);
+  for (const auto& place : wider(thick)) steps.push_back((place / step).array().round());
+  const auto outline = outline_of_skin(steps, thick / step, kCellInHeights * height / step);
   if (!(outline.density > 0.0)) return box;
   auto of_skin = box_of_clusters(steps, kSide / std::sqrt(outline.density));
   // Where a dense part has most of the points the cells of the rest need not hang together.

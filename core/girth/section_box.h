@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <functional>
 #include <vector>
 
 namespace instep {
@@ -12,9 +13,12 @@ namespace instep {
 /// the box round all is far larger than that round most. Between bodies that lie further apart than
 /// they are wide strays stay.
 ///
-/// `places`: at least one, in whole multiples of `step`, in the order of their first coordinate.
-/// `height` > 0 of the slab. O(n), and n log n where something is far off.
-Eigen::AlignedBox2d section_box(const std::vector<Eigen::Vector3d>& places, double height,
-                                double step);
+/// `slab`: at least one place, in whole multiples of `step`, in the order of the first coordinate,
+/// `height` > 0 high. Where something is far off a thicker slab is looked at, for of the rest of a
+/// body that was seen densely in a part a thin one has hardly a point: `wider` gives the slab of a
+/// height. O(n), and n log n for those of the thicker one.
+Eigen::AlignedBox2d section_box(
+    const std::vector<Eigen::Vector3d>& slab, double height, double step,
+    const std::function<std::vector<Eigen::Vector3d>(double height)>& wider);
 
 }  // namespace instep

@@ -55,9 +55,11 @@ bool is_beyond(const Eigen::Array2d& reach, const Eigen::Vector3d& arm) {
 
 /// The section that points lie round, which are fewer than make a surface or within less than
 /// their spacing of the plane: nothing. Its unit and middle are whole numbers of `step`.
-std::optional<SectionProbe> probe_of(PlaneSlab slab, double half_width, double step) {
+std::optional<SectionProbe> probe_of(SlabSource& slabs, double half_width, double step) {
+  PlaneSlab slab = slabs.slab(half_width);
   if (slab.places.size() < kFewestPoints) return std::nullopt;
-  const auto box = section_box(slab.places, 2.0 * half_width, step);
+  const auto box = section_box(slab.places, 2.0 * half_width, step,
+                               [&](double height) { return slabs.slab(0.5 * height).places; });
   const double unit = std::round(box.diagonal().norm() / step) * step;
   const Eigen::Array2d middle = (box.center().array() / step + kSpareOfHalf).floor() * step;
   SectionProbe found{.middle_mm = {middle.x(), middle.y(), 0.0}, .unit_mm = unit};
@@ -101,9 +103,8 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
   const double step = rounding_step(slabs.plane());
   bool found_some = false;
   for (double half_width = kFirstHalfWidth * size; half_width < size; half_width *= kWidening) {
-    PlaneSlab slab = slabs.slab(half_width);
-    found_some = found_some || slab.places.size() >= kFewestPoints;
-    const auto found = probe_of(std::move(slab), half_width, step);
+    found_some = found_some || slabs.slab(half_width).places.size() >= kFewestPoints;
+    const auto found = probe_of(slabs, half_width, step);
     if (!found) continue;
     const double look = std::max(kLookInSpacings * found->spacing * found->unit_mm, half_width);
     if (slabs.is_thinned() || !stand_in_lines(slabs.slab(look).places, kReachInSlab * look)) {
@@ -113,7 +114,7 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     if (!lines) return *found;
     slabs.thin(*lines);
     const double several_lines = kGapsOfSlab * lines->apart;
-    return probe_of(slabs.slab(several_lines), several_lines, step).value_or(*found);
+    return probe_of(slabs, several_lines, step).value_or(*found);
   }
   if (found_some) return no_surface();
   return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "tests/support/random_numbers.h"
+
 namespace instep {
 namespace {
 
-constexpr PileLevel kLevel{1.0, 4.0, 8.0};
+constexpr PileLevel kLevel{1.0, 4.0, 16.0};
 const PileFace kFace{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}};
 
 /// A square sheet with as many points as the level has.
@@ -32,13 +34,23 @@ TEST(PileShadow, HoldsWhatStandsBeforeAndBehind) {
   }
 }
 
+/// As many as a skin has, but in a heap.
+TEST(PileShadow, HoldsStraysThatAreManyToo) {
+  test::RandomNumbers random(1);
+  std::vector<Eigen::Vector3d> strays;
+  for (int i = 0; i < 4000; ++i) {
+    strays.emplace_back(random.uniform(-6.0, 6.0), random.uniform(-6.0, 6.0),
+                        random.uniform(2.0, 12.0));
+  }
+  EXPECT_GT(marked_of(strays), 1000U);
+}
+
 TEST(PileShadow, DoesNotHoldThePile) {
   EXPECT_EQ(marked_of({{0.1, 0.2, 0.5}, {0.3, 0.0, -0.9}}), 0U);
 }
 
-TEST(PileShadow, HoldsWhatIsLonelyFurtherOffButNotTheOtherSideOfTheBody) {
-  EXPECT_EQ(marked_of({{0.0, 0.0, 12.0}}), 1U);
-  EXPECT_EQ(marked_of(sheet_at(12.0)), 0U);
+TEST(PileShadow, DoesNotHoldASkinThatFacesThePileNorWhatIsFarOff) {
+  for (const double height : {2.0, 5.0, 12.0}) EXPECT_EQ(marked_of(sheet_at(height)), 0U);
   EXPECT_EQ(marked_of({{0.0, 0.0, 30.0}}), 0U);
 }
 

@@ -83,9 +83,9 @@ TEST(PiledPoints, LieOnTheSkinThatAllShowToWithinTheirErrors) {
     }
     ASSERT_GT(count, 50.0);
     EXPECT_LT(std::sqrt(squares / count), 0.15 * sigma) << sigma;
-    EXPECT_NEAR(sum / count, 0.0, 0.05 * sigma) << sigma;
+    EXPECT_NEAR(sum / count, 0.0, 0.1 * sigma) << sigma;
     EXPECT_LT(worst, 2.0 * most_error) << sigma;
-    EXPECT_LT(most_error, 0.4 * sigma) << sigma;
+    EXPECT_LT(most_error, 0.6 * sigma) << sigma;
   }
 }
 

@@ -177,6 +177,37 @@ TEST(PiledGirth, IsRightWithASecondBodyAmidStrays) {
   expect_right(cloud, 0.3);
 }
 
+/// What stands before a pile was left out with its strays: the side that faces it was bridged, up
+/// to 10 mm off.
+TEST(PiledGirth, IsRightWhereThePartOfASecondBodyFacesTheFirst) {
+  constexpr double kOtherRadius = 25.0;
+  RandomNumbers random(1);
+  PointCloud cloud = cylinder(0.1, random);
+  for (int i = 0; i < 30000; ++i) {
+    const bool is_of_part = i % 2 == 0;
+    const double turn = random.uniform(-1.0, 1.0) * (is_of_part ? 0.25 : std::numbers::pi);
+    const double radius = kOtherRadius + 0.1 * random.normal();
+    cloud.positions.emplace_back(kRadius + 5.0 + kOtherRadius - radius * std::cos(turn),
+                                 radius * std::sin(turn),
+                                 random.uniform(-1.0, 1.0) * (is_of_part ? 10.0 : 30.0));
+  }
+  const auto girth = girth_by_rbf(cloud, test::level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->stretched_mm, 2.0 * std::numbers::pi * kRadius, *girth->stretched_u95_mm);
+  EXPECT_LT(*girth->stretched_u95_mm, 0.1);
+}
+
+/// The rest had hardly a point in the first slab and was taken for strays: refused.
+TEST(PiledGirth, IsRightWhereHardlyAPointIsOfTheRest) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    RandomNumbers random(seed);
+    PointCloud cloud;
+    add({1200, std::numbers::pi, -35.0, 35.0, 0.0}, random, cloud);
+    add({14000, 0.36, -29.0, 9.0, 0.0}, random, cloud);
+    expect_right(cloud, 0.02);
+  }
+}
+
 /// Two of six were answered, wrongly.
 TEST(PiledGirth, IsRefusedOfAnOpenBodyAmidStrays) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {

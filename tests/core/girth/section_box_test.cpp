@@ -38,7 +38,7 @@ Eigen::AlignedBox2d box_of(Places places) {
   for (auto& place : places) place = (place / kStep).array().round() * kStep;
   std::sort(places.begin(), places.end(),
             [](const auto& a, const auto& b) { return a.x() < b.x(); });
-  return section_box(places, kHeight, kStep);
+  return section_box(places, kHeight, kStep, [&](double) { return places; });
 }
 
 void expect_round_ellipse(const Eigen::AlignedBox2d& box) {
@@ -68,7 +68,7 @@ TEST(SectionBox, IsNotRoundStraysFarOff) {
       add_strays(strays, furthest, random, places);
       const auto box = box_of(places);
       // Next to the skin one may hang together with it.
-      EXPECT_LT(box.diagonal().norm(), 165.0) << strays << " " << furthest;
+      EXPECT_LT(box.diagonal().norm(), 200.0) << strays << " " << furthest;
       EXPECT_GT(box.diagonal().norm(), 134.0 - 2.0) << strays << " " << furthest;
     }
   }
