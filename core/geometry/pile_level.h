@@ -9,16 +9,16 @@
 
 namespace instep {
 
+/// What the skin beside piles shows in cubic cells.
+///
 /// Points pile up where a part was seen many times as densely as the rest: a spot that one camera
 /// saw a thousand times, or a side that a second one saw from near. Most of the points, they have
 /// the say on how far apart all are and how noisy, and where they end no patch of the nearest ones
 /// sees both sides. Of a body with 0.3 mm of noise, a thirtieth of which was seen eighty times as
 /// densely with 0.1 mm, girths were up to 21 mm too long.
-
-/// What the skin beside piles shows in cubic cells.
 struct PileLevel {
   double side = 0.0;    ///< of a cell: so wide that most of those of the skin have points
-  double usual = 0.0;   ///< points of a piece of skin as large as a cell's face, at least one
+  double usual = 0.0;   ///< points of a piece of skin as large as a cell's face, one or more
   double shadow = 0.0;  ///< how far before and behind piles what strays is of them
 
   /// Whether a cell holds so many times what is usual that it is a pile, whatever the others are.

@@ -37,7 +37,7 @@ class CellBlock {
     });
   }
 
-  /// Some 4,000 of these, evenly over their order, or all.
+  /// Of these 2,000 to 4,000, evenly over their order, or all if they are fewer.
   std::vector<std::uint32_t> sample() const;
 
  private:
@@ -72,7 +72,8 @@ class BlockView {
 /// The skin of a block: a quadratic through its points.
 class BlockSkin {
  public:
-  /// Nothing where the points are too few.
+  /// Nothing where the points are too few, or so near to each other or to a line that they show
+  /// none.
   static std::optional<BlockSkin> through(const std::vector<Eigen::Vector3d>& points,
                                           const CellBlock& block, const BlockView& view);
 
