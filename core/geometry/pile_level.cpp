@@ -24,7 +24,7 @@ constexpr double kFoot = 2.0;
 constexpr double kCellsOfSheet = 9.0;
 /// Several cells of so many times the usual count are a pile if the noise of each is so many times
 /// that of the rest, or the other way round. Of 7,985 girths of lasts, feet and drawn bodies 37
-/// have as many such cells, with up to 2.2 times the noise of the rest. Noise too fine to matter is
+/// have as many such cells, with up to 2.3 times the noise of the rest. Noise too fine to matter is
 /// none.
 constexpr double kCrowded = 8.0;
 constexpr std::size_t kSeveral = 5;

@@ -16,7 +16,7 @@ struct SkinOutline {
 };
 
 /// `points` of a ring that is `height` > 0 high along z. The middle is that of the outline itself,
-/// found by some rounds. In cells of `side` > 0, about as wide as the ring is high, no more points
+/// found by some rounds. In cells of `side` > 0, far narrower than the ring is wide, no more points
 /// count for it than ten times what half of the cells hold: seen from near the skin most points
 /// would lie in few directions. O(n log n).
 SkinOutline outline_of_skin(const std::vector<Eigen::Vector3d>& points, double height, double side);

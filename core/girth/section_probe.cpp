@@ -49,8 +49,12 @@ std::optional<ScanLines> lines_far_apart(SlabSource& slabs, double half_width, d
   return std::nullopt;
 }
 
-bool is_beyond(const Eigen::Array2d& reach, const Eigen::Vector3d& arm) {
-  return (arm.head<2>().array().abs() > reach).any();
+/// Which places lie further from the origin than the reach, to either side.
+std::vector<bool> beyond(const Eigen::Array2d& reach, const std::vector<Eigen::Vector3d>& places) {
+  std::vector<bool> beyond;
+  beyond.reserve(places.size());
+  for (const auto& place : places) beyond.push_back((place.head<2>().array().abs() > reach).any());
+  return beyond;
 }
 
 /// The section that points lie round, which are fewer than make a surface or within less than
@@ -64,8 +68,9 @@ std::optional<SectionProbe> probe_of(SlabSource& slabs, double half_width, doubl
   const Eigen::Array2d middle = (box.center().array() / step + kSpareOfHalf).floor() * step;
   SectionProbe found{.middle_mm = {middle.x(), middle.y(), 0.0}, .unit_mm = unit};
   const Eigen::Array2d reach = box.sizes().array() / 2.0 + kBeside * unit;
-  std::vector<bool> strays;
-  for (const auto& place : slab.places) strays.push_back(is_beyond(reach, place - found.middle_mm));
+  auto arms = slab.places;
+  for (auto& arm : arms) arm -= found.middle_mm;
+  const auto strays = beyond(reach, arms);
   if (std::find(strays.begin(), strays.end(), true) != strays.end()) {
     const auto all = static_cast<double>(slab.places.size());
     slab = without(strays, slab);
@@ -90,12 +95,10 @@ PlaneSlab SectionProbe::slab(SlabSource& slabs, double half_width) const {
   // In whole steps, which are the same numbers whichever unit the cloud is told in.
   const double step = rounding_step(slabs.plane());
   const double unit = std::round(unit_mm / step);
-  std::vector<bool> beyond;
   for (auto& place : slab.places) {
     place = ((place - middle_mm) / step).array().round() / unit;
-    beyond.push_back(is_beyond(reach, place));
   }
-  return stray_share > 0.0 ? without(beyond, slab) : slab;
+  return stray_share > 0.0 ? without(beyond(reach, slab.places), slab) : slab;
 }
 
 Result<SectionProbe> probe_section(SlabSource& slabs) {
