@@ -70,6 +70,10 @@ struct Girth {
 /// that far fewer points make are left out; of several loops the one round the largest area counts,
 /// and the others are named in a warning. A crease such as a last's featherline stays sharp.
 ///
+/// Where nothing closes, or what does leaves much doubt or many points beside it, the bodies near
+/// the plane are looked at alone (core/girth/bodies_apart.h): a wall or a floor beside a body takes
+/// part in its noise and its normals. That with the largest section counts, with a warning.
+///
 /// Normals that come with exact points too far apart to tell the skin between them count with their
 /// slopes, where they agree with the points as right ones do; others only tell inside from outside,
 /// and those that do not even do that, or with which the section does not close though without them

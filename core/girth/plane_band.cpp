@@ -31,7 +31,7 @@ constexpr double kCopy = 0.15;
 constexpr double kManyCopies = 0.6;
 /// Shares of the points that are strays, with which those over the skin, and those near it, are
 /// looked for: clean noisy clouds have a fortieth of a percent that stand alone.
-constexpr double kSomeStrays = 0.002;
+constexpr double kSomeStrays = 0.0005;
 constexpr double kManyStrays = 0.005;
 /// Places where noise is looked for lie so near to the plane.
 constexpr double kNoisePlacesInSpacings = 1.5;

@@ -12,6 +12,7 @@ namespace {
 
 /// Skin that leans more is no steeper for this: a normal is told too badly to say so.
 constexpr double kMostLean = 3.0;
+constexpr double kReachInGrains = 2.5;
 
 double run_aside(const OrientedPoint& point) {
   const double upright = point.normal.head<2>().norm();
@@ -21,6 +22,10 @@ double run_aside(const OrientedPoint& point) {
 }
 
 }  // namespace
+
+double evidence_reach(const PlaneBand& band) {
+  return kReachInGrains * band.grain;
+}
 
 bool may_run_to(const ContourIndex& contour, const OrientedPoint& point, double near) {
   return contour.passes_within(near + run_aside(point), point.position.head<2>());

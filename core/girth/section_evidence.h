@@ -16,6 +16,9 @@ struct SectionEvidence {
   double seen_gap = 0.0;     ///< longest stretch without one that a camera saw
 };
 
+/// Points further from the contour or the plane than this are no evidence for it. In the unit.
+double evidence_reach(const PlaneBand& band);
+
 /// Points within `near` of the plane and of the contour count.
 SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near);
 

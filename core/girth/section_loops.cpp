@@ -1,0 +1,154 @@
+#include "core/girth/section_loops.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/geometry/polygon.h"
+#include "core/girth/section_evidence.h"
+#include "core/girth/section_gaps.h"
+
+namespace instep {
+namespace {
+
+/// Steps in grains: short ones place the patches evenly, longer ones read the finished field. Of a
+/// thinned crowd patches reach as far in any case.
+constexpr double kDraftStep = 0.4;
+constexpr double kDraftStepInThinned = 0.8;
+constexpr double kReadingStep = 0.6;
+/// Loops of two bodies, or of both sides of a thin part, are further apart than this.
+constexpr double kSameInGrains = 0.3;
+/// Of a section, against the width of the body.
+constexpr double kLongestSection = 6.0;
+/// Points along a loop, against those along the best founded one.
+constexpr double kLeastFounded = 0.25;
+/// Of a loop, on which it runs along another of the same body.
+constexpr double kOneBody = 0.5;
+constexpr int kMostLoops = 8;
+constexpr int kMostStarts = 40;
+/// One in so many points, the nearest to the plane, is a start at least.
+constexpr std::size_t kStartShare = 30;
+
+/// The points nearest to the plane: the outermost one, then in an order that spreads over all of
+/// them. Most lie on the largest body, so a lump beside it does not use up the starts.
+std::vector<std::size_t> starts_of(const PlaneBand& band) {
+  std::vector<double> heights;
+  for (const auto& point : band.points) heights.push_back(std::abs(point.position.z()));
+  std::vector<double> order = heights;
+  const auto share = order.begin() + static_cast<std::ptrdiff_t>(order.size() / kStartShare);
+  std::nth_element(order.begin(), share, order.end());
+  const double near = std::max(band.spacing, *share);
+  std::vector<std::size_t> candidates;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (heights[i] <= near) candidates.push_back(i);
+  }
+  std::vector<std::size_t> starts = {candidates.front()};
+  const std::size_t count = candidates.size();
+  for (std::size_t stride = std::size_t{1} << 20; stride > 0; stride /= 2) {
+    for (std::size_t i = stride; i <= count; i += 2 * stride) starts.push_back(candidates[i - 1]);
+  }
+  return starts;
+}
+
+/// Whether one of the loops passes within a distance of a place.
+bool pass_near(const std::vector<SectionLoop>& loops, const Eigen::Vector2d& place,
+               double distance) {
+  return std::any_of(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
+    return loop.index.foot_of(place).distance < distance;
+  });
+}
+
+/// Follows every loop that starts near a point on the plane and round which the body lies inside.
+std::vector<SectionLoop> trace_all(const PlaneBand& band, BlendedSurface& surface) {
+  std::vector<SectionLoop> loops;
+  const double draft_step = band.thinned_out > 0 ? kDraftStepInThinned : kDraftStep;
+  int starts = 0;
+  for (const std::size_t candidate : starts_of(band)) {
+    const Eigen::Vector2d start = band.points[candidate].position.head<2>();
+    if (pass_near(loops, start, evidence_reach(band))) continue;
+    if (++starts > kMostStarts || loops.size() >= kMostLoops) break;
+    // The first round places the patches, the second reads the finished field.
+    const auto draft =
+        trace_contour(surface, start, draft_step * band.grain, kWidestBridge, kLongestSection);
+    // Where the plane cuts the skin at a slant, points beside a known loop lead to it too.
+    if (!draft || pass_near(loops, draft->points.front(), kSameInGrains * band.grain)) continue;
+    auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.grain,
+                                 kWidestBridge, kLongestSection);
+    if (contour && signed_area(contour->points) > 0.0) loops.emplace_back(std::move(*contour));
+  }
+  return loops;
+}
+
+/// Points that make each of the loops, for its length.
+std::vector<double> densities_of(const PlaneBand& band, const std::vector<SectionLoop>& loops) {
+  std::vector<double> densities;
+  for (const auto& loop : loops) {
+    const auto evidence = evidence_for(band, loop.index, evidence_reach(band));
+    densities.push_back(static_cast<double>(evidence.ways.size()) / loop.index.length());
+  }
+  return densities;
+}
+
+/// Whether half of a loop or more is another one's.
+bool runs_along(const SectionLoop& loop, const SectionLoop& other, double same) {
+  const auto& corners = loop.contour.points;
+  const auto shared = std::count_if(corners.begin(), corners.end(), [&](const auto& corner) {
+    return other.index.passes_within(same, corner);
+  });
+  return static_cast<double>(shared) >= kOneBody * static_cast<double>(corners.size());
+}
+
+/// Leaves out loops that far fewer points make than the best founded one: strays can lie so that a
+/// surface passes through them. Of two that run together, as where one takes a way round over
+/// strays or a wall, the better founded one stays.
+void drop_unfounded(const PlaneBand& band, std::vector<SectionLoop>& loops) {
+  if (loops.size() < 2) return;
+  const auto densities = densities_of(band, loops);
+  const double best = *std::max_element(densities.begin(), densities.end());
+  const double same = kSameInGrains * band.grain;
+  std::vector<SectionLoop> founded;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    bool is_founded = densities[i] >= kLeastFounded * best;
+    for (std::size_t j = 0; is_founded && j < loops.size(); ++j) {
+      is_founded = !(densities[j] > densities[i] && (runs_along(loops[i], loops[j], same) ||
+                                                     runs_along(loops[j], loops[i], same)));
+    }
+    if (is_founded) founded.push_back(loops[i]);
+  }
+  loops = std::move(founded);
+}
+
+/// The loop round the largest area first.
+void largest_first(std::vector<SectionLoop>& loops) {
+  std::stable_sort(loops.begin(), loops.end(), [](const SectionLoop& a, const SectionLoop& b) {
+    return signed_area(a.contour.points) > signed_area(b.contour.points);
+  });
+}
+
+}  // namespace
+
+std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface) {
+  auto loops = trace_all(band, surface);
+  drop_unfounded(band, loops);
+  largest_first(loops);
+  return loops;
+}
+
+bool leaves_points_unexplained(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                               const SectionEvidence& of_first, double share) {
+  const double near = evidence_reach(band);
+  const double most = share * static_cast<double>(of_first.beside + of_first.ways.size());
+  // The other loops can only explain some of what the first one does not.
+  if (static_cast<double>(of_first.beside) <= most) return false;
+  const auto unexplained =
+      std::count_if(band.points.begin(), band.points.end(), [&](const OrientedPoint& point) {
+        if (std::abs(point.position.z()) > near) return false;
+        return std::none_of(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
+          return may_run_to(loop.index, point, near);
+        });
+      });
+  return static_cast<double>(unexplained) > most;
+}
+
+}  // namespace instep

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/girth/contour_index.h"
+#include "core/girth/contour_trace.h"
+#include "core/girth/plane_band.h"
+#include "core/girth/section_evidence.h"
+#include "core/surface/blended_surface.h"
+
+namespace instep {
+
+/// A closed line that the skin is cut in.
+struct SectionLoop {
+  Contour contour;
+  ContourIndex index;
+
+  explicit SectionLoop(Contour traced) : contour(std::move(traced)), index(contour) {}
+};
+
+/// Every loop that starts near a point on the plane and round which the body lies inside, the one
+/// round the largest area first; none where nothing closes. Loops that far fewer points make than
+/// the best founded one, for their length, are left out: strays can lie so that a surface passes
+/// through them. Lays the patches of the surface.
+std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface);
+
+/// Whether more than a share of the points near the plane lie on no loop. `of_first`: the evidence
+/// for the first one.
+bool leaves_points_unexplained(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                               const SectionEvidence& of_first, double share);
+
+}  // namespace instep

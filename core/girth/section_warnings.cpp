@@ -1,0 +1,119 @@
+#include "core/girth/section_warnings.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "core/girth/loop_choice.h"
+#include "core/girth/section_gaps.h"
+
+namespace instep {
+namespace {
+
+/// A stretch without a seen point that is worth a warning, in grains.
+constexpr double kNotableGapInGrains = 6.0;
+/// Noise beyond what depth cameras have, against the section.
+constexpr double kNotableNoise = 0.012;
+/// What is this part of a doubt is its reason: half of its square.
+constexpr double kMostOfDoubt = 0.7;
+/// Of points that lead away from a section.
+constexpr const char* kNoSkinFound =
+    ", but no skin through them was found: a part too thin for them, or something that touches the "
+    "body";
+
+std::string warning_of(const SkinLayers& layers, double unit_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * (layers.outer - layers.inner));
+  return "the points lie in two layers, " + std::string(figure) +
+         " apart: the tape was laid between them and may belong on either; see to the cameras' "
+         "poses, or scan one layer alone";
+}
+
+std::string warning_of(const std::vector<ScatteredPlace>& scattered, double unit_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.2f mm", unit_mm * most_scatter(scattered));
+  return "in a part of the section the points scatter by " + std::string(figure) +
+         ", elsewhere hardly: see to what the camera sees there, such as an edge, a shine or two "
+         "layers";
+}
+
+std::string warning_of(const UnfollowedSkin& skin, double unit_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * skin.off);
+  return "points lead " + std::string(figure) + " away from the section" + kNoSkinFound +
+         "; take it away, or scan from nearer";
+}
+
+bool is_most_of(double doubt, const MeasuredSection& section) {
+  return doubt > kMostOfDoubt * section.stretched_u95;
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                                     const SectionEvidence& evidence,
+                                     const SectionUnknowns& unknowns,
+                                     const MeasuredSection& section) {
+  const auto& [bends, layers, skin, folds, edge] = unknowns;
+  std::vector<std::string> warnings;
+  const auto warn_if = [&](bool so, const char* warning) {
+    if (so) warnings.emplace_back(warning);
+  };
+  for (std::size_t i = 1; i < loops.size(); ++i) {
+    warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
+  }
+  warn_if(has_notable_gap(band, evidence), kBridgedWarning);
+  if (skin.is_any()) warnings.push_back(warning_of(skin, band.unit_mm));
+  warn_if(!skin.is_any() && leaves_points_unexplained(band, loops, evidence, kNotableUnexplained),
+          kBesideWarning);
+  warn_if(band.stray_share > kNotableUnexplained,
+          "many points near the plane lie off the skin and were left out: take away what shines or "
+          "moves before the cameras");
+  for (auto& disbelief : disbelief_of(band)) warnings.push_back(std::move(disbelief));
+  if (!layers && !band.scattered.empty()) {
+    warnings.push_back(warning_of(band.scattered, band.unit_mm));
+  }
+  if (layers) warnings.push_back(warning_of(*layers, band.unit_mm));
+  warn_if(folds > 0.0,
+          "the section is folded, by noise or by ribs too fine for it: the contact length is "
+          "uncertain; scan again, with more or better frames");
+  const bool scattered = !layers && band.shown_sigma > kNotableNoise * band.usual_share;
+  warn_if(scattered,
+          "the points scatter so much that they may be two layers of skin; the middle was taken");
+  warn_if(
+      !scattered && !layers && band.told_scale == 1.0 &&
+          band.sigma > kNotableNoise * band.usual_share,
+      "so much noise is told of the points that what is skin may be smoothed away: they scatter "
+      "far less; leave --sigma-mm out, or give a smaller one");
+  const bool out_of_sight = is_most_of(bends.stretched_u95, section);
+  // Of a folded one the contact length was warned of.
+  const double doubt =
+      folds > 0.0 ? section.stretched_u95 : std::max(section.stretched_u95, section.contact_u95);
+  warn_if(!is_most_of(skin.stretched, section) &&
+              doubt > kNotableDoubt * loops.front().contour.length(),
+          out_of_sight ? "the section may bend more sharply where no camera saw it, so that the "
+                         "girth is uncertain: scan the body from there too"
+                       : "the points are so few or noisy that the girth is uncertain");
+  return warnings;
+}
+
+bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
+  return evidence.seen_gap > kNotableGapInGrains * band.grain;
+}
+
+tl::unexpected<Error> too_few_or_noisy() {
+  return fail(ErrorCode::kInsufficientData,
+              "the points near the tape plane are too few or too noisy to tell the girth",
+              "scan again, with more or better frames");
+}
+
+tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
+                                   const MeasuredSection& section) {
+  if (!is_most_of(unknowns.skin.stretched, section)) return too_few_or_noisy();
+  return fail(ErrorCode::kInsufficientData,
+              std::string("points lead away from the section at the tape plane") + kNoSkinFound,
+              "take it away, scan from nearer, or move the plane");
+}
+
+}  // namespace instep
