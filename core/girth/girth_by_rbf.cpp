@@ -38,10 +38,10 @@ constexpr double kMostUnexplained = 0.67;
 /// mm off all do.
 constexpr double kManyWithStrays = 0.4;
 
-/// Bodies that are looked at alone, and by how much the section of one that is wanted then is
-/// larger: the same one by other gaps is not.
+/// Bodies that are looked at alone, and by how much the section of one may be the larger if it is
+/// the same body, taken apart in another way.
 constexpr int kMostAlone = 24;
-constexpr double kLarger = 1.05;
+constexpr double kSameBody = 1.2;
 /// The doubt of a body alone against that of all together, which is blind to what they share.
 constexpr double kAboutAsSure = 1.5;
 
@@ -190,22 +190,25 @@ Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
   return told;
 }
 
-/// Of the body whose section is largest, of those that close alone and leave little doubt: between
-/// them and what lies beside them a surface may go astray.
+/// Of the body whose section is largest, of those that close alone, taken apart in the way that
+/// leaves the least doubt: what is still joined to it makes a surface go astray.
 std::optional<ToldGirth> girth_of_one_body(const PointCloud& cloud, const TapePlane& plane,
                                            const GirthOptions& options) {
-  std::optional<ToldGirth> largest;
+  std::optional<ToldGirth> best;
   int looked_at = 0;
   for (const auto& bodies : bodies_apart(cloud, plane)) {
     for (const auto& body : bodies) {
-      if (largest && body.area < kLarger * largest->area()) break;
-      if (++looked_at > kMostAlone) return largest;
+      if (best && kSameBody * body.area < best->area()) break;
+      if (++looked_at > kMostAlone) return best;
       auto told = girth_of_all(cloud.subset(body.points), plane, options);
       if (!told || told->is_doubtful() || told->is_bridged) continue;
-      if (!largest || told->area() > kLarger * largest->area()) largest = std::move(*told);
+      const bool is_larger = !best || told->area() > kSameBody * best->area();
+      const bool is_surer =
+          best && kSameBody * told->area() > best->area() && told->doubt() < best->doubt();
+      if (is_larger || is_surer) best = std::move(*told);
     }
   }
-  return largest;
+  return best;
 }
 
 /// As one of a cloud in which there is more.
