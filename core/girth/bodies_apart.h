@@ -8,19 +8,35 @@
 
 namespace instep {
 
-/// What hangs together near a tape plane.
+/// What hangs together in a slab round a tape plane.
 struct BodyApart {
-  std::vector<std::size_t> points;  ///< their numbers in the cloud, ascending
-  double area = 0.0;                ///< that a tape round those at the plane encloses, mm^2
+  std::vector<std::size_t> points;  ///< their numbers in the cloud, ascending, each place once
+  /// That a tape round those encloses that lie within a spacing of the plane, mm^2.
+  double area = 0.0;
 };
 
-/// What lies near a tape plane taken apart where nothing joins it, in several ways: a body from a
+/// Looks at bodies apart as they are found.
+class BodiesLook {
+ public:
+  virtual ~BodiesLook() = default;
+  /// Whether it is to be looked at. If not, none after it is that was taken apart in the same way.
+  virtual bool may_count(const BodyApart& body) const = 0;
+  /// Whether the next one that was taken apart in the same way is to be looked at too.
+  virtual bool look_at(const BodyApart& body) = 0;
+  /// Whether thinner slabs need not be looked at any more.
+  virtual bool is_settled() const = 0;
+};
+
+/// Takes what lies near a tape plane apart where nothing joins it, in several ways: a body from a
 /// wall, a floor or another body beside it, which as one cloud share their noise, their spacing and
 /// the normals that neighbours agree on. First in thick slabs, in which much is joined, then in
-/// thinner ones; in each by wide gaps, then by narrower ones. Each way lists bodies of more than a
-/// few points, that round the largest area first; what is left strays. Those that are nearly as one
-/// of the way before are left out, and ways without others, so that a plain cloud has none. The
-/// cloud has passed check_cloud(). O(n), and m log m for the m near the plane.
-std::vector<std::vector<BodyApart>> bodies_apart(const PointCloud& cloud, const TapePlane& plane);
+/// thinner ones; in each by wide gaps, then by narrower ones. In each way bodies are those of a
+/// fiftieth of the slab's points or more, and what is left strays. They are looked at one by one,
+/// that round the largest area first, but for those that were there in the way before, until they
+/// have twice the points of the thickest slab and 50,000 together. Of a plain body there are none.
+///
+/// The cloud has passed check_cloud(). O(n), and m log m for the m near the plane, for each of some
+/// ten ways.
+void look_at_bodies_apart(const PointCloud& cloud, const TapePlane& plane, BodiesLook& look);
 
 }  // namespace instep

@@ -71,8 +71,9 @@ struct Girth {
 /// and the others are named in a warning. A crease such as a last's featherline stays sharp.
 ///
 /// Where nothing closes, or what does leaves much doubt or many points beside it, the bodies near
-/// the plane are looked at alone (core/girth/bodies_apart.h): a wall or a floor beside a body takes
-/// part in its noise and its normals. That with the largest section counts, with a warning.
+/// the plane are looked at alone (core/girth/bodies_apart.h), for a wall or a floor beside a body
+/// takes part in its noise and its normals. The one with the largest section counts, with a
+/// warning, unless a larger one closes alone but leaves doubt. It takes several times as long.
 ///
 /// Normals that come with exact points too far apart to tell the skin between them count with their
 /// slopes, where they agree with the points as right ones do; others only tell inside from outside,

@@ -1,224 +1,115 @@
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/geometry/polygon.h"
 #include "core/girth/bodies_apart.h"
-#include "core/girth/contour_trace.h"
 #include "core/girth/girth.h"
-#include "core/girth/length_doubt.h"
-#include "core/girth/plane_band.h"
-#include "core/girth/section_evidence.h"
-#include "core/girth/section_gaps.h"
-#include "core/girth/section_loops.h"
-#include "core/girth/section_probe.h"
-#include "core/girth/section_unknowns.h"
 #include "core/girth/section_warnings.h"
-#include "core/girth/smooth_section.h"
-#include "core/surface/blended_surface.h"
+#include "core/girth/told_girth.h"
 
 namespace instep {
 namespace {
 
-/// Pieces that a chord is told in, so that the contour looks round.
-constexpr int kPiecesOfChord = 8;
-/// Half of a 95 % interval that leaves nothing to be told, against the length.
-constexpr double kMostDoubt = 0.1;
-/// The same of the contact length: with so many folds it may be no section at all. A hull of one
-/// was 63 mm short.
-constexpr double kMostFolded = 0.2;
-/// Contact against stretched length of a section that winds more than most bodies do.
-constexpr double kWinding = 1.05;
-/// A share of the points near the plane, off all loops, with which the loops may not be what was
-/// scanned: of lines as thick with noise as they are near, a loop of a few millimetres between two
-/// of them passed for the section. A wall beside a body is as much.
-constexpr double kMostUnexplained = 0.67;
-/// A share of the patches that left out strays, with which these are looked for beforehand. Of
-/// 8,363 girths of bodies without strays one has more, of cylinders with 5 % of their points some 5
-/// mm off all do.
-constexpr double kManyWithStrays = 0.4;
-
-/// Bodies that are looked at alone, and by how much the section of one may be the larger if it is
-/// the same body, taken apart in another way.
-constexpr int kMostAlone = 24;
+/// By how much the section of one may be the larger if it is the same body, taken apart in another
+/// way.
 constexpr double kSameBody = 1.2;
 /// The doubt of a body alone against that of all together, which is blind to what they share.
 constexpr double kAboutAsSure = 1.5;
+constexpr const char* kAloneWarning =
+    "the body was measured alone, without what lies beside it: strays, a wall, a floor or another "
+    "body";
 
-/// Two readings of one section whose intervals do not even meet: one of them is wrong.
-bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
-  return std::abs(one.contact - other.contact) > one.contact_u95 + other.contact_u95 ||
-         std::abs(one.stretched - other.stretched) > one.stretched_u95 + other.stretched_u95;
-}
+/// The girths of bodies alone: of that whose section is largest, taken apart in the way that leaves
+/// the least doubt. Between a body and what is still joined to it a surface may go astray.
+class BodiesAlone : public BodiesLook {
+ public:
+  BodiesAlone(const PointCloud& cloud, const TapePlane& plane, const GirthOptions& options)
+      : cloud_(cloud), plane_(plane), options_(options) {}
 
-/// The section as one even skin where it is that, else as its patches tell it: they see a narrow
-/// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
-/// looked is known of the patches alone.
-MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
-                         const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
-                         const SectionEvidence& evidence) {
-  const Contour& contour = loops.front().contour;
-  const LengthDoubt doubt = doubt_of(contour, surface, band.sigma);
-  const MeasuredSection patches{contour, contour.length() + doubt.waves,
-                                contour.tape_length() + doubt.waves, doubt.contact_u95,
-                                doubt.stretched_u95};
-  if (loops.size() > 1) return patches;
-  auto smooth = smooth_section(slabs, band, contour);
-  if (!smooth || contradict(*smooth, patches)) return patches;
-  if (has_notable_gap(band, evidence)) {
-    smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
-    smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
+  bool may_count(const BodyApart& body) const override {
+    return !best_ || kSameBody * body.area >= best_->area();
   }
-  return *smooth;
-}
 
-/// In millimetres.
-Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
-               const SectionEvidence& evidence) {
-  Girth girth;
-  girth.contact_mm = band.unit_mm * section.contact;
-  for (const auto& point : section.contour.refined(kPiecesOfChord))
-    girth.contour.push_back(band.to_plane(point));
-  girth.stretched_mm = band.unit_mm * section.stretched;
-  girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
-  girth.contact_u95_mm = band.unit_mm * section.contact_u95;
-  girth.band_points = band.points.size() + band.thinned_out;
-  girth.sigma_mm =
-      band.unit_mm * std::max(band.sigma / band.usual_share, mean_scatter(band.scattered));
-  girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
-  return girth;
-}
-
-/// For normals that let no section close, as those of which one stretch points inwards.
-Result<Girth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
-                                    const GirthOptions& options) {
-  cloud.normals.clear();
-  auto girth = girth_by_rbf(cloud, plane, options);
-  if (girth) {
-    girth->warnings.emplace_back(
-        "the section closes only without the normals that came with the points, which were not "
-        "used: have them made anew, or leave them out of the file");
+  bool look_at(const BodyApart& body) override {
+    auto told = girth_of_all(cloud_.subset(body.points), plane_, options_);
+    if (!told) {
+      if (is_too_few_or_noisy(told.error())) unsure_.push_back({body.points, body.area});
+      return true;
+    }
+    if (!told->is_plain()) {
+      unsure_.push_back({body.points, told->area()});
+      return false;
+    }
+    if (counts_before_best(*told)) {
+      best_ = std::move(*told);
+      point_of_best_ = body.points.front();
+    }
+    return true;
   }
-  return girth;
-}
 
-struct ToldGirth {
-  Girth girth;
-  bool of_few = false;            ///< most of the points near the plane lie on no loop
-  bool strays_near_skin = false;  ///< many of its patches left some out
+  bool is_settled() const override { return best_ && !has_larger(); }
 
-  bool is_bridged = false;         ///< over a notable gap
-  bool has_others_beside = false;  ///< points near the plane that lie on no loop
-
-  double doubt() const { return *girth.stretched_u95_mm + *girth.contact_u95_mm; }
-  double area() const { return signed_area(girth.contour); }
-
-  /// Uncertain, of few, or so winding that noise may have folded it.
-  bool is_doubtful() const {
-    return of_few || *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
-           girth.contact_mm > kWinding * girth.stretched_mm;
+  /// Nothing if none is plain, or another one's section is larger.
+  std::optional<ToldGirth> best() && {
+    if (has_larger()) return std::nullopt;
+    return std::move(best_);
   }
+
+ private:
+  /// A body that may be two, or a part of one, or badly seen.
+  struct Unsure {
+    std::vector<std::size_t> points;
+    double area;
+  };
+
+  /// Whether there is a larger one that the best one is no part of.
+  bool has_larger() const {
+    return best_ && std::any_of(unsure_.begin(), unsure_.end(), [&](const Unsure& unsure) {
+             return unsure.area > kSameBody * best_->area() &&
+                    !std::binary_search(unsure.points.begin(), unsure.points.end(), point_of_best_);
+           });
+  }
+
+  bool counts_before_best(const ToldGirth& told) const {
+    if (!best_ || told.area() > kSameBody * best_->area()) return true;
+    return kSameBody * told.area() > best_->area() && told.doubt() < best_->doubt();
+  }
+
+  const PointCloud& cloud_;
+  const TapePlane& plane_;
+  const GirthOptions& options_;
+  std::optional<ToldGirth> best_;
+  std::size_t point_of_best_ = 0;
+  std::vector<Unsure> unsure_;
 };
 
-/// Of slabs that are thinned already, or are here if their points ask for it.
-Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
-                           bool strays_near_skin = false) {
-  const PointCloud& cloud = slabs.cloud();
-  auto band = band_at(slabs, options.sigma_mm, strays_near_skin);
-  if (!band) return tl::make_unexpected(band.error());
-  // The index goes with the surface; the band keeps the points.
-  BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
-  const auto loops = loops_on(*band, surface);
-  if (loops.empty()) {
-    if (cloud.has_normals() && !band->normals_dropped) {
-      if (auto girth = girth_without_normals(cloud, slabs.plane(), options)) {
-        return ToldGirth{std::move(*girth)};
-      }
-    }
-    return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
-                "scan the body all round, or move the plane");
-  }
-  const Contour& contour = loops.front().contour;
-  const double near = evidence_reach(*band);
-  const auto evidence = evidence_for(*band, loops.front().index, near);
-  const double length = contour.length();
-  if (evidence.gap > kWidestBridge * length) {
-    return fail(ErrorCode::kInsufficientData,
-                "more than a quarter of the section at the tape plane has no points",
-                "scan the body all round");
-  }
-  auto section = measured(slabs, *band, loops, surface, evidence);
-  std::vector<const ContourIndex*> indices;
-  for (const auto& loop : loops) indices.push_back(&loop.index);
-  const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
-  widen(*band, unknowns, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
-  if (!(section.contact_u95 <= kMostFolded * length)) return too_few_or_noisy();
-
-  ToldGirth told{girth_of(*band, section, evidence)};
-  told.girth.points = cloud.size();
-  told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
-  told.is_bridged = has_notable_gap(*band, evidence);
-  told.has_others_beside = unknowns.skin.is_any() ||
-                           leaves_points_unexplained(*band, loops, evidence, kNotableUnexplained);
-  told.of_few = leaves_points_unexplained(*band, loops, evidence, kMostUnexplained);
-  told.girth.warnings = warnings_of(*band, loops, evidence, unknowns, section);
-  return told;
-}
-
-bool is_surer(const ToldGirth& one, const ToldGirth& other) {
-  return one.of_few != other.of_few ? other.of_few : one.doubt() < other.doubt();
-}
-
-/// Of all points near the plane.
-Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
-                               const GirthOptions& options) {
-  SlabSource slabs(cloud, plane, !options.sigma_mm);
-  auto told = girth_at(slabs, options);
-  // What patches leave out has spoilt the noise and the normals that their points show.
-  const bool strays_near_skin = told && told->strays_near_skin;
-  if (strays_near_skin) {
-    auto cleaned = girth_at(slabs, options, strays_near_skin);
-    if (cleaned && !cleaned->of_few) told = std::move(cleaned);
-  }
-  // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
-  // seem exact.
-  if ((!told || told->is_doubtful()) && thin_thick_lines(slabs)) {
-    auto thinned = girth_at(slabs, options, strays_near_skin);
-    if (thinned && (!told || is_surer(*thinned, *told))) told = std::move(thinned);
-  }
-  return told;
-}
-
-/// Of the body whose section is largest, of those that close alone, taken apart in the way that
-/// leaves the least doubt: what is still joined to it makes a surface go astray.
 std::optional<ToldGirth> girth_of_one_body(const PointCloud& cloud, const TapePlane& plane,
                                            const GirthOptions& options) {
-  std::optional<ToldGirth> best;
-  int looked_at = 0;
-  for (const auto& bodies : bodies_apart(cloud, plane)) {
-    for (const auto& body : bodies) {
-      if (best && kSameBody * body.area < best->area()) break;
-      if (++looked_at > kMostAlone) return best;
-      auto told = girth_of_all(cloud.subset(body.points), plane, options);
-      if (!told || told->is_doubtful() || told->is_bridged) continue;
-      const bool is_larger = !best || told->area() > kSameBody * best->area();
-      const bool is_surer =
-          best && kSameBody * told->area() > best->area() && told->doubt() < best->doubt();
-      if (is_larger || is_surer) best = std::move(*told);
-    }
-  }
-  return best;
+  BodiesAlone alone(cloud, plane, options);
+  look_at_bodies_apart(cloud, plane, alone);
+  auto told = std::move(alone).best();
+  if (!told) return told;
+  told->girth.points = cloud.size();
+  told->girth.warnings.emplace_back(kAloneWarning);
+  return told;
 }
 
-/// As one of a cloud in which there is more.
-ToldGirth beside_others(ToldGirth told, const PointCloud& cloud) {
-  auto& warnings = told.girth.warnings;
-  if (std::find(warnings.begin(), warnings.end(), kBesideWarning) == warnings.end()) {
-    warnings.emplace_back(kBesideWarning);
-  }
-  told.girth.points = cloud.size();
-  return told;
+/// Whether it is the same body, or what a loop round more than that encloses too.
+bool is_part_of(const ToldGirth& one, const ToldGirth& all) {
+  if (kSameBody * one.area() >= all.area()) return true;
+  auto corners = all.girth.contour;
+  const double area = signed_area(convex_hull(corners));
+  corners.insert(corners.end(), one.girth.contour.begin(), one.girth.contour.end());
+  return signed_area(convex_hull(std::move(corners))) < kSameBody * area;
+}
+
+/// `one`: of a body alone. `all`: of all points together.
+bool counts_before(const ToldGirth& one, const ToldGirth& all) {
+  if (all.of_few) return true;
+  return !all.has_layers && is_part_of(one, all) && one.doubt() < kAboutAsSure * all.doubt();
 }
 
 }  // namespace
@@ -230,9 +121,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   auto told = girth_of_all(cloud, plane, options);
   if (!told || told->is_doubtful() || told->has_others_beside) {
     auto one = girth_of_one_body(cloud, plane, options);
-    if (one && (!told || one->doubt() < kAboutAsSure * told->doubt())) {
-      told = beside_others(std::move(*one), cloud);
-    }
+    if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
   }
   if (!told) return tl::make_unexpected(std::move(told).error());
   return std::move(told->girth);

@@ -13,6 +13,7 @@ namespace {
 /// Skin that leans more is no steeper for this: a normal is told too badly to say so.
 constexpr double kMostLean = 3.0;
 constexpr double kReachInGrains = 2.5;
+constexpr double kNotableGapInGrains = 6.0;
 
 double run_aside(const OrientedPoint& point) {
   const double upright = point.normal.head<2>().norm();
@@ -51,6 +52,10 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
   const double gap = largest_gap_between(ways, contour.length());
   const double seen_gap = largest_gap_between(seen, contour.length());
   return {std::move(ways), beside, gap, seen_gap};
+}
+
+bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
+  return evidence.seen_gap > kNotableGapInGrains * band.grain;
 }
 
 }  // namespace instep

@@ -26,4 +26,7 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
 /// by as much as skin that faces as the point does runs aside on its way to the plane.
 bool may_run_to(const ContourIndex& contour, const OrientedPoint& point, double near);
 
+/// Whether there is a stretch without a seen point that is worth a warning.
+bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence);
+
 }  // namespace instep

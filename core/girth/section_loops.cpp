@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+#include <numeric>
+#include <tuple>
 
 #include "core/geometry/polygon.h"
-#include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
 
 namespace instep {
@@ -23,7 +23,7 @@ constexpr double kSameInGrains = 0.3;
 constexpr double kLongestSection = 6.0;
 /// Points along a loop, against those along the best founded one.
 constexpr double kLeastFounded = 0.25;
-/// Of a loop, on which it runs along another of the same body.
+/// Of one loop, that runs along another of the same body, and is as long.
 constexpr double kOneBody = 0.5;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
@@ -90,31 +90,40 @@ std::vector<double> densities_of(const PlaneBand& band, const std::vector<Sectio
   return densities;
 }
 
-/// Whether half of a loop or more is another one's.
-bool runs_along(const SectionLoop& loop, const SectionLoop& other, double same) {
+/// The part of a loop that is another one's too.
+double part_along(const SectionLoop& loop, const SectionLoop& other, double same) {
   const auto& corners = loop.contour.points;
   const auto shared = std::count_if(corners.begin(), corners.end(), [&](const auto& corner) {
     return other.index.passes_within(same, corner);
   });
-  return static_cast<double>(shared) >= kOneBody * static_cast<double>(corners.size());
+  return static_cast<double>(shared) / static_cast<double>(corners.size());
 }
 
-/// Leaves out loops that far fewer points make than the best founded one: strays can lie so that a
-/// surface passes through them. Of two that run together, as where one takes a way round over
-/// strays or a wall, the better founded one stays.
+/// Whether two loops are readings of one body: half of the shorter one is the other's, and that no
+/// far longer.
+bool run_together(const SectionLoop& one, const SectionLoop& other, double same) {
+  const bool is_shorter = one.index.length() < other.index.length();
+  const auto& [shorter, longer] = is_shorter ? std::tie(one, other) : std::tie(other, one);
+  return shorter.index.length() > kOneBody * longer.index.length() &&
+         part_along(shorter, longer, same) >= kOneBody;
+}
+
+/// Of two that run together the better founded one stays, and none that is far worse than the best.
 void drop_unfounded(const PlaneBand& band, std::vector<SectionLoop>& loops) {
   if (loops.size() < 2) return;
   const auto densities = densities_of(band, loops);
-  const double best = *std::max_element(densities.begin(), densities.end());
+  std::vector<std::size_t> order(loops.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](auto a, auto b) { return densities[a] > densities[b]; });
   const double same = kSameInGrains * band.grain;
   std::vector<SectionLoop> founded;
-  for (std::size_t i = 0; i < loops.size(); ++i) {
-    bool is_founded = densities[i] >= kLeastFounded * best;
-    for (std::size_t j = 0; is_founded && j < loops.size(); ++j) {
-      is_founded = !(densities[j] > densities[i] && (runs_along(loops[i], loops[j], same) ||
-                                                     runs_along(loops[j], loops[i], same)));
-    }
-    if (is_founded) founded.push_back(loops[i]);
+  for (const std::size_t i : order) {
+    if (densities[i] < kLeastFounded * densities[order.front()]) break;
+    const bool is_other = std::none_of(founded.begin(), founded.end(), [&](const auto& better) {
+      return run_together(loops[i], better, same);
+    });
+    if (is_other) founded.push_back(std::move(loops[i]));
   }
   loops = std::move(founded);
 }
@@ -135,20 +144,20 @@ std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface
   return loops;
 }
 
-bool leaves_points_unexplained(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                               const SectionEvidence& of_first, double share) {
+double unexplained_share(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                         const SectionEvidence& of_first) {
   const double near = evidence_reach(band);
-  const double most = share * static_cast<double>(of_first.beside + of_first.ways.size());
-  // The other loops can only explain some of what the first one does not.
-  if (static_cast<double>(of_first.beside) <= most) return false;
-  const auto unexplained =
-      std::count_if(band.points.begin(), band.points.end(), [&](const OrientedPoint& point) {
-        if (std::abs(point.position.z()) > near) return false;
-        return std::none_of(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
-          return may_run_to(loop.index, point, near);
-        });
-      });
-  return static_cast<double>(unexplained) > most;
+  auto unexplained = static_cast<double>(of_first.beside);
+  if (loops.size() > 1) {
+    unexplained = static_cast<double>(
+        std::count_if(band.points.begin(), band.points.end(), [&](const OrientedPoint& point) {
+          if (std::abs(point.position.z()) > near) return false;
+          return std::none_of(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
+            return may_run_to(loop.index, point, near);
+          });
+        }));
+  }
+  return unexplained / static_cast<double>(of_first.beside + of_first.ways.size());
 }
 
 }  // namespace instep

@@ -22,12 +22,13 @@ struct SectionLoop {
 /// Every loop that starts near a point on the plane and round which the body lies inside, the one
 /// round the largest area first; none where nothing closes. Loops that far fewer points make than
 /// the best founded one, for their length, are left out: strays can lie so that a surface passes
-/// through them. Lays the patches of the surface.
+/// through them. So is the worse founded one of two that run together, as where a surface takes a
+/// way out to a wall and back. Lays the patches of the surface.
 std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface);
 
-/// Whether more than a share of the points near the plane lie on no loop. `of_first`: the evidence
-/// for the first one.
-bool leaves_points_unexplained(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                               const SectionEvidence& of_first, double share);
+/// The part of the points near the plane that lies on no loop. `of_first`: the evidence for the
+/// first one.
+double unexplained_share(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                         const SectionEvidence& of_first);
 
 }  // namespace instep

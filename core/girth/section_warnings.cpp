@@ -11,12 +11,12 @@
 namespace instep {
 namespace {
 
-/// A stretch without a seen point that is worth a warning, in grains.
-constexpr double kNotableGapInGrains = 6.0;
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
+constexpr const char* kTooFewOrNoisy =
+    "the points near the tape plane are too few or too noisy to tell the girth";
 /// Of points that lead away from a section.
 constexpr const char* kNoSkinFound =
     ", but no skin through them was found: a part too thin for them, or something that touches the "
@@ -52,7 +52,7 @@ bool is_most_of(double doubt, const MeasuredSection& section) {
 }  // namespace
 
 std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                                     const SectionEvidence& evidence,
+                                     const SectionEvidence& evidence, double unexplained,
                                      const SectionUnknowns& unknowns,
                                      const MeasuredSection& section) {
   const auto& [bends, layers, skin, folds, edge] = unknowns;
@@ -65,8 +65,9 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
   }
   warn_if(has_notable_gap(band, evidence), kBridgedWarning);
   if (skin.is_any()) warnings.push_back(warning_of(skin, band.unit_mm));
-  warn_if(!skin.is_any() && leaves_points_unexplained(band, loops, evidence, kNotableUnexplained),
-          kBesideWarning);
+  warn_if(!skin.is_any() && unexplained > kNotableUnexplained,
+          "points beside the section lie on no skin that closes: strays, a second layer or another "
+          "body");
   warn_if(band.stray_share > kNotableUnexplained,
           "many points near the plane lie off the skin and were left out: take away what shines or "
           "moves before the cameras");
@@ -98,13 +99,8 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
   return warnings;
 }
 
-bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {
-  return evidence.seen_gap > kNotableGapInGrains * band.grain;
-}
-
 tl::unexpected<Error> too_few_or_noisy() {
-  return fail(ErrorCode::kInsufficientData,
-              "the points near the tape plane are too few or too noisy to tell the girth",
+  return fail(ErrorCode::kInsufficientData, kTooFewOrNoisy,
               "scan again, with more or better frames");
 }
 
@@ -114,6 +110,10 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
   return fail(ErrorCode::kInsufficientData,
               std::string("points lead away from the section at the tape plane") + kNoSkinFound,
               "take it away, scan from nearer, or move the plane");
+}
+
+bool is_too_few_or_noisy(const Error& error) {
+  return error.message == kTooFewOrNoisy;
 }
 
 }  // namespace instep

@@ -12,27 +12,25 @@
 
 namespace instep {
 
-/// Half of a 95 % interval that is worth a warning, against the length.
+/// Half of a 95 % interval, against the length, with which a girth is uncertain.
 inline constexpr double kNotableDoubt = 0.02;
-/// A share of the points near the plane, off all loops, that is.
+/// The share of the points near the plane on no loop with which there is more than the body.
 inline constexpr double kNotableUnexplained = 0.02;
-/// What is said of them.
-inline constexpr const char* kBesideWarning =
-    "points beside the section lie on no skin that closes: strays, a second layer or another body";
 
 /// What whoever reads the girth should know. `loops`: the section's first, at least one.
+/// `unexplained`: the share of the points that lies on none (unexplained_share()).
 std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                                     const SectionEvidence& evidence,
+                                     const SectionEvidence& evidence, double unexplained,
                                      const SectionUnknowns& unknowns,
                                      const MeasuredSection& section);
-
-/// A stretch without a seen point that is worth a warning.
-bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence);
 
 /// Instead of a girth that is too uncertain to be told.
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns, const MeasuredSection& section);
 
-/// The same of points that tell no reason.
+/// Of points of which no more than that can be said.
 tl::unexpected<Error> too_few_or_noisy();
+
+/// Whether an error is that: of a section that closes.
+bool is_too_few_or_noisy(const Error& error);
 
 }  // namespace instep

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
-#include <tuple>
+#include <vector>
 
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/cylinder_tape.h"
@@ -37,14 +37,31 @@ void add_floor(std::size_t count, double below_mm, PointCloud& cloud) {
   }
 }
 
-/// The largest of some way that has points of the cylinder alone: how many. `others`: from which
-/// number on points are not the cylinder's.
+/// All that there are.
+class All : public BodiesLook {
+ public:
+  bool may_count(const BodyApart&) const override { return true; }
+  bool look_at(const BodyApart& body) override {
+    bodies.push_back(body);
+    return true;
+  }
+  bool is_settled() const override { return false; }
+
+  std::vector<BodyApart> bodies;
+};
+
+std::vector<BodyApart> bodies_of(const PointCloud& cloud, const TapePlane& plane) {
+  All all;
+  look_at_bodies_apart(cloud, plane, all);
+  return all.bodies;
+}
+
+/// The largest that has points of the cylinder alone: how many. `others`: from which number on
+/// points are not the cylinder's.
 std::size_t most_of_cylinder(const PointCloud& cloud, std::size_t others) {
   std::size_t most = 0;
-  for (const auto& way : bodies_apart(cloud, oblique_plane())) {
-    for (const auto& body : way) {
-      if (body.points.back() < others) most = std::max(most, body.points.size());
-    }
+  for (const auto& body : bodies_of(cloud, oblique_plane())) {
+    if (body.points.back() < others) most = std::max(most, body.points.size());
   }
   return most;
 }
@@ -52,7 +69,7 @@ std::size_t most_of_cylinder(const PointCloud& cloud, std::size_t others) {
 TEST(BodiesApart, AreNoneOfOneBody) {
   for (const double sigma : {0.0, 0.5}) {
     for (const std::size_t count : {400U, 6000U, 100000U}) {
-      EXPECT_TRUE(bodies_apart(test::cylinder(count, sigma), oblique_plane()).empty());
+      EXPECT_TRUE(bodies_of(test::cylinder(count, sigma), oblique_plane()).empty());
     }
   }
 }
@@ -82,50 +99,66 @@ TEST(BodiesApart, LeaveOutStrays) {
   EXPECT_GT(most_of_cylinder(cloud, kOfCylinder), kOfCylinder / 2);
 }
 
-TEST(BodiesApart, ComeInTheOrderOfWhatATapeEncloses) {
+/// As two feet are, with as many points each.
+PointCloud two_cylinders() {
   PointCloud cloud = test::cylinder(kOfCylinder);
   PointCloud other =
-      test::random_points(test::elliptic_cylinder(20.0, 15.0), 9000, -30.0, 30.0, 0.0, 6);
+      test::random_points(test::elliptic_cylinder(20.0, 15.0), kOfCylinder, -30.0, 30.0, 0.0, 6);
   for (auto& position : other.positions) position.x() += 90.0;
   cloud.append(other);
-  const auto ways = bodies_apart(cloud, test::level_plane());
-  ASSERT_FALSE(ways.empty());
-  ASSERT_EQ(ways.front().size(), 2U);
-  const auto& [larger, smaller] = std::tie(ways.front()[0], ways.front()[1]);
+  return cloud;
+}
+
+TEST(BodiesApart, ComeInTheOrderOfWhatATapeEncloses) {
+  const auto bodies = bodies_of(two_cylinders(), test::level_plane());
+  ASSERT_GE(bodies.size(), 2U);
+  const auto& larger = bodies[0];
+  const auto& smaller = bodies[1];
   EXPECT_EQ(larger.points.front(), 0U);
   EXPECT_LT(larger.points.back(), kOfCylinder);
   EXPECT_GE(smaller.points.front(), kOfCylinder);
   EXPECT_NEAR(larger.area, std::numbers::pi * 40.0 * 40.0, 0.02 * larger.area);
   EXPECT_NEAR(smaller.area, std::numbers::pi * 20.0 * 15.0, 0.02 * smaller.area);
-  for (const auto& way : ways) {
-    for (const auto& body : way) {
-      EXPECT_LE(body.area, way.front().area);
-      EXPECT_TRUE(std::is_sorted(body.points.begin(), body.points.end()));
-    }
+  for (const auto& body : bodies) {
+    EXPECT_TRUE(std::is_sorted(body.points.begin(), body.points.end()));
   }
+}
+
+/// The first of a way is enough, or the first slab.
+TEST(BodiesApart, AreNotShownWhenEnoughIsSeen) {
+  class First : public All {
+   public:
+    bool look_at(const BodyApart& body) override {
+      All::look_at(body);
+      return false;
+    }
+    bool is_settled() const override { return !bodies.empty(); }
+  };
+  First first;
+  look_at_bodies_apart(two_cylinders(), test::level_plane(), first);
+  ASSERT_EQ(first.bodies.size(), 1U);
+  EXPECT_LT(first.bodies.front().points.back(), kOfCylinder);
 }
 
 TEST(BodiesApart, AreTheSameInAnotherUnit) {
   PointCloud cloud = test::cylinder(kOfCylinder, 0.2);
   add_wall(3000, 8.0, cloud);
   add_floor(4000, 30.0, cloud);
-  const auto ways = bodies_apart(cloud, oblique_plane());
+  const auto bodies = bodies_of(cloud, oblique_plane());
   for (auto& position : cloud.positions) position *= 0.1;
   const auto plane = oblique_plane();
   const auto& [first, second, third] = plane.control_points();
-  const auto tenths = bodies_apart(cloud, test::plane_at(0.1 * first, 0.1 * second, 0.1 * third));
-  ASSERT_FALSE(ways.empty());
-  ASSERT_EQ(ways.size(), tenths.size());
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    ASSERT_EQ(ways[i].size(), tenths[i].size());
-    for (std::size_t j = 0; j < ways[i].size(); ++j) {
-      EXPECT_EQ(ways[i][j].points, tenths[i][j].points);
-    }
+  const auto tenths = bodies_of(cloud, test::plane_at(0.1 * first, 0.1 * second, 0.1 * third));
+  ASSERT_FALSE(bodies.empty());
+  ASSERT_EQ(bodies.size(), tenths.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    EXPECT_EQ(bodies[i].points, tenths[i].points);
   }
 }
 
 TEST(BodiesApart, AreNoneWhereThePlaneMisses) {
-  EXPECT_TRUE(bodies_apart(test::cylinder(kOfCylinder), test::level_plane(500.0)).empty());
+  EXPECT_TRUE(bodies_of(test::cylinder(kOfCylinder), test::level_plane(500.0)).empty());
+  EXPECT_TRUE(bodies_of({}, test::level_plane()).empty());
 }
 
 }  // namespace

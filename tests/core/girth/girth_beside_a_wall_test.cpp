@@ -64,7 +64,7 @@ void expect_right_with_a_warning(const PointCloud& cloud, double a, double b,
   EXPECT_LT(*girth->contact_u95_mm, most_u95_mm);
   EXPECT_EQ(girth->points, cloud.size());
   EXPECT_TRUE(std::any_of(girth->warnings.begin(), girth->warnings.end(), [](const auto& warning) {
-    return warning.find("beside the section") != std::string::npos;
+    return warning.find(" beside ") != std::string::npos;
   }));
 }
 
@@ -102,19 +102,48 @@ TEST(GirthAboveAFloor, IsThatOfTheBody) {
   }
 }
 
-/// So near that a surface goes out to it and back: it is not what the tape lies on.
+/// So near that a surface goes out to it and back: it is not what the tape lies on. Of 24 such
+/// clouds two girths were 22 and 26 mm too long, and six were refused.
 TEST(GirthBesideAWall, DoesNotGoOutToIt) {
-  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
-    SCOPED_TRACE(testing::Message() << seed);
-    PointCloud cloud = body(52.0, 28.0, 12000, 0.3, seed);
-    add_wall(52.0, 7.0, 400.0, 1500, cloud);
-    const auto plane = leaning_plane(10.0);
-    const double truth = test::true_girth(test::elliptic_cylinder(52.0, 28.0), plane);
-    const auto girth = girth_by_rbf(cloud, plane);
-    if (!girth) continue;
-    EXPECT_NEAR(girth->contact_mm, truth, kThreeSigmas * *girth->contact_u95_mm);
-    EXPECT_NEAR(girth->stretched_mm, truth, kThreeSigmas * *girth->stretched_u95_mm);
+  for (const double degrees : {10.0, 23.0}) {
+    for (const std::size_t count : {6000U, 20000U}) {
+      for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
+        SCOPED_TRACE(testing::Message() << degrees << " " << count << " " << seed);
+        PointCloud cloud = body(52.0, 28.0, count, 0.36, seed);
+        add_wall(52.0, 7.0, 200.0, 700, cloud);
+        const auto plane = leaning_plane(degrees);
+        const double truth = test::true_girth(test::elliptic_cylinder(52.0, 28.0), plane);
+        const auto girth = girth_by_rbf(cloud, plane);
+        ASSERT_TRUE(girth) << girth.error().line();
+        EXPECT_NEAR(girth->contact_mm, truth, kThreeSigmas * *girth->contact_u95_mm);
+        EXPECT_NEAR(girth->stretched_mm, truth, kThreeSigmas * *girth->stretched_u95_mm);
+        EXPECT_LT(*girth->contact_u95_mm, 5.0);
+      }
+    }
   }
+}
+
+/// A body with a gap that has to be bridged, and a clean pole: with a wall beside them both are
+/// looked at alone, and the pole must not count because it is the surer.
+TEST(GirthBesideAWall, IsNotThatOfASmallerBody) {
+  int told = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+    SCOPED_TRACE(testing::Message() << seed);
+    PointCloud cloud = body(40.0, 40.0, 9000, 0.2, seed);
+    std::erase_if(cloud.positions, [](const Eigen::Vector3d& position) {
+      return position.x() > 0.0 && std::abs(position.y()) < 7.5;
+    });
+    PointCloud pole = body(12.0, 12.0, 4000, 0.0, seed);
+    for (auto& position : pole.positions) position.y() += 70.0;
+    cloud.append(pole);
+    add_wall(40.0, 12.0, 200.0, 4000, cloud);
+    const auto girth = girth_by_rbf(cloud, test::level_plane());
+    if (!girth) continue;
+    ++told;
+    EXPECT_NEAR(girth->stretched_mm, test::kCylinderGirth, 10.0);
+  }
+  // What is refused must not hide that.
+  EXPECT_GT(told, 0);
 }
 
 }  // namespace

@@ -1,0 +1,188 @@
+#include "core/girth/told_girth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/polygon.h"
+#include "core/girth/contour_trace.h"
+#include "core/girth/length_doubt.h"
+#include "core/girth/plane_band.h"
+#include "core/girth/section_evidence.h"
+#include "core/girth/section_gaps.h"
+#include "core/girth/section_loops.h"
+#include "core/girth/section_probe.h"
+#include "core/girth/section_unknowns.h"
+#include "core/girth/section_warnings.h"
+#include "core/girth/smooth_section.h"
+#include "core/surface/blended_surface.h"
+
+namespace instep {
+namespace {
+
+/// Pieces that a chord is told in, so that the contour looks round.
+constexpr int kPiecesOfChord = 8;
+/// Half of a 95 % interval that leaves nothing to be told, against the length.
+constexpr double kMostDoubt = 0.1;
+/// The same of the contact length: with so many folds it may be no section at all. A hull of one
+/// was 63 mm short.
+constexpr double kMostFolded = 0.2;
+/// Contact against stretched length of a section that winds more than most bodies do.
+constexpr double kWinding = 1.05;
+/// A share of the points near the plane, off all loops, with which the loops may not be what was
+/// scanned: of lines as thick with noise as they are near, a loop of a few millimetres between two
+/// of them passed for the section. A wall beside a body is as much.
+constexpr double kMostUnexplained = 0.67;
+/// A share of the patches that left out strays, with which these are looked for beforehand. Of
+/// 8,363 girths of bodies without strays one has more, of cylinders with 5 % of their points some 5
+/// mm off all do.
+constexpr double kManyWithStrays = 0.4;
+
+/// Two readings of one section whose intervals do not even meet: one of them is wrong.
+bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
+  return std::abs(one.contact - other.contact) > one.contact_u95 + other.contact_u95 ||
+         std::abs(one.stretched - other.stretched) > one.stretched_u95 + other.stretched_u95;
+}
+
+/// The section as one even skin where it is that, else as its patches tell it: they see a narrow
+/// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
+/// looked is known of the patches alone.
+MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
+                         const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
+                         const SectionEvidence& evidence) {
+  const Contour& contour = loops.front().contour;
+  const LengthDoubt doubt = doubt_of(contour, surface, band.sigma);
+  const MeasuredSection patches{contour, contour.length() + doubt.waves,
+                                contour.tape_length() + doubt.waves, doubt.contact_u95,
+                                doubt.stretched_u95};
+  if (loops.size() > 1) return patches;
+  auto smooth = smooth_section(slabs, band, contour);
+  if (!smooth || contradict(*smooth, patches)) return patches;
+  if (has_notable_gap(band, evidence)) {
+    smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
+    smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
+  }
+  return *smooth;
+}
+
+/// In millimetres.
+Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
+               const SectionEvidence& evidence) {
+  Girth girth;
+  girth.contact_mm = band.unit_mm * section.contact;
+  for (const auto& point : section.contour.refined(kPiecesOfChord))
+    girth.contour.push_back(band.to_plane(point));
+  girth.stretched_mm = band.unit_mm * section.stretched;
+  girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
+  girth.contact_u95_mm = band.unit_mm * section.contact_u95;
+  girth.band_points = band.points.size() + band.thinned_out;
+  girth.sigma_mm =
+      band.unit_mm * std::max(band.sigma / band.usual_share, mean_scatter(band.scattered));
+  girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
+  return girth;
+}
+
+/// For normals that let no section close, as those of which one stretch points inwards.
+Result<ToldGirth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
+                                        const GirthOptions& options) {
+  cloud.normals.clear();
+  auto told = girth_of_all(cloud, plane, options);
+  if (told) {
+    told->girth.warnings.emplace_back(
+        "the section closes only without the normals that came with the points, which were not "
+        "used: have them made anew, or leave them out of the file");
+  }
+  return told;
+}
+
+/// Of slabs that are thinned already, or are here if their points ask for it.
+Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
+                           bool strays_near_skin = false) {
+  const PointCloud& cloud = slabs.cloud();
+  auto band = band_at(slabs, options.sigma_mm, strays_near_skin);
+  if (!band) return tl::make_unexpected(band.error());
+  // The index goes with the surface; the band keeps the points.
+  BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
+  const auto loops = loops_on(*band, surface);
+  if (loops.empty()) {
+    if (cloud.has_normals() && !band->normals_dropped) {
+      if (auto told = girth_without_normals(cloud, slabs.plane(), options)) return told;
+    }
+    return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
+                "scan the body all round, or move the plane");
+  }
+  const Contour& contour = loops.front().contour;
+  const double near = evidence_reach(*band);
+  const auto evidence = evidence_for(*band, loops.front().index, near);
+  const double length = contour.length();
+  if (evidence.gap > kWidestBridge * length) {
+    return fail(ErrorCode::kInsufficientData,
+                "more than a quarter of the section at the tape plane has no points",
+                "scan the body all round");
+  }
+  auto section = measured(slabs, *band, loops, surface, evidence);
+  std::vector<const ContourIndex*> indices;
+  for (const auto& loop : loops) indices.push_back(&loop.index);
+  const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
+  widen(*band, unknowns, section);
+  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
+  if (!(section.contact_u95 <= kMostFolded * length)) return too_few_or_noisy();
+
+  ToldGirth told{girth_of(*band, section, evidence)};
+  told.girth.points = cloud.size();
+  told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
+  told.is_bridged = has_notable_gap(*band, evidence);
+  told.has_layers = unknowns.layers.has_value();
+  const double unexplained = unexplained_share(*band, loops, evidence);
+  told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
+  told.of_few = unexplained > kMostUnexplained;
+  told.girth.warnings = warnings_of(*band, loops, evidence, unexplained, unknowns, section);
+  return told;
+}
+
+bool is_surer(const ToldGirth& one, const ToldGirth& other) {
+  return one.of_few != other.of_few ? other.of_few : one.doubt() < other.doubt();
+}
+
+}  // namespace
+
+double ToldGirth::doubt() const {
+  return *girth.stretched_u95_mm + *girth.contact_u95_mm;
+}
+
+double ToldGirth::area() const {
+  return signed_area(girth.contour);
+}
+
+bool ToldGirth::is_plain() const {
+  return !of_few && !is_bridged && !has_layers && !has_others_beside &&
+         *girth.stretched_u95_mm <= kNotableDoubt * girth.stretched_mm &&
+         *girth.contact_u95_mm <= kNotableDoubt * girth.contact_mm;
+}
+
+bool ToldGirth::is_doubtful() const {
+  return of_few || *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
+         girth.contact_mm > kWinding * girth.stretched_mm;
+}
+
+Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
+                               const GirthOptions& options) {
+  SlabSource slabs(cloud, plane, !options.sigma_mm);
+  auto told = girth_at(slabs, options);
+  // What patches leave out has spoilt the noise and the normals that their points show.
+  const bool strays_near_skin = told && told->strays_near_skin;
+  if (strays_near_skin) {
+    auto cleaned = girth_at(slabs, options, strays_near_skin);
+    if (cleaned && !cleaned->of_few) told = std::move(cleaned);
+  }
+  // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
+  // seem exact.
+  if ((!told || told->is_doubtful()) && thin_thick_lines(slabs)) {
+    auto thinned = girth_at(slabs, options, strays_near_skin);
+    if (thinned && (!told || is_surer(*thinned, *told))) told = std::move(thinned);
+  }
+  return told;
+}
+
+}  // namespace instep

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/geometry/point_cloud.h"
+#include "core/girth/girth.h"
+#include "core/girth/tape_plane.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// A girth, and what speaks against it.
+struct ToldGirth {
+  Girth girth;
+  bool of_few = false;             ///< most of the points near the plane lie on no loop
+  bool strays_near_skin = false;   ///< many of its patches left some out
+  bool is_bridged = false;         ///< over a stretch without seen points
+  bool has_layers = false;         ///< of skin, or of skin and sock
+  bool has_others_beside = false;  ///< of the points near the plane some lie on no loop
+
+  /// Half of both intervals, mm.
+  double doubt() const;
+  /// That the section encloses, mm^2.
+  double area() const;
+  /// Uncertain, of few, or so winding that noise may have folded it.
+  bool is_doubtful() const;
+  /// A section that closes over seen points, all of them, with little doubt.
+  bool is_plain() const;
+};
+
+/// The girth of a cloud that passed check_cloud(), all points near the plane taken together: as
+/// girth_by_rbf(), but that looks at bodies alone.
+Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
+                               const GirthOptions& options);
+
+}  // namespace instep
