@@ -23,7 +23,7 @@ constexpr double kNarrowing = 0.7;
 constexpr double kNarrowestSide = 1.2;
 /// Of the points near the plane, what is a body and no stray.
 constexpr double kPartOfAll = 0.02;
-/// Bodies with as many points but for this part, and the same first one, are the same.
+/// Of their points, that bodies which are the same need not share.
 constexpr double kAlike = 0.01;
 /// Points that are looked at in all: against those of the thickest slab, and some more, which are
 /// soon done. Of 1,744 girths beside walls, floors and strays no more hold with four times as many.
@@ -66,20 +66,11 @@ Bodies bodies_in(const PlaneSlab& slab, double side, double near) {
   return bodies;
 }
 
+/// Whether all points but few are of both.
 bool are_alike(const BodyApart& one, const BodyApart& other) {
-  if (one.points.front() != other.points.front()) return false;
-  const auto points = static_cast<double>(one.points.size());
-  return std::abs(points - static_cast<double>(other.points.size())) <= kAlike * points;
-}
-
-/// Without those that were there before.
-Bodies new_ones(const Bodies& bodies, const Bodies& before) {
-  Bodies rest;
-  for (const auto& body : bodies) {
-    const auto is_same = [&](const BodyApart& other) { return are_alike(body, other); };
-    if (std::none_of(before.begin(), before.end(), is_same)) rest.push_back(body);
-  }
-  return rest;
+  const std::size_t larger = std::max(one.points.size(), other.points.size());
+  return static_cast<double>(shared_points(one.points, other.points)) >=
+         (1.0 - kAlike) * static_cast<double>(larger);
 }
 
 /// Whether all of a slab hangs together, whatever the gaps.
@@ -98,31 +89,50 @@ class Showing {
   void show(const PlaneSlab& slab, double widest, double spacing) {
     const double narrowest = kNarrowestSide * spacing;
     if (is_one_body(slab, narrowest, spacing)) return;
-    Bodies before = {{slab.indices, 0.0}};
-    std::sort(before.front().points.begin(), before.front().points.end());
+    seen_ = {{slab.indices, 0.0}};
+    std::sort(seen_.front().points.begin(), seen_.front().points.end());
     for (double side = widest; side > narrowest; side *= kNarrowing) {
-      Bodies bodies = bodies_in(slab, std::round(side), spacing);
-      show_way(new_ones(bodies, before));
-      before = std::move(bodies);
+      show_way(bodies_in(slab, std::round(side), spacing));
     }
   }
 
  private:
+  bool is_seen(const BodyApart& body) const {
+    return std::any_of(seen_.begin(), seen_.end(),
+                       [&](const BodyApart& other) { return are_alike(body, other); });
+  }
+
   void show_way(Bodies bodies) {
     for (auto& body : bodies) {
       body.area *= step_ * step_;
-      if (body.points.size() > left_ || !look_.may_count(body)) return;
+      if (!look_.may_count(body)) return;
+      if (is_seen(body)) continue;
+      if (body.points.size() > left_) return look_.pass_over(body);
       left_ -= body.points.size();
-      if (!look_.look_at(body)) return;
+      const bool goes_on = look_.look_at(body);
+      seen_.push_back(std::move(body));
+      if (!goes_on) return;
     }
   }
 
   BodiesLook& look_;
   std::size_t left_;
   double step_;
+  Bodies seen_;  ///< of a slab, and all of it
 };
 
 }  // namespace
+
+std::size_t shared_points(const std::vector<std::size_t>& one,
+                          const std::vector<std::size_t>& other) {
+  std::size_t shared = 0;
+  auto at = other.begin();
+  for (const std::size_t point : one) {
+    while (at != other.end() && *at < point) ++at;
+    if (at != other.end() && *at == point) ++shared;
+  }
+  return shared;
+}
 
 void look_at_bodies_apart(const PointCloud& cloud, const TapePlane& plane, BodiesLook& look) {
   if (cloud.size() < kFewestPoints) return;

@@ -15,6 +15,10 @@ struct BodyApart {
   double area = 0.0;
 };
 
+/// How many numbers two such lists share. O(both).
+std::size_t shared_points(const std::vector<std::size_t>& one,
+                          const std::vector<std::size_t>& other);
+
 /// Looks at bodies apart as they are found.
 class BodiesLook {
  public:
@@ -23,6 +27,8 @@ class BodiesLook {
   virtual bool may_count(const BodyApart& body) const = 0;
   /// Whether the next one that was taken apart in the same way is to be looked at too.
   virtual bool look_at(const BodyApart& body) = 0;
+  /// Of one that has too many points to be looked at.
+  virtual void pass_over(const BodyApart& body) = 0;
   /// Whether thinner slabs need not be looked at any more.
   virtual bool is_settled() const = 0;
 };
@@ -32,11 +38,12 @@ class BodiesLook {
 /// the normals that neighbours agree on. First in thick slabs, in which much is joined, then in
 /// thinner ones; in each by wide gaps, then by narrower ones. In each way bodies are those of a
 /// fiftieth of the slab's points or more, and what is left strays. They are looked at one by one,
-/// that round the largest area first, but for those that were there in the way before, until they
-/// have twice the points of the thickest slab and 50,000 together. Of a plain body there are none.
+/// that round the largest area first, but for those nearly all of whose points were looked at in
+/// the same slab before, until they have twice the points of the thickest slab and 50,000 together.
+/// Of a plain body there are none.
 ///
-/// The cloud has passed check_cloud(). O(n), and m log m for the m near the plane, for each of some
-/// ten ways.
+/// The cloud has passed check_cloud(). O(n), and m log m for the m near the plane, for each of up
+/// to fifty ways.
 void look_at_bodies_apart(const PointCloud& cloud, const TapePlane& plane, BodiesLook& look);
 
 }  // namespace instep

@@ -7,14 +7,12 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/bodies_apart.h"
 #include "core/girth/girth.h"
-#include "core/girth/section_warnings.h"
 #include "core/girth/told_girth.h"
 
 namespace instep {
 namespace {
 
-/// By how much the section of one may be the larger if it is the same body, taken apart in another
-/// way.
+/// By how much the section of a body may be the larger, taken apart in another way.
 constexpr double kSameBody = 1.2;
 /// The doubt of a body alone against that of all together, which is blind to what they share.
 constexpr double kAboutAsSure = 1.5;
@@ -35,20 +33,20 @@ class BodiesAlone : public BodiesLook {
 
   bool look_at(const BodyApart& body) override {
     auto told = girth_of_all(cloud_.subset(body.points), plane_, options_);
-    if (!told) {
-      if (is_too_few_or_noisy(told.error())) unsure_.push_back({body.points, body.area});
-      return true;
-    }
+    if (!told) return true;
     if (!told->is_plain()) {
       unsure_.push_back({body.points, told->area()});
       return false;
     }
-    if (counts_before_best(*told)) {
+    if (counts_before_best(*told, body.points)) {
       best_ = std::move(*told);
-      point_of_best_ = body.points.front();
+      points_of_best_ = body.points;
+      largest_ = std::max(largest_, best_->area());
     }
     return true;
   }
+
+  void pass_over(const BodyApart& body) override { unsure_.push_back({body.points, body.area}); }
 
   bool is_settled() const override { return best_ && !has_larger(); }
 
@@ -65,24 +63,31 @@ class BodiesAlone : public BodiesLook {
     double area;
   };
 
+  /// Whether most points of the one that has fewer are of both.
+  bool has_best(const std::vector<std::size_t>& points) const {
+    const std::size_t fewer = std::min(points.size(), points_of_best_.size());
+    return 2 * shared_points(points, points_of_best_) > fewer;
+  }
+
   /// Whether there is a larger one that the best one is no part of.
   bool has_larger() const {
     return best_ && std::any_of(unsure_.begin(), unsure_.end(), [&](const Unsure& unsure) {
-             return unsure.area > kSameBody * best_->area() &&
-                    !std::binary_search(unsure.points.begin(), unsure.points.end(), point_of_best_);
+             return unsure.area > best_->area() && !has_best(unsure.points);
            });
   }
 
-  bool counts_before_best(const ToldGirth& told) const {
-    if (!best_ || told.area() > kSameBody * best_->area()) return true;
-    return kSameBody * told.area() > best_->area() && told.doubt() < best_->doubt();
+  bool counts_before_best(const ToldGirth& told, const std::vector<std::size_t>& points) const {
+    if (!best_) return true;
+    if (!has_best(points)) return told.area() > best_->area();
+    return kSameBody * told.area() > largest_ && told.doubt() < best_->doubt();
   }
 
   const PointCloud& cloud_;
   const TapePlane& plane_;
   const GirthOptions& options_;
   std::optional<ToldGirth> best_;
-  std::size_t point_of_best_ = 0;
+  std::vector<std::size_t> points_of_best_;
+  double largest_ = 0.0;  ///< area of any that was the best one
   std::vector<Unsure> unsure_;
 };
 
@@ -97,9 +102,8 @@ std::optional<ToldGirth> girth_of_one_body(const PointCloud& cloud, const TapePl
   return told;
 }
 
-/// Whether it is the same body, or what a loop round more than that encloses too.
+/// Whether a loop lies within another one, or hardly beyond it.
 bool is_part_of(const ToldGirth& one, const ToldGirth& all) {
-  if (kSameBody * one.area() >= all.area()) return true;
   auto corners = all.girth.contour;
   const double area = signed_area(convex_hull(corners));
   corners.insert(corners.end(), one.girth.contour.begin(), one.girth.contour.end());
@@ -108,8 +112,10 @@ bool is_part_of(const ToldGirth& one, const ToldGirth& all) {
 
 /// `one`: of a body alone. `all`: of all points together.
 bool counts_before(const ToldGirth& one, const ToldGirth& all) {
-  if (all.of_few) return true;
-  return !all.has_layers && is_part_of(one, all) && one.doubt() < kAboutAsSure * all.doubt();
+  if (all.refusal) return true;
+  if (all.has_layers) return false;
+  if (all.of_few || one.area() > kSameBody * all.area()) return true;
+  return is_part_of(one, all) && one.doubt() < kAboutAsSure * all.doubt();
 }
 
 }  // namespace
@@ -124,6 +130,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
     if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
   }
   if (!told) return tl::make_unexpected(std::move(told).error());
+  if (told->refusal) return tl::make_unexpected(std::move(*told->refusal));
   return std::move(told->girth);
 }
 

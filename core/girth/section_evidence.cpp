@@ -12,6 +12,7 @@ namespace {
 
 /// Skin that leans more is no steeper for this: a normal is told too badly to say so.
 constexpr double kMostLean = 3.0;
+/// In grains: how far points are evidence, and a stretch without one that is worth a warning.
 constexpr double kReachInGrains = 2.5;
 constexpr double kNotableGapInGrains = 6.0;
 

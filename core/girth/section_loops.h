@@ -27,7 +27,7 @@ struct SectionLoop {
 std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface);
 
 /// The part of the points near the plane that lies on no loop. `of_first`: the evidence for the
-/// first one.
+/// first one within evidence_reach(), not without a point.
 double unexplained_share(const PlaneBand& band, const std::vector<SectionLoop>& loops,
                          const SectionEvidence& of_first);
 

@@ -15,8 +15,6 @@ namespace {
 constexpr double kNotableNoise = 0.012;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
-constexpr const char* kTooFewOrNoisy =
-    "the points near the tape plane are too few or too noisy to tell the girth";
 /// Of points that lead away from a section.
 constexpr const char* kNoSkinFound =
     ", but no skin through them was found: a part too thin for them, or something that touches the "
@@ -100,7 +98,8 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
 }
 
 tl::unexpected<Error> too_few_or_noisy() {
-  return fail(ErrorCode::kInsufficientData, kTooFewOrNoisy,
+  return fail(ErrorCode::kInsufficientData,
+              "the points near the tape plane are too few or too noisy to tell the girth",
               "scan again, with more or better frames");
 }
 
@@ -110,10 +109,6 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
   return fail(ErrorCode::kInsufficientData,
               std::string("points lead away from the section at the tape plane") + kNoSkinFound,
               "take it away, scan from nearer, or move the plane");
-}
-
-bool is_too_few_or_noisy(const Error& error) {
-  return error.message == kTooFewOrNoisy;
 }
 
 }  // namespace instep

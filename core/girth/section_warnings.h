@@ -30,7 +30,4 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns, const Measur
 /// Of points of which no more than that can be said.
 tl::unexpected<Error> too_few_or_noisy();
 
-/// Whether an error is that: of a section that closes.
-bool is_too_few_or_noisy(const Error& error);
-
 }  // namespace instep

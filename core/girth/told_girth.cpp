@@ -83,6 +83,18 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   return girth;
 }
 
+bool is_told(const Result<ToldGirth>& girth) {
+  return girth && !girth->refusal;
+}
+
+/// A section that closes but is not to be told: nothing but its course.
+ToldGirth refused(const PlaneBand& band, const Contour& contour, tl::unexpected<Error> why) {
+  ToldGirth told;
+  for (const auto& point : contour.points) told.girth.contour.push_back(band.to_plane(point));
+  told.refusal = std::move(why).value();
+  return told;
+}
+
 /// For normals that let no section close, as those of which one stretch points inwards.
 Result<ToldGirth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
                                         const GirthOptions& options) {
@@ -107,7 +119,8 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
   const auto loops = loops_on(*band, surface);
   if (loops.empty()) {
     if (cloud.has_normals() && !band->normals_dropped) {
-      if (auto told = girth_without_normals(cloud, slabs.plane(), options)) return told;
+      auto told = girth_without_normals(cloud, slabs.plane(), options);
+      if (is_told(told)) return told;
     }
     return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
                 "scan the body all round, or move the plane");
@@ -117,19 +130,25 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
   const auto evidence = evidence_for(*band, loops.front().index, near);
   const double length = contour.length();
   if (evidence.gap > kWidestBridge * length) {
-    return fail(ErrorCode::kInsufficientData,
-                "more than a quarter of the section at the tape plane has no points",
-                "scan the body all round");
+    return refused(*band, contour,
+                   fail(ErrorCode::kInsufficientData,
+                        "more than a quarter of the section at the tape plane has no points",
+                        "scan the body all round"));
   }
   auto section = measured(slabs, *band, loops, surface, evidence);
   std::vector<const ContourIndex*> indices;
   for (const auto& loop : loops) indices.push_back(&loop.index);
   const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
   widen(*band, unknowns, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) return too_doubtful(unknowns, section);
-  if (!(section.contact_u95 <= kMostFolded * length)) return too_few_or_noisy();
+  if (!(section.stretched_u95 <= kMostDoubt * length)) {
+    return refused(*band, contour, too_doubtful(unknowns, section));
+  }
+  if (!(section.contact_u95 <= kMostFolded * length)) {
+    return refused(*band, contour, too_few_or_noisy());
+  }
 
-  ToldGirth told{girth_of(*band, section, evidence)};
+  ToldGirth told;
+  told.girth = girth_of(*band, section, evidence);
   told.girth.points = cloud.size();
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.is_bridged = has_notable_gap(*band, evidence);
@@ -156,13 +175,13 @@ double ToldGirth::area() const {
 }
 
 bool ToldGirth::is_plain() const {
-  return !of_few && !is_bridged && !has_layers && !has_others_beside &&
+  return !refusal && !of_few && !is_bridged && !has_layers && !has_others_beside &&
          *girth.stretched_u95_mm <= kNotableDoubt * girth.stretched_mm &&
          *girth.contact_u95_mm <= kNotableDoubt * girth.contact_mm;
 }
 
 bool ToldGirth::is_doubtful() const {
-  return of_few || *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
+  return refusal || of_few || *girth.stretched_u95_mm > kNotableDoubt * girth.stretched_mm ||
          girth.contact_mm > kWinding * girth.stretched_mm;
 }
 
@@ -174,13 +193,14 @@ Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
   const bool strays_near_skin = told && told->strays_near_skin;
   if (strays_near_skin) {
     auto cleaned = girth_at(slabs, options, strays_near_skin);
-    if (cleaned && !cleaned->of_few) told = std::move(cleaned);
+    if (is_told(cleaned) && !cleaned->of_few) told = std::move(cleaned);
   }
   // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
   // seem exact.
   if ((!told || told->is_doubtful()) && thin_thick_lines(slabs)) {
     auto thinned = girth_at(slabs, options, strays_near_skin);
-    if (thinned && (!told || is_surer(*thinned, *told))) told = std::move(thinned);
+    if (is_told(thinned) && (!is_told(told) || is_surer(*thinned, *told)))
+      told = std::move(thinned);
   }
   return told;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/geometry/point_cloud.h"
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
@@ -10,13 +12,16 @@ namespace instep {
 /// A girth, and what speaks against it.
 struct ToldGirth {
   Girth girth;
-  bool of_few = false;             ///< most of the points near the plane lie on no loop
-  bool strays_near_skin = false;   ///< many of its patches left some out
-  bool is_bridged = false;         ///< over a stretch without seen points
-  bool has_layers = false;         ///< of skin, or of skin and sock
-  bool has_others_beside = false;  ///< of the points near the plane some lie on no loop
+  /// Why it is not to be told, though the section closes: then it has a contour alone.
+  std::optional<Error> refusal;
+  bool of_few = false;            ///< most of the points near the plane lie on no loop
+  bool strays_near_skin = false;  ///< many of its patches left some out
+  bool is_bridged = false;        ///< over a stretch without seen points
+  bool has_layers = false;        ///< of skin, or of skin and sock
+  /// Of the points near the plane more than a fiftieth lies on no loop, or leads away from one.
+  bool has_others_beside = false;
 
-  /// Half of both intervals, mm.
+  /// Half of both intervals, mm. Of one that is told.
   double doubt() const;
   /// That the section encloses, mm^2.
   double area() const;
