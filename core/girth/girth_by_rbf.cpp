@@ -18,7 +18,7 @@ constexpr double kSameBody = 1.2;
 constexpr double kAboutAsSure = 1.5;
 constexpr const char* kAloneWarning =
     "the body was measured alone, without what lies beside it: strays, a wall, a floor or another "
-    "body";
+    "body; take it away, or scan from elsewhere";
 
 /// The girths of bodies alone: of that whose section is largest, taken apart in the way that leaves
 /// the least doubt. Between a body and what is still joined to it a surface may go astray.

@@ -141,17 +141,16 @@ PlaneSlab ordered_slab(const PointCloud& cloud, const PlaneSlab& found) {
   return slab;
 }
 
-/// In whole steps, which are the same numbers whichever unit the cloud is told in.
-std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, double step) {
-  for (auto& place : places) place = (place / step).array().round();
-  return places;
-}
-
 }  // namespace
 
 double rounding_step(const TapePlane& plane) {
   const auto& [first, second, third] = plane.control_points();
   return std::ldexp(std::max((second - first).norm(), (third - first).norm()), -kRoundedBits);
+}
+
+std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, double step) {
+  for (auto& place : places) place = (place / step).array().round();
+  return places;
 }
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {

@@ -30,6 +30,9 @@ struct PlaneSlab {
 /// A part in 2^38 of what the plane's control points are apart.
 double rounding_step(const TapePlane& plane);
 
+/// Places in whole steps, which are the same numbers whichever unit the cloud is told in.
+std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, double step);
+
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width);
 

@@ -7,6 +7,7 @@
 
 #include "core/geometry/skin_outline.h"
 #include "core/geometry/voxel_grid.h"
+#include "core/girth/plane_slab.h"
 #include "core/median.h"
 
 namespace instep {
@@ -63,9 +64,7 @@ Eigen::AlignedBox2d section_box(
   const double most = box_of_most(slab).diagonal().norm();
   if (box.diagonal().norm() <= kFarLarger * most) return box;
   const double thick = std::max(height, std::min(kThicker * height, kThickest * most));
-  // In whole steps, which are the same numbers whichever unit the cloud is told in.
-  std::vector<Eigen::Vector3d> steps;
-  for (const auto& place : wider(thick)) steps.push_back((place / step).array().round());
+  const auto steps = in_steps(wider(thick), step);
   const auto outline = outline_of_skin(steps, thick / step, kCellInHeights * height / step);
   if (!(outline.density > 0.0)) return box;
   auto of_skin = box_of_clusters(steps, kSide / std::sqrt(outline.density));

@@ -23,7 +23,8 @@ constexpr double kSameInGrains = 0.3;
 constexpr double kLongestSection = 6.0;
 /// Points along a loop, against those along the best founded one.
 constexpr double kLeastFounded = 0.25;
-/// Of one loop, that runs along another of the same body, and is as long.
+/// Of a loop, on which it runs along another of the same body, and how long it is against that at
+/// least. Of 320 girths with strays on one side 7 are over two intervals off, and 10 with both.
 constexpr double kOneBody = 0.5;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;

@@ -85,7 +85,7 @@ TEST(GirthAmidStrays, LeavesOutThoseOnOneSide) {
 }
 
 /// Where a few dozen fly about on one side, as before a shine, hardly one of them stands alone:
-/// of 64 girths six were off by up to twelve times their intervals, without a word.
+/// of 32 girths four were off by up to twelve times their intervals.
 TEST(GirthAmidStrays, LeavesOutThoseThatCrowdOnOneSide) {
   const double truth = test::true_girth(test::elliptic_cylinder(40, 40), oblique_plane());
   for (const std::size_t count : {6000U, 20000U}) {

@@ -78,7 +78,8 @@ TEST(GirthBesideAWall, IsToldWithAWarning) {
   }
 }
 
-/// As most points are the wall's, the noise was: contact lengths were up to 40 mm too long.
+/// As most points are the wall's, the noise was: girths were up to 1.6 mm too long, outside their
+/// intervals.
 TEST(GirthBesideAWall, HasTheNoiseOfTheBody) {
   for (const double sigma_mm : {0.15, 0.7}) {
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
@@ -159,20 +160,22 @@ TEST(GirthBesideAWall, IsThatOfTheLargerOfTwoBodies) {
   }
 }
 
+/// Some of the strays hang together with the body in some ways to take it apart.
 TEST(GirthBesideAWall, IsTheSameInAnyOrderOfPoints) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
     SCOPED_TRACE(testing::Message() << seed);
     PointCloud cloud = body(40.0, 40.0, 6000, 0.2, seed);
     RandomNumbers random(seed);
     for (int i = 0; i < 45; ++i) {
-      cloud.positions.emplace_back(random.uniform(-70.0, 70.0), random.uniform(-70.0, 70.0),
-                                   random.uniform(-kHalfHeight, kHalfHeight));
+      cloud.positions.emplace_back(random.uniform(43.0, 58.0), random.uniform(-6.0, 6.0),
+                                   random.uniform(-6.0, 6.0));
     }
-    add_wall(40.0, 10.0, 200.0, 3000, cloud);
+    add_wall(40.0, 20.0, 180.0, 3000, cloud);
     const auto girth = girth_by_rbf(cloud, test::level_plane());
     std::reverse(cloud.positions.begin(), cloud.positions.end());
     const auto reversed = girth_by_rbf(cloud, test::level_plane());
-    ASSERT_TRUE(girth && reversed);
+    ASSERT_EQ(girth.has_value(), reversed.has_value());
+    if (!girth) continue;
     EXPECT_NEAR(girth->contact_mm, reversed->contact_mm, 1e-9);
     EXPECT_NEAR(*girth->contact_u95_mm, *reversed->contact_u95_mm, 1e-9);
   }
