@@ -1,29 +1,24 @@
 #include "core/surface/creased_patch.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
-#include "core/geometry/moments.h"
+#include "core/surface/quadratic_sheet.h"
+#include "core/surface/two_sheets.h"
 
 namespace instep {
 namespace {
 
-/// Sheets whose planes turn less (radians) are not worth a closer look.
-constexpr double kLeastTurn = 0.6;
-/// And where quadratics through them turn less: nearly as the sheets do, at a fraction of the work.
+/// Sheets of which the quadratics turn less (radians) are not worth a closer look: these turn
+/// nearly as the sheets do, at a fraction of the work.
 constexpr double kLeastTurnOfQuadratics = 0.55;
-constexpr double kLeastToldTurn = 0.4;
-constexpr std::size_t kFewestOnASheet = 6;
+constexpr std::size_t kFewestPoints = 12;
 /// Of more than twice as many points so many are asked first whether they turn at all.
 constexpr std::size_t kEnoughPoints = 160;
-constexpr int kRounds = 6;
 /// A point of one sheet that lies this part of the radius under the other one, beyond what noise
 /// explains, is cut off by it; a crease that cuts off more than such a part of all its points, of
 /// few not even one, is none: of lasts of 902 points with told normals a girth lay 4 mm beside the
@@ -35,139 +30,6 @@ constexpr double kMostHidden = 0.05;
 /// which they are.
 constexpr std::size_t kPointsAtCrease = 6;
 constexpr std::size_t kCandidatesAtCrease = 48;
-
-/// Which of the two sheets each point lies on.
-using Sides = std::vector<std::uint8_t>;
-
-/// The plane of the points on one side.
-struct SheetPlane {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  std::size_t count = 0;
-
-  double height(const Eigen::Vector3d& place) const { return normal.dot(place - middle); }
-};
-
-/// The planes of the points on either side. One with too few points has no normal.
-std::array<SheetPlane, 2> planes_of(const std::vector<OrientedPoint>& points, const Sides& sides) {
-  const Eigen::Vector3d& origin = points.front().position;
-  std::array<Moments, 2> moments;
-  std::array<Eigen::Vector3d, 2> facing = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    moments[sides[i]].add(points[i].position - origin);
-    facing[sides[i]] += points[i].normal;
-  }
-  std::array<SheetPlane, 2> planes;
-  for (std::size_t side = 0; side < planes.size(); ++side) {
-    SheetPlane& plane = planes[side];
-    plane.count = static_cast<std::size_t>(moments[side].count);
-    if (plane.count < kFewestOnASheet) continue;
-    plane.middle = origin + moments[side].middle();
-    plane.normal = moments[side].flattest();
-    if (plane.normal.dot(facing[side]) < 0.0) plane.normal *= -1.0;
-  }
-  return planes;
-}
-
-/// The direction in which the normals differ most.
-Eigen::Vector3d direction_of_bend(const std::vector<OrientedPoint>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& point : points) mean += point.normal;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const auto& point : points) {
-    const Eigen::Vector3d arm = point.normal - mean;
-    spread += arm * arm.transpose();
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-}
-
-/// Two clusters of the normals along that direction.
-Sides split_by_normals(const std::vector<OrientedPoint>& points) {
-  const Eigen::Vector3d across = direction_of_bend(points);
-  std::vector<double> bends;
-  for (const auto& point : points) bends.push_back(across.dot(point.normal));
-  const auto [least, most] = std::minmax_element(bends.begin(), bends.end());
-  double limit = 0.5 * (*least + *most);
-  for (int round = 0; round < kRounds; ++round) {
-    std::array<double, 2> sums{};
-    std::array<double, 2> counts{};
-    for (const double bend : bends) {
-      sums[bend > limit] += bend;
-      counts[bend > limit] += 1.0;
-    }
-    if (counts[0] == 0.0 || counts[1] == 0.0) break;
-    limit = 0.5 * (sums[0] / counts[0] + sums[1] / counts[1]);
-  }
-  Sides sides;
-  for (const double bend : bends) sides.push_back(bend > limit);
-  return sides;
-}
-
-struct TwoSheets {
-  std::array<SheetPlane, 2> planes;
-  Sides sides;
-  bool convex = true;
-
-  double turn() const {
-    return std::acos(std::clamp(planes[0].normal.dot(planes[1].normal), -1.0, 1.0));
-  }
-};
-
-/// Gives each point to the sheet that faces as its told normal does, until nothing changes.
-std::optional<TwoSheets> told_sheets(const std::vector<OrientedPoint>& points) {
-  TwoSheets sheets;
-  sheets.sides = split_by_normals(points);
-  for (int round = 0; round < kRounds; ++round) {
-    sheets.planes = {};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      SheetPlane& plane = sheets.planes[sheets.sides[i]];
-      plane.middle += points[i].position;
-      plane.normal += points[i].normal;
-      ++plane.count;
-    }
-    auto& [first, second] = sheets.planes;
-    if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
-    for (SheetPlane& plane : sheets.planes) {
-      plane.middle /= static_cast<double>(plane.count);
-      plane.normal.normalize();
-    }
-    if (sheets.turn() < kLeastToldTurn) return std::nullopt;
-    const Sides before = sheets.sides;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      sheets.sides[i] = (second.normal - first.normal).dot(points[i].normal) > 0.0;
-    }
-    if (sheets.sides != before) continue;
-    sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
-    return sheets;
-  }
-  return std::nullopt;
-}
-
-/// Gives each point to the sheet that bounds the body there, until nothing changes. Nothing as soon
-/// as the sheets hardly turn, as those of a smooth bend do from the first.
-std::optional<TwoSheets> two_sheets(const std::vector<OrientedPoint>& points) {
-  TwoSheets sheets;
-  sheets.sides = split_by_normals(points);
-  for (int round = 0; round < kRounds; ++round) {
-    sheets.planes = planes_of(points, sheets.sides);
-    const auto& [first, second] = sheets.planes;
-    if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
-    if (sheets.turn() < kLeastTurn) return std::nullopt;
-    sheets.convex = second.height(first.middle) + first.height(second.middle) < 0.0;
-    const Sides before = sheets.sides;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double over_first = first.height(points[i].position);
-      const double over_second = second.height(points[i].position);
-      sheets.sides[i] = sheets.convex ? over_second > over_first : over_second < over_first;
-    }
-    if (sheets.sides == before) return sheets;
-  }
-  const auto on_second =
-      static_cast<std::size_t>(std::count(sheets.sides.begin(), sheets.sides.end(), 1));
-  if (std::min(on_second, points.size() - on_second) < kFewestOnASheet) return std::nullopt;
-  return sheets;
-}
 
 /// The places with the least of some height over both sheets.
 template <class HeightOverBoth>
@@ -182,38 +44,6 @@ std::vector<Eigen::Vector3d> least_high(const std::vector<Eigen::Vector3d>& plac
   for (std::size_t i = 0; i < count; ++i) least.push_back(places[heights[i].second]);
   return least;
 }
-
-/// A sheet as the quadratic that fits its points best.
-class QuadraticSheet {
- public:
-  QuadraticSheet(const std::vector<OrientedPoint>& points, const Eigen::Vector3d& outward,
-                 const Eigen::Vector3d& centre, double radius)
-      : base_(axes_over(outward), centre, radius),
-        terms_(least_squares(samples_over(points, base_))) {}
-
-  FieldValue at(const Eigen::Vector3d& position) const {
-    const auto spot = base_.see(position);
-    const double x = spot.place.x();
-    const double y = spot.place.y();
-    const double height = terms_[0] + x * (terms_[1] + x * terms_[3] + y * terms_[4]) +
-                          y * (terms_[2] + y * terms_[5]);
-    const Eigen::Vector2d slope(terms_[1] + 2.0 * x * terms_[3] + y * terms_[4],
-                                terms_[2] + x * terms_[4] + 2.0 * y * terms_[5]);
-    return {base_.radius() * (spot.height - height), base_.gradient(slope, spot)};
-  }
-
- private:
-  static Eigen::Matrix3d axes_over(const Eigen::Vector3d& outward) {
-    Eigen::Matrix3d axes;
-    axes.row(0) = outward.unitOrthogonal();
-    axes.row(1) = outward.cross(axes.row(0));
-    axes.row(2) = outward;
-    return axes;
-  }
-
-  HeightBase base_;
-  Quadratic terms_;
-};
 
 /// The points that lie nearest to both patches, of those that lie near both planes; their middle.
 template <class Patch>
@@ -266,31 +96,20 @@ double distance_to(const Eigen::Vector3d& place, const std::vector<OrientedPoint
   return nearest;
 }
 
-/// Points parted by the sheets that they lie on.
-struct Parts {
-  TwoSheets sheets;
-  std::array<std::vector<OrientedPoint>, 2> points;
-  std::array<std::vector<std::size_t>, 2> members;
-};
-
 /// Nothing if the sheets hardly turn where they meet, as quadratics tell it, or as is told.
-std::optional<Parts> turning_parts(const std::vector<OrientedPoint>& points,
-                                   const Eigen::Vector3d& centre, double radius) {
-  const bool told = all_tell_normals(points);
-  auto sheets = told ? told_sheets(points) : two_sheets(points);
+std::optional<TwoSheets> turning_sheets(const std::vector<OrientedPoint>& points,
+                                        const Eigen::Vector3d& centre, double radius, bool clear) {
+  if (all_tell_normals(points)) return TwoSheets::by_told_normals(points);
+  auto sheets = TwoSheets::by_planes(points);
   if (!sheets) return std::nullopt;
-  Parts parts{std::move(*sheets), {}, {}};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    parts.points[parts.sheets.sides[i]].push_back(points[i]);
-    parts.members[parts.sheets.sides[i]].push_back(i);
-  }
-  if (told) return parts;
-  const auto& [one, other] = parts.sheets.planes;
-  const Crease rough = crease_between(
-      points, parts.sheets, QuadraticSheet(parts.points[0], one.normal, centre, radius),
-      QuadraticSheet(parts.points[1], other.normal, centre, radius));
+  if (clear) sheets->part_by_quadratics(points, centre, radius);
+  const auto parts = sheets->parted(points);
+  const auto& [one, other] = sheets->planes;
+  const Crease rough =
+      crease_between(points, *sheets, QuadraticSheet(parts[0], one.normal, centre, radius),
+                     QuadraticSheet(parts[1], other.normal, centre, radius));
   if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
-  return parts;
+  return sheets;
 }
 
 std::vector<OrientedPoint> one_in(std::size_t stride, const std::vector<OrientedPoint>& points) {
@@ -306,21 +125,23 @@ CreasedPatch::CreasedPatch(Sheet first, Sheet second, bool convex)
 
 std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& points,
                                               const Eigen::Vector3d& centre, double radius,
-                                              double roughness) {
-  if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
+                                              double roughness, bool clear) {
+  if (points.size() < kFewestPoints) return std::nullopt;
   const std::size_t stride = points.size() / kEnoughPoints;
-  if (stride > 1 && !turning_parts(one_in(stride, points), centre, radius)) return std::nullopt;
-  auto turning = turning_parts(points, centre, radius);
-  if (!turning) return std::nullopt;
-  auto& [sheets, parts, members] = *turning;
-  const auto& [one, other] = sheets.planes;
+  if (stride > 1 && !turning_sheets(one_in(stride, points), centre, radius, clear))
+    return std::nullopt;
+  const auto sheets = turning_sheets(points, centre, radius, clear);
+  if (!sheets) return std::nullopt;
+  const auto parts = sheets->parted(points);
+  auto members = sheets->members();
+  const auto& [one, other] = sheets->planes;
   auto first = HeightPatch::fit(parts[0], centre, one.normal, radius, roughness);
   if (!first) return std::nullopt;
   auto second = HeightPatch::fit(parts[1], centre, other.normal, radius, roughness);
   if (!second) return std::nullopt;
-  const Crease crease = crease_between(points, sheets, *first, *second);
+  const Crease crease = crease_between(points, *sheets, *first, *second);
   CreasedPatch patch({std::move(*first), std::move(members[0])},
-                     {std::move(*second), std::move(members[1])}, sheets.convex);
+                     {std::move(*second), std::move(members[1])}, sheets->convex);
   if (patch.hides_points(points, radius)) return std::nullopt;
   patch.turn_ = crease.turn;
   patch.gap_ = std::max(distance_to(crease.place, parts[0]), distance_to(crease.place, parts[1]));

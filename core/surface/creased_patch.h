@@ -17,13 +17,15 @@ namespace instep {
 /// normals.
 class CreasedPatch {
  public:
-  /// As for HeightPatch. Nothing if the points do not fall into two sheets of at least six that
-  /// meet in an angle, if quadratics through the two plainly meet in none, as where one smooth
-  /// surface was cut in two, or if each would have to be cut off by the other where points of it
-  /// lie. Two fits and some passes over the points.
+  /// As for HeightPatch. `clear`: the points scatter so little that even those by the crease show
+  /// which sheet they lie on, and how it bends there (TwoSheets::part_by_quadratics). Nothing if
+  /// the points do not fall into two sheets of at least six that meet in an angle, if quadratics
+  /// through the two plainly meet in none, as where one smooth surface was cut in two, or if each
+  /// would have to be cut off by the other where points of it lie. Two fits and some passes over
+  /// the points.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
-                                         double roughness);
+                                         double roughness, bool clear);
 
   FieldValue at(const Eigen::Vector3d& position) const;
 

@@ -55,10 +55,8 @@ constexpr double kBlurred = 1e-3;
 constexpr std::size_t kAskedOneIn = 6;
 /// The most that the others may be off there, squared, against the averages, which know it.
 constexpr double kFiner = 1.2;
-/// A crease is so much likelier than one smooth sheet.
-constexpr double kLeastGain = 8.0;
 /// An edge may be round where no points lie: part of what a length over it would lose by that.
-constexpr double kRounding = 0.2;
+constexpr double kRounding = 0.1;
 
 Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -144,13 +142,16 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   const auto least_bent = kLeastBent * static_cast<double>(members.all.size());
   if (bent < kFewestBent || static_cast<double>(bent) < least_bent) return std::nullopt;
   const auto points = points_.at(members.all);
-  auto creased = CreasedPatch::fit(points, place, members.radius, roughness);
-  if (!creased || creased->turn() <= points_.rule().least_turn) return std::nullopt;
-  if (creased->gap() >= points_.rule().widest_gap * surroundings.spacing) return std::nullopt;
+  const bool clear = surroundings.clear && !points_.are_strung(surroundings);
+  const CreaseRule& rule = points_.crease_rule(clear);
+  auto creased = CreasedPatch::fit(points, place, members.radius, roughness, clear);
+  if (!creased || creased->turn() <= rule.least_turn) return std::nullopt;
+  if (creased->gap() >= rule.widest_gap * surroundings.spacing) return std::nullopt;
   if (runs_between_lines(*creased, points, place, members, surroundings.spacing))
     return std::nullopt;
   const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
-  if (smooth && creased->misfit() + kLeastGain >= smooth->misfit()) return std::nullopt;
+  if (smooth && creased->misfit() + rule.gain_asked(creased->turn()) >= smooth->misfit())
+    return std::nullopt;
   const double rounding = rounding_of(*creased, surroundings.spacing);
   return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all,
                       0.0,   rounding};

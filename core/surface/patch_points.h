@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/surface/crease_rule.h"
 #include "core/surface/noise_estimate.h"
 #include "core/surface/oriented_point.h"
 
@@ -14,8 +15,6 @@ namespace instep {
 struct PatchRule {
   std::size_t points;  ///< of a patch: enough to fit a surface, few enough to solve quickly
   std::size_t points_in_space;  ///< of one that shows both sides of a thin part
-  double least_turn;            ///< of a crease, in radians
-  double widest_gap;            ///< further from all points, in spacings, its place is a guess
 };
 
 /// The points that patches are made of: what a place knows of those round it, and which of them a
@@ -33,6 +32,7 @@ class PatchPoints {
     double noise_area = 0.0;  ///< variance of a point times the area it has for itself
     double roughness = 0.0;
     bool exact = false;  ///< no noise worth smoothing
+    bool clear = false;  ///< so little that points by a crease show which sheet they lie on
 
     double bandwidth(double of_roughness) const;
   };
@@ -65,6 +65,13 @@ class PatchPoints {
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
 
+  /// Whether the nearest points lie closer together on lines than from line to line. A few such
+  /// lines along a round body look like sheets of a prism. O(square of their number).
+  bool are_strung(const Surroundings& surroundings) const;
+
+  /// `clear`: points that are (Surroundings) and are not strung on lines.
+  const CreaseRule& crease_rule(bool clear) const;
+
   /// Of exact points so many are asked first for a crease: the further ones tell no more of it, but
   /// may lie round a second one or on the other side of a thin part.
   std::size_t nearer_points() const;
@@ -90,6 +97,7 @@ class PatchPoints {
   std::vector<OrientedPoint> points_;
   PointIndex index_;
   std::vector<LocalRoughness> roughness_;
+  bool told_;  ///< all normals
   PatchRule rule_;
 };
 
