@@ -154,8 +154,8 @@ TEST(Measures, WarnOfEachDoubtfulLandmarkThatTheirTapeHangsOn) {
   EXPECT_GT(warned, 8);
 }
 
-// Measured: at most 0.09 mm, of the long heel girth, whose interval is +- 0.6: it crosses the kink of
-// the body's walls, and patches start elsewhere in a mirror.
+// Measured: at most 0.09 mm, of the long heel girth, whose interval is +- 0.6: it crosses the kink
+// of the body's walls, and patches start elsewhere in a mirror.
 TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {
   const auto right = measure_foot(prepared(FootBody{}.points()));
   const auto left = measure_foot(prepared(test::mirrored(FootBody{}.points())));
