@@ -1,6 +1,5 @@
 #include "core/surface/creased_patch.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,6 @@ namespace {
 /// Sheets of which the quadratics turn less (radians) are not worth a closer look: these turn
 /// nearly as the sheets do, at a fraction of the work.
 constexpr double kLeastTurnOfQuadratics = 0.55;
-constexpr std::size_t kFewestPoints = 12;
 /// Of more than twice as many points so many are asked first whether they turn at all.
 constexpr std::size_t kEnoughPoints = 160;
 /// A point of one sheet that lies this part of the radius under the other one, beyond what noise
@@ -126,7 +124,6 @@ CreasedPatch::CreasedPatch(Sheet first, Sheet second, bool convex)
 std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& points,
                                               const Eigen::Vector3d& centre, double radius,
                                               double roughness, bool clear) {
-  if (points.size() < kFewestPoints) return std::nullopt;
   const std::size_t stride = points.size() / kEnoughPoints;
   if (stride > 1 && !turning_sheets(one_in(stride, points), centre, radius, clear))
     return std::nullopt;

@@ -22,7 +22,7 @@ class CreasedPatch {
   /// the points do not fall into two sheets of at least six that meet in an angle, if quadratics
   /// through the two plainly meet in none, as where one smooth surface was cut in two, or if each
   /// would have to be cut off by the other where points of it lie. Two fits and some passes over
-  /// the points.
+  /// the points, with at most 28 quadratics of them.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
                                          double roughness, bool clear);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/picked.h"
+#include "core/surface/crease_rule.h"
 #include "core/surface/point_lines.h"
 #include "core/surface/stray_free_sheet.h"
 
@@ -56,7 +57,7 @@ constexpr std::size_t kAskedOneIn = 6;
 /// The most that the others may be off there, squared, against the averages, which know it.
 constexpr double kFiner = 1.2;
 /// An edge may be round where no points lie: part of what a length over it would lose by that.
-constexpr double kRounding = 0.1;
+constexpr double kRounding = 0.15;
 
 Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -142,7 +143,7 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   const auto least_bent = kLeastBent * static_cast<double>(members.all.size());
   if (bent < kFewestBent || static_cast<double>(bent) < least_bent) return std::nullopt;
   const auto points = points_.at(members.all);
-  const bool clear = surroundings.clear && !points_.are_strung(surroundings);
+  const bool clear = points_.are_clear(surroundings);
   const CreaseRule& rule = points_.crease_rule(clear);
   auto creased = CreasedPatch::fit(points, place, members.radius, roughness, clear);
   if (!creased || creased->turn() <= rule.least_turn) return std::nullopt;

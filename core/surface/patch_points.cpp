@@ -42,7 +42,7 @@ constexpr PatchRule kByToldNormals = {.points = 40, .points_in_space = 40};
 /// 0.1 mm of it, a fortieth of the spacing, err 0.22 mm in place of 0.39. With a limit of 0.08
 /// those with 0.3 mm gain as well, but simulated feet of 1,080 points with 0.5 mm err 1.07 mm in
 /// place of 0.91.
-constexpr double kClear = 0.05;
+constexpr double kQuiet = 0.05;
 
 /// Mean distance from a point to the nearest other one, against the spacing: half of it for points
 /// at random, a quarter on lines sixteen times as far apart as their points.
@@ -67,19 +67,27 @@ PatchPoints::PatchPoints(std::vector<OrientedPoint> points, PointIndex index,
       told_(all_tell_normals(points_)),
       rule_(told_ ? kByToldNormals : kByPoints) {}
 
+/// Whether the nearest points lie closer together on lines than from line to line.
 bool PatchPoints::are_strung(const Surroundings& surroundings) const {
   const auto& nearest = surroundings.nearest;
+  const std::size_t stride = std::max<std::size_t>(1, nearest.size() / rule_.points);
   double sum = 0.0;
-  for (const auto& one : nearest) {
+  double count = 0.0;
+  for (std::size_t i = 0; i < nearest.size(); i += stride) {
+    const Eigen::Vector3d& place = points_[nearest[i].index].position;
     double square = std::numeric_limits<double>::infinity();
-    for (const auto& other : nearest) {
-      if (other.index == one.index) continue;
-      const Eigen::Vector3d arm = points_[one.index].position - points_[other.index].position;
-      square = std::min(square, arm.squaredNorm());
+    for (std::size_t j = 0; j < nearest.size(); ++j) {
+      if (j == i) continue;
+      square = std::min(square, (points_[nearest[j].index].position - place).squaredNorm());
     }
     sum += std::sqrt(square);
+    count += 1.0;
   }
-  return sum < kStrung * surroundings.spacing * static_cast<double>(nearest.size());
+  return sum < kStrung * surroundings.spacing * count;
+}
+
+bool PatchPoints::are_clear(const Surroundings& surroundings) const {
+  return !told_ && surroundings.quiet && !are_strung(surroundings);
 }
 
 const CreaseRule& PatchPoints::crease_rule(bool clear) const {
@@ -127,7 +135,7 @@ PatchPoints::Surroundings PatchPoints::surroundings_of(const Eigen::Vector3d& pl
   here.noise_area = variance * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
   here.exact = is_harmless(variance, here.spacing);
-  here.clear = variance <= std::pow(kClear * here.spacing, 2);
+  here.quiet = variance <= std::pow(kQuiet * here.spacing, 2);
   return here;
 }
 

@@ -32,7 +32,7 @@ class PatchPoints {
     double noise_area = 0.0;  ///< variance of a point times the area it has for itself
     double roughness = 0.0;
     bool exact = false;  ///< no noise worth smoothing
-    bool clear = false;  ///< so little that points by a crease show which sheet they lie on
+    bool quiet = false;  ///< little beside the spacing
 
     double bandwidth(double of_roughness) const;
   };
@@ -65,11 +65,12 @@ class PatchPoints {
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
 
-  /// Whether the nearest points lie closer together on lines than from line to line. A few such
-  /// lines along a round body look like sheets of a prism. O(square of their number).
-  bool are_strung(const Surroundings& surroundings) const;
+  /// Whether points without told normals show which of two sheets they lie on, even by the crease:
+  /// they scatter little and are not strung on lines, of which a few along a round body look like
+  /// sheets of a prism. O(points in a patch times the nearest).
+  bool are_clear(const Surroundings& surroundings) const;
 
-  /// `clear`: points that are (Surroundings) and are not strung on lines.
+  /// `clear`: see there.
   const CreaseRule& crease_rule(bool clear) const;
 
   /// Of exact points so many are asked first for a crease: the further ones tell no more of it, but
@@ -90,6 +91,7 @@ class PatchPoints {
   void drop_twins(std::vector<std::size_t>& members, double spacing) const;
 
  private:
+  bool are_strung(const Surroundings& surroundings) const;
   Neighbours nearest_all_round(const Eigen::Vector3d& place) const;
   Eigen::Vector3d outward_of(const Neighbours& nearest) const;
   void drop_strays(Members& members) const;

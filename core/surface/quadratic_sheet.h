@@ -10,11 +10,11 @@
 namespace instep {
 
 /// The quadratic that fits points best, as heights over the plane that faces outwards: a
-/// HeightPatch in the rough, at a fraction of its cost. No numbers (NaN) if the points determine
-/// none.
+/// HeightPatch in the rough, at a fraction of its cost. One of many if the points determine none,
+/// as those on a line.
 class QuadraticSheet {
  public:
-  /// `outward`: a unit vector. O(points).
+  /// At least six points. `outward`: a unit vector. O(points).
   QuadraticSheet(const std::vector<OrientedPoint>& points, const Eigen::Vector3d& outward,
                  const Eigen::Vector3d& centre, double radius);
 

@@ -121,6 +121,7 @@ std::array<std::vector<OrientedPoint>, 2> TwoSheets::parted(
 
 /// Until nothing changes.
 std::optional<TwoSheets> TwoSheets::by_told_normals(const std::vector<OrientedPoint>& points) {
+  if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
   for (int round = 0; round < kRounds; ++round) {
@@ -149,8 +150,9 @@ std::optional<TwoSheets> TwoSheets::by_told_normals(const std::vector<OrientedPo
   return std::nullopt;
 }
 
-/// Until nothing changes, or nearly so.
+/// Until nothing changes, or the last of the rounds.
 std::optional<TwoSheets> TwoSheets::by_planes(const std::vector<OrientedPoint>& points) {
+  if (points.size() < 2 * kFewestOnASheet) return std::nullopt;
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
   for (int round = 0; round < kRounds; ++round) {
@@ -170,7 +172,8 @@ std::optional<TwoSheets> TwoSheets::by_planes(const std::vector<OrientedPoint>& 
   return sheets;
 }
 
-/// Until nothing changes, or nearly so, or too few would be left on one.
+/// Until nothing changes, too few would be left on one, or the last of the rounds. With no fewer
+/// than ten on either girths of bare lasts of 3,560 points err 0.16 mm in place of 0.15.
 void TwoSheets::part_by_quadratics(const std::vector<OrientedPoint>& points,
                                    const Eigen::Vector3d& centre, double radius) {
   for (int round = 0; round < kRounds; ++round) {

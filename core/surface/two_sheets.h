@@ -39,11 +39,13 @@ struct TwoSheets {
 
   /// By the plane that bounds the body where they are. Nothing if one has fewer than six, or as
   /// soon as the planes turn by less than 0.6 radians, as those of a smooth bend do from the first.
+  /// O(points).
   static std::optional<TwoSheets> by_planes(const std::vector<OrientedPoint>& points);
 
   /// Anew, by the quadratic that bounds the body where they are: the planes of sheets that bend
   /// towards the crease put some of the points by it on the wrong one. Noise by the crease would
-  /// part them as well: for points that scatter little. O(points).
+  /// part them as well: for points that scatter little. The planes stay: the quadratics, and the
+  /// patches after them, are heights over these. O(points).
   void part_by_quadratics(const std::vector<OrientedPoint>& points, const Eigen::Vector3d& centre,
                           double radius);
 };

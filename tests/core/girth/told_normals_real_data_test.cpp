@@ -69,11 +69,12 @@ void turn_one_in_twenty(PointCloud& cloud, test::RandomNumbers& random) {
   }
 }
 
-// Measured: at most 1.56 mm off, 24 of 27 intervals hold; taken as slopes, 8.95 mm and 21.
+// Measured: at most 1.56 mm off, 25 of 27 intervals hold (with 32 draws each 272 of 288); taken as
+// slopes, 8.95 mm and 21.
 TEST_F(ToldNormalsOfTrialData, OfWhichAFewAreFarOffSpoilNoLast) {
   const auto errors = errors_with(turn_one_in_twenty);
   EXPECT_GT(errors.girths, 0);
-  EXPECT_GE(errors.held, errors.girths - 4);
+  EXPECT_GE(errors.held, errors.girths - 3);
   EXPECT_LT(errors.worst_mm, 2.0);
 }
 

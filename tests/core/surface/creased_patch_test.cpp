@@ -313,14 +313,18 @@ TEST(CreasedPatch, IsTheSameInAnyUnit) {
 
 TEST(CreasedPatch, OrderOfPointsDoesNotMatter) {
   const Roof roof{70.0 * kDegree};
-  const auto points = roof_points(roof, 0.01, 10);
-  const auto patch = fit(points);
-  const auto other = fit(test::in_another_order(points, 11));
-  ASSERT_TRUE(patch && other);
-  EXPECT_NEAR(other->turn(), patch->turn(), 1e-9);
-  for (const double side : {-1.0, 1.0}) {
-    const Vector3d place = roof.at(side, 0.3, 0.2);
-    EXPECT_NEAR(other->at(place).value, patch->at(place).value, 1e-9);
+  const auto noisy = roof_points(roof, 0.01, 10);
+  const auto bent = BentRoof{70.0 * kDegree, 0.8, 0.2}.bare_points(30, 30, 10);
+  for (const bool clear : {false, true}) {
+    const auto& points = clear ? bent : noisy;
+    const auto patch = fit(points, clear);
+    const auto other = fit(test::in_another_order(points, 11), clear);
+    ASSERT_TRUE(patch && other) << clear;
+    EXPECT_NEAR(other->turn(), patch->turn(), 1e-9) << clear;
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3d place = roof.at(side, 0.3, 0.2);
+      EXPECT_NEAR(other->at(place).value, patch->at(place).value, 1e-9) << clear;
+    }
   }
 }
 

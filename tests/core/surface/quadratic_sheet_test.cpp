@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"

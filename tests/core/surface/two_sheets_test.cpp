@@ -92,6 +92,7 @@ TEST(TwoSheets, PartsAreThePointsOfTheMembers) {
 /// Such as would take all points to one side, or tell no quadratic.
 TEST(TwoSheets, QuadraticsLeaveSixOnEitherSheet) {
   test::RandomNumbers random(3);
+  int parted = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const std::size_t on_the_left = 6 + seed % 5;
     auto points = BentRoof{70.0 * kDegree, 0.8, 0.1}.bare_points(12, on_the_left, seed);
@@ -101,9 +102,11 @@ TEST(TwoSheets, QuadraticsLeaveSixOnEitherSheet) {
     }
     auto sheets = TwoSheets::by_planes(points);
     if (!sheets) continue;
+    ++parted;
     sheets->part_by_quadratics(points, Vector3d::Zero(), 1.0);
     for (const auto& members : sheets->members()) EXPECT_GE(members.size(), 6U) << seed;
   }
+  EXPECT_GT(parted, 50);
 }
 
 TEST(TwoSheets, AreNoneInASmoothBendOrOfFewPoints) {
@@ -112,6 +115,8 @@ TEST(TwoSheets, AreNoneInASmoothBendOrOfFewPoints) {
   EXPECT_FALSE(TwoSheets::by_planes(roof.bare_points(20, 4, 1)));
   EXPECT_FALSE(TwoSheets::by_planes(test::cap_points(3.0, 0.9, 60, 0.0, 1)));
   EXPECT_FALSE(TwoSheets::by_told_normals(roof.points(20, 4, 1)));
+  EXPECT_FALSE(TwoSheets::by_planes({}));
+  EXPECT_FALSE(TwoSheets::by_told_normals({}));
 }
 
 }  // namespace
