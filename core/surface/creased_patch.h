@@ -20,9 +20,10 @@ class CreasedPatch {
   /// As for HeightPatch. `clear`: the points scatter so little that even those by the crease show
   /// which sheet they lie on, and how it bends there (TwoSheets::part_by_quadratics). Nothing if
   /// the points do not fall into two sheets of at least six that meet in an angle, if quadratics
-  /// through the two plainly meet in none, as where one smooth surface was cut in two, or if each
-  /// would have to be cut off by the other where points of it lie. Two fits and some passes over
-  /// the points, with at most 28 quadratics of them.
+  /// through the two plainly meet in none, as where one smooth surface was cut in two, if clear
+  /// points lie on rows along the crease that leave it open, or if each would have to be cut off by
+  /// the other where points of it lie. Two fits and some passes over the points, with at most 28
+  /// quadratics of them.
   static std::optional<CreasedPatch> fit(const std::vector<OrientedPoint>& points,
                                          const Eigen::Vector3d& centre, double radius,
                                          double roughness, bool clear);

@@ -153,6 +153,16 @@ TEST(ScannedLinesGirth, OfFewLinesAlongABodyIsRound) {
   EXPECT_LT(errors_of({40, 30, false, 20.0, 0.5}).most, 0.3);
 }
 
+/// Rows hardly further apart than their points: with bent sheets, but nothing asked of rows, 1.8 mm
+/// too long.
+TEST(ScannedLinesGirth, OfAWideLatticeAlongABodyIsRound) {
+  for (const double apart : {8.0, 11.0, 14.0}) {
+    const Errors errors = errors_of({45, 24, false, apart, apart / 1.7});
+    EXPECT_EQ(errors.told, 12) << apart;
+    EXPECT_LT(errors.most, 0.15) << apart;
+  }
+}
+
 /// Each kept a cell of its own where hundreds of points of the lines were thinned to one: contact
 /// lengths were up to 129 mm too long.
 TEST(ScannedLinesGirth, OfAFewStraysIsToldByTheLines) {
