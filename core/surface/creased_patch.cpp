@@ -27,12 +27,13 @@ constexpr std::size_t kEnoughPoints = 160;
 constexpr double kHidden = 0.05;
 constexpr double kHiddenInSigmas = 2.0;
 constexpr double kMostHidden = 0.05;
-/// Rows along a crease tell it if each sheet has so many and they come within this part of what is
-/// between two of them. Of exact points on rows 1.3 and 1.6 spacings apart girths err 0.7 and 0.3
-/// mm on flat elliptic cylinders and 0.002 on round feet; where rows count as points at random
-/// do, 2.1, 2.7 and 0.2.
+/// Rows along a crease tell it if each sheet has so many, and if they come within this part of what
+/// is between two of them or the crease turns so much more than a sheet does from row to row. Of
+/// exact points on rows 1.3 and 1.6 spacings apart girths err 0.7 and 0.3 mm on flat elliptic
+/// cylinders and 0.002 on round feet; where rows count as points at random do, 2.1, 2.7 and 0.2.
 constexpr std::size_t kFewestRows = 3;
 constexpr double kBesideRows = 0.4;
+constexpr double kSharp = 16.0;
 constexpr double kLeastSine = 0.3;
 /// Points nearest to both sheets, round which the crease is looked for; and to their planes, among
 /// which they are.
@@ -104,32 +105,46 @@ double distance_to(const Eigen::Vector3d& place, const std::vector<OrientedPoint
   return nearest;
 }
 
-/// Distance from where both quadratics vanish to the point on one of them that comes nearest.
-double approach_to(const QuadraticSheet& other, const std::vector<OrientedPoint>& points,
-                   double turn) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& point : points) {
-    least = std::min(least, std::abs(other.at(point.position).value));
-  }
-  return least / std::max(kLeastSine, std::sin(turn));
+/// What the points of a sheet show of how it goes on to the crease.
+struct Edgewise {
+  double approach = 0.0;  ///< of the nearest point to where the other sheet vanishes
+  double bend = 0.0;      ///< from there to the farthest point, in radians
+};
+
+Edgewise edgewise(const std::vector<OrientedPoint>& points, const QuadraticSheet& own,
+                  const QuadraticSheet& other, double turn) {
+  const auto height = [&](const OrientedPoint& point) {
+    return std::abs(other.at(point.position).value);
+  };
+  const auto [nearest, farthest] =
+      std::minmax_element(points.begin(), points.end(),
+                          [&](const auto& a, const auto& b) { return height(a) < height(b); });
+  const Eigen::Vector3d near = own.at(nearest->position).gradient.normalized();
+  const Eigen::Vector3d far = own.at(farthest->position).gradient.normalized();
+  return {height(*nearest) / std::max(kLeastSine, std::sin(turn)),
+          std::acos(std::clamp(near.dot(far), -1.0, 1.0))};
 }
 
 /// Whether the points lie on rows along the crease of which there are too few to tell the bend of a
-/// sheet, or none comes near it: rows along a round body look like the sheets of a prism.
+/// sheet, or none comes near it where these bend: rows along a round body look like the sheets of a
+/// prism.
 bool runs_between_rows(const TwoSheets& sheets,
                        const std::array<std::vector<OrientedPoint>, 2>& parts,
                        const std::array<QuadraticSheet, 2>& bent, double turn) {
   const Eigen::Vector3d along = sheets.planes[0].normal.cross(sheets.planes[1].normal).normalized();
   double apart = 0.0;
   double approach = 0.0;
+  double bend = 0.0;  // from row to row
   for (const std::size_t side : {0U, 1U}) {
-    approach = std::max(approach, approach_to(bent[1 - side], parts[side], turn));
+    const Edgewise sheet = edgewise(parts[side], bent[side], bent[1 - side], turn);
+    approach = std::max(approach, sheet.approach);
     const auto rows = rows_along(parts[side], along, sheets.planes[side].normal);
     if (!rows) continue;
     if (rows->count < kFewestRows) return true;
     apart = std::max(apart, rows->apart);
+    bend = std::max(bend, sheet.bend / static_cast<double>(rows->count - 1));
   }
-  return apart > 0.0 && approach > kBesideRows * apart;
+  return approach > kBesideRows * apart && apart > 0.0 && turn < kSharp * bend;
 }
 
 /// Nothing if the sheets hardly turn where they meet, as quadratics tell it, or as is told.
