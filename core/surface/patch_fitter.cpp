@@ -57,7 +57,7 @@ constexpr std::size_t kAskedOneIn = 6;
 /// The most that the others may be off there, squared, against the averages, which know it.
 constexpr double kFiner = 1.2;
 /// An edge may be round where no points lie: part of what a length over it would lose by that.
-constexpr double kRounding = 0.2;
+constexpr double kRounding = 0.15;
 
 Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

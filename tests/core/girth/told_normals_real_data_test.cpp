@@ -69,7 +69,7 @@ void turn_one_in_twenty(PointCloud& cloud, test::RandomNumbers& random) {
   }
 }
 
-// Measured: at most 1.56 mm off, 25 of 27 intervals hold (with 32 draws each 274 of 288); taken as
+// Measured: at most 1.56 mm off, 25 of 27 intervals hold (with 32 draws each 272 of 288); taken as
 // slopes, 8.95 mm and 21.
 TEST_F(ToldNormalsOfTrialData, OfWhichAFewAreFarOffSpoilNoLast) {
   const auto errors = errors_with(turn_one_in_twenty);
