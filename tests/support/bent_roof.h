@@ -13,7 +13,7 @@ namespace instep::test {
 /// body is what lies in both.
 struct BentRoof {
   double turn;   ///< at the edge, in radians
-  double right;  ///< curvature of either sheet
+  double right;  ///< curvature of either sheet, not zero
   double left;
 
   /// Out of the body at `reach` along the sheet towards +x (side 1) or -x (side -1).
