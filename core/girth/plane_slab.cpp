@@ -221,7 +221,9 @@ void SlabSource::level_piles(double least_side, double half_width) {
   if (lines_ || level_) return;
   const double step = rounding_step(plane_);
   const auto places = in_steps(slab(half_width).places, step);
-  level_ = level_beside_piles(places, 2.0 * half_width / step, std::round(least_side / step));
+  // Of a body hardly larger than the rounding, cells are no smaller than a step.
+  const double side = std::max(std::round(least_side / step), 1.0);
+  level_ = level_beside_piles(places, 2.0 * half_width / step, side);
   if (level_) level_widest();
 }
 
