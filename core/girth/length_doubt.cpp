@@ -15,8 +15,8 @@ namespace {
 
 /// How much unseen waves count against all else, so that intervals hold: between exact points, and
 /// where noise hides them.
-constexpr double kUnseenWaves = 1.4;
-constexpr double kUnseenUnderNoise = 1.35;
+constexpr double kUnseenWaves = 1.25;
+constexpr double kUnseenUnderNoise = 1.2;
 /// How many of the unseen waves there are, by the middle of scanned feet and lasts, where all the
 /// bending of exact points is at their own scale.
 constexpr double kLikelyWaves = 1.6;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/girth/bends_between_lines.h"
 #include "core/girth/cloud_edge.h"
 #include "core/girth/contour_turns.h"
 
@@ -35,6 +36,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
                             const BlendedSurface& surface, const SectionEvidence& evidence,
                             double near) {
   SectionUnknowns unknowns{unseen_bends_of(section, evidence.ways, near),
+                           bends_between_lines(section, surface, band.spacing),
                            layers_near_plane(band, surface, near),
                            {},
                            folds_by_noise(band, section),
@@ -50,11 +52,14 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   // What scatters in a part may be ribs, or two layers and the skin either of them.
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  const auto& [bends, layers, skin, folds, edge] = unknowns;
-  section.contact_u95 = std::hypot(distrust * section.contact_u95, bends.contact_u95, edge) +
-                        reach + skin.contact + folds;
-  section.stretched_u95 = std::hypot(distrust * section.stretched_u95, bends.stretched_u95, edge) +
-                          reach + skin.stretched;
+  const auto& [bends, between_lines, layers, skin, folds, edge] = unknowns;
+  const auto all = [&](double told, double bend, double of_lines) {
+    return std::hypot(std::hypot(distrust * told, bend, edge), of_lines) + reach;
+  };
+  section.contact_u95 =
+      all(section.contact_u95, bends.contact_u95, between_lines.contact_u95) + skin.contact + folds;
+  section.stretched_u95 =
+      all(section.stretched_u95, bends.stretched_u95, between_lines.stretched_u95) + skin.stretched;
 }
 
 }  // namespace instep

@@ -16,7 +16,8 @@ namespace instep {
 
 /// What the fitted surface does not know of a section. All in the band's unit.
 struct SectionUnknowns {
-  UnseenBends bends;
+  UnseenBends bends;          ///< out of sight
+  UnseenBends between_lines;  ///< of points
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length

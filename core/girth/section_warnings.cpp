@@ -47,13 +47,26 @@ bool is_most_of(double doubt, const MeasuredSection& section) {
   return doubt > kMostOfDoubt * section.stretched_u95;
 }
 
+const char* reason_of_doubt(const SectionUnknowns& unknowns, const MeasuredSection& section) {
+  if (is_most_of(unknowns.bends.stretched_u95, section)) {
+    return "the section may bend more sharply where no camera saw it, so that the girth is "
+           "uncertain: scan the body from there too";
+  }
+  if (is_most_of(unknowns.between_lines.stretched_u95, section)) {
+    return "the section may have edges between the lines that the points stand in, so that the "
+           "girth is uncertain: scan with closer lines, or from more sides";
+  }
+  return "the points are so few or noisy that the girth is uncertain";
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
                                      const SectionEvidence& evidence, double unexplained,
                                      const SectionUnknowns& unknowns,
                                      const MeasuredSection& section) {
-  const auto& [bends, layers, skin, folds, edge] = unknowns;
+  const UnfollowedSkin& skin = unknowns.skin;
+  const auto& layers = unknowns.layers;
   std::vector<std::string> warnings;
   const auto warn_if = [&](bool so, const char* warning) {
     if (so) warnings.emplace_back(warning);
@@ -74,7 +87,7 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
     warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) warnings.push_back(warning_of(*layers, band.unit_mm));
-  warn_if(folds > 0.0,
+  warn_if(unknowns.folds > 0.0,
           "the section is folded, by noise or by ribs too fine for it: the contact length is "
           "uncertain; scan again, with more or better frames");
   const bool scattered = !layers && band.shown_sigma > kNotableNoise * band.usual_share;
@@ -85,15 +98,12 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
           band.sigma > kNotableNoise * band.usual_share,
       "so much noise is told of the points that what is skin may be smoothed away: they scatter "
       "far less; leave --sigma-mm out, or give a smaller one");
-  const bool out_of_sight = is_most_of(bends.stretched_u95, section);
   // Of a folded one the contact length was warned of.
-  const double doubt =
-      folds > 0.0 ? section.stretched_u95 : std::max(section.stretched_u95, section.contact_u95);
+  const double doubt = unknowns.folds > 0.0 ? section.stretched_u95
+                                            : std::max(section.stretched_u95, section.contact_u95);
   warn_if(!is_most_of(skin.stretched, section) &&
               doubt > kNotableDoubt * loops.front().contour.length(),
-          out_of_sight ? "the section may bend more sharply where no camera saw it, so that the "
-                         "girth is uncertain: scan the body from there too"
-                       : "the points are so few or noisy that the girth is uncertain");
+          reason_of_doubt(unknowns, section));
   return warnings;
 }
 

@@ -28,4 +28,8 @@ struct UnseenBends {
 /// back.
 UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& ways, double near);
 
+/// By how much a stretch that turns by `turn` may be longer if it is a corner in place of an arc,
+/// against its length and beyond what one with an `ordinary` turn may be; both in radians, above 0.
+double longer_by_corner(double turn, double ordinary);
+
 }  // namespace instep

@@ -1,0 +1,134 @@
+#include "core/girth/bends_between_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "core/geometry/plane_vectors.h"
+#include "core/girth/contour_course.h"
+#include "core/surface/point_lines.h"
+
+namespace instep {
+namespace {
+
+/// Between lines no point is nearer than this part of the spacing, and lines are so many spacings
+/// apart at least: points at random seldom leave strips as wide.
+constexpr double kOffPoints = 0.5;
+constexpr double kLinesApart = 1.2;
+/// Sine of the angle between contour and lines, below which it runs along them.
+constexpr double kAcross = 0.5;
+/// A turn that a smooth skin may make between two lines (radians).
+constexpr double kSmoothTurn = 0.2;
+/// From corner to corner of a contour: where it is smooth it is traced in smaller steps.
+constexpr double kTurnOfEdge = 0.25;
+/// Part of what an edge may add that is half of a 95 % interval. An edge shows in two to four
+/// stretches, the one it is in and those beside. Of 217 bodies of 24 kinds in columns 53 % held
+/// without this and 87 % do; of points otherwise 83 %, for half of these have edges.
+constexpr double kLikely = 0.7;
+/// Stretches as wide as the one that is looked at which have to be left of the contour.
+constexpr double kFewestStretches = 7.0;
+
+/// A stretch of the contour without points.
+struct Stretch {
+  std::size_t corner;  ///< its middle, the furthest from all points
+  double middle;       ///< the way to it
+  double length;
+};
+
+/// Those whose middle is further off than that.
+std::vector<Stretch> stretches_off_points(const Contour& contour, const BlendedSurface& surface,
+                                          const ContourCourse& course, double least_off) {
+  std::vector<Stretch> stretches;
+  bool within = false;
+  for (std::size_t i = 0; i < contour.points.size(); ++i) {
+    const auto& point = contour.points[i];
+    const double off = surface.distance_to_data({point.x(), point.y(), 0.0});
+    const Stretch here{i, course.way_to(i), 2.0 * off};
+    if (off <= least_off) {
+      within = false;
+    } else if (!within) {
+      stretches.push_back(here);
+      within = true;
+    } else if (here.length > stretches.back().length) {
+      stretches.back() = here;
+    }
+  }
+  return stretches;
+}
+
+struct Turns {
+  double all;        ///< from two stretches before to two behind
+  double otherwise;  ///< at the ends of the stretch in the middle, than at the other two
+};
+
+Turns turns_round(const ContourCourse& course, const Stretch& stretch) {
+  std::array<Eigen::Vector2d, 6> places;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double stretches = static_cast<double>(i) - 2.5;
+    places[i] = course.place_at(stretch.middle + stretches * stretch.length);
+  }
+  const auto turn_at = [&](std::size_t i) {
+    return turn_between(places[i] - places[i - 1], places[i + 1] - places[i]);
+  };
+  const double there = turn_at(2) + turn_at(3);
+  const double beside = turn_at(1) + turn_at(4);
+  return {there + beside, std::abs(there - beside)};
+}
+
+/// Whether the surface has an edge there already, of whose doubt its patch tells.
+bool has_edge(const Contour& contour, const ContourCourse& course, const Stretch& stretch) {
+  for (std::size_t i = 0; i < contour.points.size(); ++i) {
+    const double off = std::remainder(course.way_to(i) - stretch.middle, course.length());
+    if (std::abs(off) > 0.5 * stretch.length) continue;
+    const std::size_t next = (i + 1) % contour.points.size();
+    const double turn = turn_between(contour.outward[i], contour.outward[next]);
+    if (std::abs(turn) > kTurnOfEdge) return true;
+  }
+  return false;
+}
+
+/// From line to line, along the contour; 0 if the points round a corner of it lie on none.
+double way_between_lines(const Contour& contour, std::size_t corner,
+                         const BlendedSurface& surface) {
+  const auto& point = contour.points[corner];
+  const Eigen::Vector3d here(point.x(), point.y(), 0.0);
+  const SurfacePatch* patch = surface.leading_patch(here);
+  if (patch == nullptr) return 0.0;
+  std::vector<Eigen::Vector3d> arms;
+  arms.reserve(patch->members.size());
+  for (const auto i : patch->members) {
+    arms.push_back(surface.points()[i].position - patch->centre);
+  }
+  const PointLines lines = lines_among(arms, patch->at(here).gradient.normalized(), patch->radius);
+  const double spacing =
+      patch->radius * std::sqrt(std::numbers::pi / static_cast<double>(arms.size()));
+  if (lines.apart < kLinesApart * spacing) return 0.0;
+  const double across = std::abs(cross(contour.outward[corner], lines.across.head<2>()));
+  return across < kAcross ? 0.0 : lines.apart / across;
+}
+
+}  // namespace
+
+UnseenBends bends_between_lines(const Contour& contour, const BlendedSurface& surface,
+                                double spacing) {
+  const ContourCourse course(contour);
+  UnseenBends sum;
+  for (auto stretch : stretches_off_points(contour, surface, course, kOffPoints * spacing)) {
+    if (kFewestStretches * stretch.length > course.length()) continue;
+    if (turns_round(course, stretch).otherwise < kSmoothTurn) continue;
+    const double apart = way_between_lines(contour, stretch.corner, surface);
+    if (apart == 0.0) continue;
+    stretch.length = std::max(stretch.length, apart);
+    if (has_edge(contour, course, stretch)) continue;
+    const Turns turns = turns_round(course, stretch);
+    const double longer = kLikely * stretch.length * longer_by_corner(turns.otherwise, kSmoothTurn);
+    sum.contact_u95 += longer;
+    if (turns.all > 0.0) sum.stretched_u95 += longer;
+  }
+  return sum;
+}
+
+}  // namespace instep

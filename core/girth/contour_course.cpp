@@ -1,0 +1,36 @@
+#include "core/girth/contour_course.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/plane_vectors.h"
+
+namespace instep {
+
+ContourCourse::ContourCourse(const Contour& contour) : contour_(contour) {
+  for (std::size_t i = 0; i < contour.points.size(); ++i) {
+    const std::size_t next = (i + 1) % contour.points.size();
+    ways_.push_back(ways_.back() + (contour.points[next] - contour.points[i]).norm());
+    turns_.push_back(turns_.back() + turn_between(contour.outward[i], contour.outward[next]));
+  }
+}
+
+ContourCourse::Station ContourCourse::station_at(double way) const {
+  const auto after = std::upper_bound(ways_.begin(), ways_.end() - 1, way);
+  const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - ways_.begin(), 1));
+  const double step = ways_[i] - ways_[i - 1];
+  return {i - 1, step > 0.0 ? (way - ways_[i - 1]) / step : 0.0};
+}
+
+double ContourCourse::turn_at(double way) const {
+  const auto [corner, part] = station_at(way);
+  return turns_[corner] + part * (turns_[corner + 1] - turns_[corner]);
+}
+
+Eigen::Vector2d ContourCourse::place_at(double way) const {
+  const auto [corner, part] = station_at(way - length() * std::floor(way / length()));
+  const auto& points = contour_.points;
+  return (1.0 - part) * points[corner] + part * points[(corner + 1) % points.size()];
+}
+
+}  // namespace instep

@@ -1,0 +1,152 @@
+#include "core/girth/bends_between_lines.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/polygon.h"
+#include "core/girth/girth.h"
+#include "core/girth/plane_band.h"
+#include "core/girth/plane_slab.h"
+#include "core/girth/section_loops.h"
+#include "tests/support/cylinder_tape.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Corners = std::vector<Eigen::Vector2d>;
+
+Corners many_sided(int sides, double along, double across) {
+  Corners corners;
+  for (int i = 0; i < sides; ++i) {
+    const double turn = 2.0 * std::numbers::pi * (i + 0.5) / sides;
+    corners.emplace_back(along * std::cos(turn), across * std::sin(turn));
+  }
+  return corners;
+}
+
+const Corners& box() {
+  static const Corners corners = {{-30, -20}, {30, -20}, {30, 20}, {-30, 20}};
+  return corners;
+}
+
+/// On the way round so many corners.
+Eigen::Vector2d place_on(const Corners& corners, double way) {
+  for (std::size_t i = 0;; i = (i + 1) % corners.size()) {
+    const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
+    if (way < side.norm()) return corners[i] + way * side.normalized();
+    way -= side.norm();
+  }
+}
+
+/// Along a body with that section stand columns of points, `step` apart on each, none beside
+/// another.
+PointCloud in_columns(const Corners& corners, int columns, double step, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  PointCloud cloud;
+  const double begin = random.uniform();
+  for (int column = 0; column < columns; ++column) {
+    const auto place = place_on(corners, (column + begin) * perimeter(corners) / columns);
+    for (double height = random.uniform(0.0, step) - 25.0; height < 25.0; height += step) {
+      cloud.positions.emplace_back(place.x(), place.y(), height);
+    }
+  }
+  return cloud;
+}
+
+PointCloud at_random(const Corners& corners, int count, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  PointCloud cloud;
+  for (int i = 0; i < count; ++i) {
+    const auto place = place_on(corners, random.uniform(0.0, perimeter(corners)));
+    cloud.positions.emplace_back(place.x(), place.y(), random.uniform(-25.0, 25.0));
+  }
+  return cloud;
+}
+
+/// Level rings, none of whose points stands over another.
+PointCloud in_rings(const Corners& corners, int rings, double step, std::uint64_t seed) {
+  test::RandomNumbers random(seed);
+  PointCloud cloud;
+  for (int ring = 0; ring < rings; ++ring) {
+    const double height = 50.0 * (ring + 0.5) / rings - 25.0;
+    for (double way = random.uniform(0.0, step); way < perimeter(corners); way += step) {
+      const auto place = place_on(corners, way);
+      cloud.positions.emplace_back(place.x(), place.y(), height);
+    }
+  }
+  return cloud;
+}
+
+/// Of the section of a cloud at the level plane, in its unit.
+UnseenBends bends_of(const PointCloud& cloud) {
+  SlabSource slabs(cloud, test::level_plane());
+  auto band = band_at(slabs, std::nullopt).value();
+  BlendedSurface surface(PatchFitter(band.points, std::move(band.index), band.roughness));
+  const auto loops = loops_on(band, surface);
+  return bends_between_lines(loops.front().contour, surface, band.spacing);
+}
+
+TEST(BendsBetweenLines, AreThoseOfABoxInColumns) {
+  const auto bends = bends_of(in_columns(box(), 60, 0.8, 1));
+  EXPECT_GT(bends.contact_u95, 0.01);
+  EXPECT_GT(bends.stretched_u95, 0.01);
+  EXPECT_LE(bends.stretched_u95, bends.contact_u95);
+}
+
+TEST(BendsBetweenLines, AreNoneOfRoundBodies) {
+  EXPECT_EQ(bends_of(in_columns(many_sided(720, 35, 25), 60, 0.8, 1)).contact_u95, 0.0);
+}
+
+TEST(BendsBetweenLines, AreNoneOfPointsAtRandomOrInLinesAlongTheContour) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    EXPECT_EQ(bends_of(at_random(box(), 4000, seed)).contact_u95, 0.0) << seed;
+    EXPECT_EQ(bends_of(in_rings(box(), 15, 0.8, seed)).contact_u95, 0.0) << seed;
+  }
+}
+
+/// Columns four times as far apart as their points: 60 round the body.
+int held_in_columns(const Corners& corners) {
+  const double step = perimeter(corners) / 60 / 4;
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const auto girth = girth_by_rbf(in_columns(corners, 60, step, seed), test::level_plane());
+    if (!girth) continue;
+    const double error = std::abs(girth->stretched_mm - perimeter(corners));
+    held += error <= *girth->stretched_u95_mm;
+  }
+  return held;
+}
+
+// Measured, of 12 each: 8, 12 and 9 (one refused), and without these bends 0, 0 and 2: boxes are
+// 2.1 mm too short by an interval of 0.03.
+TEST(BendsBetweenLines, LetIntervalsOfPrismsHold) {
+  EXPECT_GE(held_in_columns(box()), 7);
+  EXPECT_GE(held_in_columns(many_sided(7, 30, 25)), 10);
+  EXPECT_GE(held_in_columns(many_sided(3, 30, 25)), 7);
+}
+
+TEST(BendsBetweenLines, LeaveTheIntervalsOfRoundBodiesNarrow) {
+  const auto corners = many_sided(720, 35, 25);
+  const auto girth = girth_by_rbf(in_columns(corners, 60, 0.8, 1), test::level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->stretched_mm, perimeter(corners), 0.005);
+  EXPECT_LT(*girth->stretched_u95_mm, 0.01);
+}
+
+TEST(BendsBetweenLines, AreNamedByTheGirth) {
+  const auto girth = girth_by_rbf(in_columns(box(), 30, 1.7, 1), test::level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  const std::string said = fmt::format("{}", fmt::join(girth->warnings, "; "));
+  EXPECT_NE(said.find("edges between the lines"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace instep
