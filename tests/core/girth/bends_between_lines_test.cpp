@@ -16,44 +16,29 @@
 #include "core/girth/plane_slab.h"
 #include "core/girth/section_loops.h"
 #include "tests/support/cylinder_tape.h"
+#include "tests/support/prism_points.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
 namespace {
 
-using Corners = std::vector<Eigen::Vector2d>;
+using test::many_sided;
+using test::place_round;
+using test::PrismCorners;
 
-Corners many_sided(int sides, double along, double across) {
-  Corners corners;
-  for (int i = 0; i < sides; ++i) {
-    const double turn = 2.0 * std::numbers::pi * (i + 0.5) / sides;
-    corners.emplace_back(along * std::cos(turn), across * std::sin(turn));
-  }
+const PrismCorners& box() {
+  static const PrismCorners corners = {{-30, -20}, {30, -20}, {30, 20}, {-30, 20}};
   return corners;
-}
-
-const Corners& box() {
-  static const Corners corners = {{-30, -20}, {30, -20}, {30, 20}, {-30, 20}};
-  return corners;
-}
-
-/// On the way round so many corners.
-Eigen::Vector2d place_on(const Corners& corners, double way) {
-  for (std::size_t i = 0;; i = (i + 1) % corners.size()) {
-    const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
-    if (way < side.norm()) return corners[i] + way * side.normalized();
-    way -= side.norm();
-  }
 }
 
 /// Along a body with that section stand columns of points, `step` apart on each, none beside
 /// another.
-PointCloud in_columns(const Corners& corners, int columns, double step, std::uint64_t seed) {
+PointCloud in_columns(const PrismCorners& corners, int columns, double step, std::uint64_t seed) {
   test::RandomNumbers random(seed);
   PointCloud cloud;
   const double begin = random.uniform();
   for (int column = 0; column < columns; ++column) {
-    const auto place = place_on(corners, (column + begin) * perimeter(corners) / columns);
+    const auto place = place_round(corners, (column + begin) * perimeter(corners) / columns);
     for (double height = random.uniform(0.0, step) - 25.0; height < 25.0; height += step) {
       cloud.positions.emplace_back(place.x(), place.y(), height);
     }
@@ -61,24 +46,14 @@ PointCloud in_columns(const Corners& corners, int columns, double step, std::uin
   return cloud;
 }
 
-PointCloud at_random(const Corners& corners, int count, std::uint64_t seed) {
-  test::RandomNumbers random(seed);
-  PointCloud cloud;
-  for (int i = 0; i < count; ++i) {
-    const auto place = place_on(corners, random.uniform(0.0, perimeter(corners)));
-    cloud.positions.emplace_back(place.x(), place.y(), random.uniform(-25.0, 25.0));
-  }
-  return cloud;
-}
-
 /// Level rings, none of whose points stands over another.
-PointCloud in_rings(const Corners& corners, int rings, double step, std::uint64_t seed) {
+PointCloud in_rings(const PrismCorners& corners, int rings, double step, std::uint64_t seed) {
   test::RandomNumbers random(seed);
   PointCloud cloud;
   for (int ring = 0; ring < rings; ++ring) {
     const double height = 50.0 * (ring + 0.5) / rings - 25.0;
     for (double way = random.uniform(0.0, step); way < perimeter(corners); way += step) {
-      const auto place = place_on(corners, way);
+      const auto place = place_round(corners, way);
       cloud.positions.emplace_back(place.x(), place.y(), height);
     }
   }
@@ -107,13 +82,13 @@ TEST(BendsBetweenLines, AreNoneOfRoundBodies) {
 
 TEST(BendsBetweenLines, AreNoneOfPointsAtRandomOrInLinesAlongTheContour) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    EXPECT_EQ(bends_of(at_random(box(), 4000, seed)).contact_u95, 0.0) << seed;
+    EXPECT_EQ(bends_of(test::prism_points(box(), 4000, seed)).contact_u95, 0.0) << seed;
     EXPECT_EQ(bends_of(in_rings(box(), 15, 0.8, seed)).contact_u95, 0.0) << seed;
   }
 }
 
 /// Columns four times as far apart as their points: 60 round the body.
-int held_in_columns(const Corners& corners) {
+int held_in_columns(const PrismCorners& corners) {
   const double step = perimeter(corners) / 60 / 4;
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
