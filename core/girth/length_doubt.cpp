@@ -16,7 +16,7 @@ namespace {
 /// How much unseen waves count against all else, so that intervals hold: between exact points, and
 /// where noise hides them.
 constexpr double kUnseenWaves = 1.25;
-constexpr double kUnseenUnderNoise = 1.2;
+constexpr double kUnseenUnderNoise = 1.1;
 /// How many of the unseen waves there are, by the middle of scanned feet and lasts, where all the
 /// bending of exact points is at their own scale.
 constexpr double kLikelyWaves = 1.6;
@@ -176,9 +176,7 @@ double coherent_variance(const Stretch& stretch, const std::vector<double>& shar
 }
 
 /// Of a length over the creases that the contour crosses: those of which both sheets have a
-/// stretch. They add up, since a body has round edges or sharp ones: of boxes of 2,000 points whose
-/// edges are round by a quarter of their spacing 13 of 24 hold, and 2 would if they were
-/// independent.
+/// stretch. They add up, since a body has round edges or sharp ones.
 double rounding_variance(const std::vector<Stretch>& stretches) {
   double sum = 0.0;
   for (auto here = stretches.begin(); here != stretches.end(); ++here) {

@@ -51,18 +51,25 @@ Told on_box(double part) {
   return told;
 }
 
-// Measured: 0.73 mm too long, for what is round within a spacing passes for sharp. 13 hold; 2 did
-// when the doubt of each edge was independent of that of the others.
-TEST(RoundedEdges, ThatPassForSharpOnesAreWithinTheIntervalOfAboutHalf) {
-  EXPECT_GE(on_box(0.25).held, 9);
+// What is round within a spacing passes for sharp. Measured: 0.56 to 0.90 mm too long, by intervals
+// of 0.7 to 1.2; by the radius 9, 17, 20 and 23 hold.
+TEST(RoundedEdges, ThatPassForSharpOnesAreMostlyWithinTheInterval) {
+  int held = 0;
+  for (const double part : {0.25, 0.5, 0.75, 1.0}) {
+    const Told told = on_box(part);
+    EXPECT_GE(told.held, 6) << part;
+    EXPECT_LT(told.mean_half_width, 1.6) << part;
+    held += told.held;
+  }
+  EXPECT_GE(held, 60);
 }
 
-// Measured: 0.09 mm too long, by an interval of 0.81.
+// Measured: 0.09 mm too long, by an interval of 0.35.
 TEST(RoundedEdges, LeaveSharpOnesATellingInterval) {
   const Told told = on_box(0.01);
   EXPECT_EQ(told.held, 24);
   EXPECT_LT(told.mean_error, 0.15);
-  EXPECT_LT(told.mean_half_width, 1.0);
+  EXPECT_LT(told.mean_half_width, 0.5);
 }
 
 // Measured: 0.005 mm off by an interval of 0.12; 21 hold.
