@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -60,13 +61,27 @@ PointCloud in_rings(const PrismCorners& corners, int rings, double step, std::ui
   return cloud;
 }
 
-/// Of the section of a cloud at the level plane, in its unit.
+/// The section of a cloud at the level plane, in its unit.
+struct Section {
+  explicit Section(const PointCloud& cloud) : Section(band_of(cloud)) {}
+  explicit Section(PlaneBand band)
+      : spacing(band.spacing),
+        surface(PatchFitter(band.points, std::move(band.index), band.roughness)),
+        contour(loops_on(band, surface).front().contour) {}
+
+  static PlaneBand band_of(const PointCloud& cloud) {
+    SlabSource slabs(cloud, test::level_plane());
+    return band_at(slabs, std::nullopt).value();
+  }
+
+  double spacing;
+  BlendedSurface surface;
+  Contour contour;
+};
+
 UnseenBends bends_of(const PointCloud& cloud) {
-  SlabSource slabs(cloud, test::level_plane());
-  auto band = band_at(slabs, std::nullopt).value();
-  BlendedSurface surface(PatchFitter(band.points, std::move(band.index), band.roughness));
-  const auto loops = loops_on(band, surface);
-  return bends_between_lines(loops.front().contour, surface, band.spacing);
+  const Section section(cloud);
+  return bends_between_lines(section.contour, section.surface, section.spacing);
 }
 
 TEST(BendsBetweenLines, AreThoseOfABoxInColumns) {
@@ -74,6 +89,18 @@ TEST(BendsBetweenLines, AreThoseOfABoxInColumns) {
   EXPECT_GT(bends.contact_u95, 0.01);
   EXPECT_GT(bends.stretched_u95, 0.01);
   EXPECT_LE(bends.stretched_u95, bends.contact_u95);
+}
+
+TEST(BendsBetweenLines, AreTheSameWhereverTheContourBegins) {
+  Section section(in_columns(box(), 60, 0.8, 1));
+  auto& [points, outward] = section.contour;
+  const auto bends = bends_between_lines(section.contour, section.surface, section.spacing);
+  for (int i = 0; i < 40; ++i) {
+    std::rotate(points.begin(), points.begin() + 7, points.end());
+    std::rotate(outward.begin(), outward.begin() + 7, outward.end());
+    const auto same = bends_between_lines(section.contour, section.surface, section.spacing);
+    EXPECT_NEAR(same.contact_u95, bends.contact_u95, 1e-12) << i;
+  }
 }
 
 TEST(BendsBetweenLines, AreNoneOfRoundBodies) {
