@@ -78,7 +78,8 @@ std::optional<SectionProbe> probe_of(SlabSource& slabs, double half_width, doubl
     found.stray_share = 1.0 - static_cast<double>(slab.places.size()) / all;
   }
   const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
-  if (half_width < spacing || !(unit > 0.0)) return std::nullopt;
+  // What is narrower than its points are apart is a line or a speck.
+  if (half_width < spacing || !(spacing < unit)) return std::nullopt;
   found.spacing = spacing / unit;
   return found;
 }

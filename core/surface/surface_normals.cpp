@@ -185,7 +185,7 @@ std::vector<std::size_t> CellNormals::orient_part(std::size_t root,
     for (const auto next : links) {
       // Rounding could leave less than none.
       const double size = std::max(1.0 - std::abs(normals_[bend.to].dot(normals_[next])), 0.0);
-      if (size >= least_bends[next]) continue;
+      if (!(size < least_bends[next])) continue;
       least_bends[next] = size < kHardlyABend ? 0.0 : size;
       if (size < kHardlyABend) {
         flat.push_back({size, bend.to, next});

@@ -288,6 +288,10 @@ std::vector<HostileCase> unmeasurable_clouds() {
        [] {
          return line({0.6, 0, 0.8}, 1e-6);
        }},
+      {"CollinearButForRounding",
+       [] {
+         return line({0, 0, 1}, 3e-11);
+       }},
       {"CoplanarAcross",
        [=] {
          return scattered(3000, {50, 0, 50}, middle);

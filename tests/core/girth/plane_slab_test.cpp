@@ -28,14 +28,6 @@ TEST(PlaneSlab, HoldsEachPlaceOnceInAnOrderOfItsOwn) {
   EXPECT_EQ(once.places.size(), near);
 }
 
-/// Which are sought in cells of no size where the control points lie far from a tiny body.
-TEST(PlaneSlab, PilesAreNoSmallerThanTheRounding) {
-  const PointCloud cloud = test::cylinder(3000);
-  SlabSource source(cloud, level_plane());
-  source.level_piles(0.1 * rounding_step(level_plane()), 3.0);
-  EXPECT_EQ(source.slab(3.0).places, slab_of(cloud, level_plane(), 3.0).places);
-}
-
 TEST(PlaneSlab, SourceGivesTheSameSlabsWhateverWasAskedForBefore) {
   const PointCloud cloud = test::cylinder(3000);
   SlabSource source(cloud, level_plane());
