@@ -53,13 +53,15 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
   const auto& [bends, between_lines, layers, skin, folds, edge] = unknowns;
-  const auto all = [&](double told, double bend, double of_lines) {
+  const auto half_width_of = [&](double told, double bend, double of_lines) {
     return std::hypot(std::hypot(distrust * told, bend, edge), of_lines) + reach;
   };
   section.contact_u95 =
-      all(section.contact_u95, bends.contact_u95, between_lines.contact_u95) + skin.contact + folds;
+      half_width_of(section.contact_u95, bends.contact_u95, between_lines.contact_u95) +
+      skin.contact + folds;
   section.stretched_u95 =
-      all(section.stretched_u95, bends.stretched_u95, between_lines.stretched_u95) + skin.stretched;
+      half_width_of(section.stretched_u95, bends.stretched_u95, between_lines.stretched_u95) +
+      skin.stretched;
 }
 
 }  // namespace instep

@@ -16,8 +16,8 @@ namespace instep {
 
 /// What the fitted surface does not know of a section. All in the band's unit.
 struct SectionUnknowns {
-  UnseenBends bends;          ///< out of sight
-  UnseenBends between_lines;  ///< of points
+  UnseenBends bends;          ///< where there are no points
+  UnseenBends between_lines;  ///< that points stand in
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length

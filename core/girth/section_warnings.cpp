@@ -56,7 +56,9 @@ const char* reason_of_doubt(const SectionUnknowns& unknowns, const MeasuredSecti
     return "the section may have edges between the lines that the points stand in, so that the "
            "girth is uncertain: scan with closer lines, or from more sides";
   }
-  return "the points are so few or noisy that the girth is uncertain";
+  return "the points are so few or noisy that the girth is uncertain: scan again, with more or "
+         "better "
+         "frames";
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/picked.h"
@@ -57,15 +56,17 @@ constexpr double kBlurred = 1e-3;
 constexpr std::size_t kAskedOneIn = 6;
 /// The most that the others may be off there, squared, against the averages, which know it.
 constexpr double kFiner = 1.2;
-/// Gain of two sheets where there is no smooth one.
-constexpr double kNoOtherSheet = std::numeric_limits<double>::infinity();
-/// An edge may be round where no points lie: part of what a length over it would lose by that, for
-/// a gain in likelihood of one for each point, and within which limits. Of 2,000 points of a box of
-/// sharp edges the gain is 12 to 18 for each, where these are round by a quarter of the spacing 4
-/// to 14, by half of it 2 to 11 and by all 1 to 3. Edges of lasts, whose sheets bend, show 3 to 9.
-constexpr double kRounding = 0.8;
+/// An edge may be round where no points lie: part of what a length over it would lose by that.
+constexpr double kRounding = 0.15;
+/// Of exact points the gain (twice the logarithm of a likelihood, for each point) tells more: of
+/// 2,000 points of a box of sharp edges it is 12 to 18, where these are round by a quarter of the
+/// spacing 4 to 14, by half of it 2 to 11 and by all of it 1 to 3. Edges of lasts, whose sheets
+/// bend, show 3 to 9. The part is as much over it, within limits.
+constexpr double kRoundingOverGain = 0.8;
 constexpr double kLeastRounding = 0.05;
-constexpr double kMostRounding = 0.6;
+constexpr double kMostRounding = 0.5;
+/// Noise of more than this part of the spacing hides how sharp an edge is.
+constexpr double kHidesSharpness = 2e-4;
 
 Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -74,14 +75,17 @@ Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
 }
 
 /// By how much a length over an edge would be shorter if the edge were as round as its gaps allow,
-/// an arc that meets both sheets at their last points, and how likely that is: where they come as
-/// near as their spacing lets them, and two sheets are far likelier than one (`gain`: for each
-/// point), it is sharp.
-double rounding_of(const CreasedPatch& creased, double spacing, double gain) {
+/// an arc that meets both sheets at their last points, times `part`, and how likely that is: where
+/// they come as near as their spacing lets them, it is sharp.
+double rounding_of(const CreasedPatch& creased, double spacing, double part) {
   const double half = 0.5 * creased.turn();
   const double lost = 2.0 * creased.gap() * (1.0 - half / std::tan(half));
-  const double part = std::clamp(kRounding / gain, kLeastRounding, kMostRounding);
   return part * std::min(creased.gap() / spacing, 1.0) * lost;
+}
+
+/// `gain`: for each point.
+double rounding_by_gain(double gain) {
+  return std::clamp(kRoundingOverGain / gain, kLeastRounding, kMostRounding);
 }
 
 /// Whether a crease lies where it meets no point but those of whole lines beside it: a few lines
@@ -161,10 +165,16 @@ std::optional<SurfacePatch> PatchFitter::fit_creased(const Surroundings& surroun
   if (runs_between_lines(*creased, points, place, members, surroundings.spacing))
     return std::nullopt;
   const auto smooth = HeightPatch::fit(points, place, members.outward, members.radius, roughness);
-  const double gain = smooth ? smooth->misfit() - creased->misfit() : kNoOtherSheet;
-  if (gain <= rule.gain_asked(creased->turn())) return std::nullopt;
-  const double rounding =
-      rounding_of(*creased, surroundings.spacing, gain / static_cast<double>(points.size()));
+  double part = kRounding;
+  if (smooth) {
+    const double gain = smooth->misfit() - creased->misfit();
+    if (gain <= rule.gain_asked(creased->turn())) return std::nullopt;
+    const double noise = std::sqrt(surroundings.noise_area) / surroundings.spacing;
+    if (noise < kHidesSharpness * surroundings.spacing) {
+      part = rounding_by_gain(gain / static_cast<double>(points.size()));
+    }
+  }
+  const double rounding = rounding_of(*creased, surroundings.spacing, part);
   return SurfacePatch{place, middle_of(points), members.radius, std::move(*creased), members.all,
                       0.0,   rounding};
 }

@@ -114,25 +114,33 @@ TEST(BendsBetweenLines, AreNoneOfPointsAtRandomOrInLinesAlongTheContour) {
   }
 }
 
-/// Columns four times as far apart as their points: 60 round the body.
-int held_in_columns(const PrismCorners& corners) {
-  const double step = perimeter(corners) / 60 / 4;
+struct Told {
   int held = 0;
+  double mean_half_width = 0.0;
+};
+
+/// Twelve draws of 60 columns, four times as far apart as their points.
+Told told_in_columns(const PrismCorners& corners) {
+  const double step = perimeter(corners) / 60 / 4;
+  Told told;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const auto girth = girth_by_rbf(in_columns(corners, 60, step, seed), test::level_plane());
     if (!girth) continue;
     const double error = std::abs(girth->stretched_mm - perimeter(corners));
-    held += error <= *girth->stretched_u95_mm;
+    told.held += error <= *girth->stretched_u95_mm;
+    told.mean_half_width += *girth->stretched_u95_mm / 12;
   }
-  return held;
+  return told;
 }
 
-// Measured, of 12 each: 8, 12 and 9 (one refused), and without these bends 0, 0 and 2: boxes are
-// 2.1 mm too short by an interval of 0.03.
+// Measured, of 12 each: 8, 12 and 9 hold (one refused), and without these bends 0, 0 and 2: boxes
+// are 2.1 mm too short, by an interval of 4.0 in place of 0.03.
 TEST(BendsBetweenLines, LetIntervalsOfPrismsHold) {
-  EXPECT_GE(held_in_columns(box()), 7);
-  EXPECT_GE(held_in_columns(many_sided(7, 30, 25)), 10);
-  EXPECT_GE(held_in_columns(many_sided(3, 30, 25)), 7);
+  const Told of_box = told_in_columns(box());
+  EXPECT_GE(of_box.held, 6);
+  EXPECT_LT(of_box.mean_half_width, 5.0);
+  EXPECT_GE(told_in_columns(many_sided(7, 30, 25)).held, 10);
+  EXPECT_GE(told_in_columns(many_sided(3, 30, 25)).held, 6);
 }
 
 TEST(BendsBetweenLines, LeaveTheIntervalsOfRoundBodiesNarrow) {
@@ -141,6 +149,18 @@ TEST(BendsBetweenLines, LeaveTheIntervalsOfRoundBodiesNarrow) {
   ASSERT_TRUE(girth) << girth.error().line();
   EXPECT_NEAR(girth->stretched_mm, perimeter(corners), 0.005);
   EXPECT_LT(*girth->stretched_u95_mm, 0.01);
+}
+
+// Measured: 0.4 and 0.7 mm short, by an interval of 10: of 36 columns none knows a lobe from edges.
+TEST(BendsBetweenLines, RefuseNoLobedBody) {
+  PrismCorners lobed = many_sided(720, 35, 35);
+  for (auto& corner : lobed)
+    corner *= 1.0 + 0.1 * std::cos(8.0 * std::atan2(corner.y(), corner.x()));
+  const auto girth =
+      girth_by_rbf(in_columns(lobed, 36, perimeter(lobed) / 36 / 4, 1), test::level_plane());
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, perimeter(lobed), *girth->contact_u95_mm);
+  EXPECT_LT(*girth->contact_u95_mm, 0.045 * perimeter(lobed));
 }
 
 TEST(BendsBetweenLines, AreNamedByTheGirth) {
