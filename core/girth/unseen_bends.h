@@ -7,7 +7,8 @@
 namespace instep {
 
 /// Half-widths of 95 % intervals for what the lengths of a section may be where it bends sharply
-/// and no point shows it, as out of sight round the rim of a last or the edge of a sole; in the unit of the contour.
+/// and no point shows it, as out of sight round the rim of a last or the edge of a sole; in the
+/// unit of the contour.
 struct UnseenBends {
   double contact_u95 = 0.0;
   double stretched_u95 = 0.0;  ///< a tape bridges inward bends, seen or not
