@@ -52,7 +52,7 @@ Told on_box(double part) {
 }
 
 // What is round within a spacing passes for sharp. Measured: 0.56 to 0.90 mm too long, by intervals
-// of 0.7 to 1.2; by the radius 9, 17, 20 and 23 hold.
+// of 0.7 to 1.2; by the radius 9, 17, 20 and 21 hold.
 TEST(RoundedEdges, ThatPassForSharpOnesAreMostlyWithinTheInterval) {
   int held = 0;
   for (const double part : {0.25, 0.5, 0.75, 1.0}) {
