@@ -10,7 +10,7 @@
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/cylinder_tape.h"
-#include "tests/support/random_numbers.h"
+#include "tests/support/prism_points.h"
 
 namespace instep {
 namespace {
@@ -108,31 +108,14 @@ TEST(LengthDoubt, GrowsWithFewerPoints) {
   EXPECT_GT(doubt_mm(500, 0.0), doubt_mm(5000, 0.0));
 }
 
-/// Points at random on a round prism of so many sides, its corners on a circle of 40 mm.
-PointCloud prism(int sides, std::size_t count, std::uint64_t seed) {
-  test::RandomNumbers random(seed);
-  PointCloud cloud;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double step = 2.0 * std::numbers::pi / sides;
-    const double from = step * static_cast<double>(random.below(static_cast<std::size_t>(sides)));
-    const double share = random.uniform();
-    const auto corner = [](double angle) {
-      return Eigen::Vector3d(40.0 * std::cos(angle), 40.0 * std::sin(angle), 0.0);
-    };
-    const Eigen::Vector3d place = (1.0 - share) * corner(from) + share * corner(from + step);
-    cloud.positions.emplace_back(place.x(), place.y(), random.uniform(-30.0, 30.0));
-  }
-  return cloud;
-}
-
 TEST(LengthDoubt, AddsSomeOfWhatASmoothSurfaceCutsOffEdges) {
   constexpr int kSides = 40;
-  const double truth = 2.0 * kSides * 40.0 * std::sin(std::numbers::pi / kSides);
+  const auto corners = test::many_sided(kSides, 40.0, 40.0);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const Girth girth = girth_of(prism(kSides, 2500, seed));
+    const Girth girth = girth_of(test::prism_points(corners, 2500, seed));
     const double drawn = perimeter(girth.contour);
     EXPECT_LT(drawn, girth.contact_mm);
-    EXPECT_LT(girth.contact_mm, truth + 0.05);
+    EXPECT_LT(girth.contact_mm, perimeter(corners) + 0.05);
   }
 }
 
