@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
