@@ -52,16 +52,15 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   // What scatters in a part may be ribs, or two layers and the skin either of them.
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  const auto& [bends, between_lines, layers, skin, folds, edge] = unknowns;
-  const auto half_width_of = [&](double told, double bend, double of_lines) {
-    return std::hypot(std::hypot(distrust * told, bend, edge), of_lines) + reach;
+  const auto with_bends = [&](double told, double bends, double between_lines) {
+    return std::hypot(std::hypot(distrust * told, bends, unknowns.edge), between_lines) + reach;
   };
-  section.contact_u95 =
-      half_width_of(section.contact_u95, bends.contact_u95, between_lines.contact_u95) +
-      skin.contact + folds;
-  section.stretched_u95 =
-      half_width_of(section.stretched_u95, bends.stretched_u95, between_lines.stretched_u95) +
-      skin.stretched;
+  section.contact_u95 = with_bends(section.contact_u95, unknowns.bends.contact_u95,
+                                   unknowns.between_lines.contact_u95) +
+                        unknowns.skin.contact + unknowns.folds;
+  section.stretched_u95 = with_bends(section.stretched_u95, unknowns.bends.stretched_u95,
+                                     unknowns.between_lines.stretched_u95) +
+                          unknowns.skin.stretched;
 }
 
 }  // namespace instep
