@@ -13,8 +13,7 @@ namespace instep {
 /// the like ones before and behind do, it is likely to be: what an edge that turns by the
 /// difference is longer than an arc is the doubt, as far as it is more than that of 11 degrees. It
 /// adds up over the section, since most bodies have several edges or none, up to a part of its
-/// length. Nothing where points lie evenly
-/// all round, or where the surface has an edge already.
+/// length. Nothing where points lie evenly all round, or where the surface has an edge already.
 ///
 /// Lengths in the unit of the contour; `spacing`: of the points. O(corners log points), and as many
 /// corners and points of a patch for each stretch that turns so.
