@@ -15,7 +15,8 @@ namespace instep {
 namespace {
 
 /// Between lines no point is nearer than this part of the spacing, and lines are so many spacings
-/// apart at least: points at random seldom leave strips as wide.
+/// apart at least: points at random seldom leave strips as wide. Patches across lines ask for more,
+/// as a wrong one costs more than a doubt.
 constexpr double kOffPoints = 0.5;
 constexpr double kLinesApart = 1.2;
 /// Sine of the angle between contour and lines, below which it runs along them.
