@@ -239,7 +239,7 @@ std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePl
   const double sigma = std::max(band.sigma, most_scatter(band.scattered));
   const double side =
       std::min(std::max(grains * band.grain, kNormalCellInSigmas * sigma), kLargestNormalCell);
-  CellNormals cells(band.index.points(), band.index, side, kFewestNormalPoints);
+  CellNormals cells(band.index.points(), band.index, side, sigma, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
   std::vector<Eigen::Vector3d> normals = cells.of_points();
   if (cloud.view_directions.empty()) return normals;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/girth/bends_between_lines.h"
+#include "core/girth/bends_in_space.h"
 #include "core/girth/cloud_edge.h"
 #include "core/girth/contour_turns.h"
 
@@ -37,6 +38,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
                             double near) {
   SectionUnknowns unknowns{unseen_bends_of(section, evidence.ways, near),
                            bends_between_lines(section, surface, band.spacing),
+                           bends_in_space(section, surface, band.spacing),
                            layers_near_plane(band, surface, near),
                            {},
                            folds_by_noise(band, section),
@@ -52,15 +54,16 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   // What scatters in a part may be ribs, or two layers and the skin either of them.
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  const auto with_bends = [&](double told, double bends, double between_lines) {
-    return std::hypot(std::hypot(distrust * told, bends, unknowns.edge), between_lines) + reach;
+  const auto with_bends = [&](double told, double UnseenBends::*length) {
+    const double seen = std::hypot(distrust * told, unknowns.edge);
+    return std::hypot(seen, unknowns.bends.*length,
+                      std::hypot(unknowns.between_lines.*length, unknowns.in_space.*length)) +
+           reach;
   };
-  section.contact_u95 = with_bends(section.contact_u95, unknowns.bends.contact_u95,
-                                   unknowns.between_lines.contact_u95) +
+  section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +
                         unknowns.skin.contact + unknowns.folds;
-  section.stretched_u95 = with_bends(section.stretched_u95, unknowns.bends.stretched_u95,
-                                     unknowns.between_lines.stretched_u95) +
-                          unknowns.skin.stretched;
+  section.stretched_u95 =
+      with_bends(section.stretched_u95, &UnseenBends::stretched_u95) + unknowns.skin.stretched;
 }
 
 }  // namespace instep

@@ -18,6 +18,7 @@ namespace instep {
 struct SectionUnknowns {
   UnseenBends bends;          ///< where there are no points
   UnseenBends between_lines;  ///< that points stand in
+  UnseenBends in_space;       ///< at the tips of thin parts
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <vector>
 
 #include "core/girth/contour_trace.h"
@@ -31,6 +32,7 @@ UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& w
 
 /// By how much a stretch that turns by `turn` may be longer if it is a corner in place of an arc,
 /// against its length and beyond what one with an `ordinary` turn may be; both in radians, above 0.
-double longer_by_corner(double turn, double ordinary);
+/// As if it turned by `sharpest` at most, less than half a turn.
+double longer_by_corner(double turn, double ordinary, double sharpest = 0.6 * std::numbers::pi);
 
 }  // namespace instep

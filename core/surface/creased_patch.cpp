@@ -196,6 +196,7 @@ std::optional<CreasedPatch> CreasedPatch::fit(const std::vector<OrientedPoint>& 
                      {std::move(*second), std::move(members[1])}, sheets->convex);
   if (patch.hides_points(points, radius)) return std::nullopt;
   patch.turn_ = crease.turn;
+  patch.bend_ = sheets->turn() - crease.turn;
   patch.gap_ = std::max(distance_to(crease.place, parts[0]), distance_to(crease.place, parts[1]));
   return patch;
 }

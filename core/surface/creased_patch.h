@@ -41,6 +41,11 @@ class CreasedPatch {
   /// Angle between the two sheets' normals where they meet, in radians.
   double turn() const { return turn_; }
 
+  /// By how much more the planes through the two sheets turn than that, in radians: sheets that
+  /// bend towards the crease may go on to bend there. Less than nothing where they bend away from
+  /// it.
+  double bend() const { return bend_; }
+
   /// Distance from the place where they meet nearest to the points on both, to the nearest point of
   /// the sheet that comes less near it. A crease far from all points is a guess.
   double gap() const { return gap_; }
@@ -59,6 +64,7 @@ class CreasedPatch {
   Sheet second_;
   bool convex_;
   double turn_ = 0.0;
+  double bend_ = 0.0;
   double gap_ = 0.0;
 };
 

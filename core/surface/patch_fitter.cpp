@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "core/picked.h"
@@ -65,6 +66,13 @@ constexpr double kRounding = 0.15;
 constexpr double kRoundingOverGain = 0.8;
 constexpr double kLeastRounding = 0.05;
 constexpr double kMostRounding = 0.5;
+/// Where both sides of a thin part run to an edge no smooth sheet is a rival, but the tip may be
+/// round: so much more than they turn there, against that, the sides may turn on the way. Of thin
+/// ellipses half the tips are taken for edges with twice as much, of lenses a tenth of the edges
+/// for round with half.
+constexpr double kMostBentTip = 0.25;
+/// Sides that turn more (radians) run beside each other and hardly meet, as those of a plate.
+constexpr double kHardlyATip = 2.95;
 /// Noise of more than this part of the spacing hides how sharp an edge is.
 constexpr double kHidesSharpness = 2e-4;
 
@@ -194,6 +202,26 @@ std::optional<SurfacePatch> PatchFitter::fit_creased_nearby(const Surroundings& 
                      surroundings.roughness);
 }
 
+/// The acute edge that both sides of a thin part run to: a field in space would round it.
+std::optional<SurfacePatch> PatchFitter::fit_acute(const Surroundings& surroundings,
+                                                   const Eigen::Vector3d& place) const {
+  const Members members = points_.all_round(surroundings);
+  Surroundings here = surroundings;
+  // Half of the points lie on either side.
+  here.spacing *= std::numbers::sqrt2;
+  std::optional<SurfacePatch> patch;
+  if (here.exact && members.all.size() > points_.nearer_points()) {
+    patch = fit_creased(here, place, points_.nearer_of(members, place), here.roughness);
+  }
+  if (!patch) patch = fit_creased(here, place, members, here.roughness);
+  if (!patch) return patch;
+  const auto& creased = std::get<CreasedPatch>(patch->field);
+  const double bend = creased.bend() / creased.turn();
+  if (creased.turn() > kHardlyATip || bend > kMostBentTip) return std::nullopt;
+  patch->rounding = rounding_of(creased, here.spacing, kRounding + std::max(bend, 0.0));
+  return patch;
+}
+
 /// One smooth sheet over the points that face the same way, but those that are strays.
 std::optional<SurfacePatch> PatchFitter::fit_sheet(const Surroundings& surroundings,
                                                    const Eigen::Vector3d& place,
@@ -302,6 +330,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
   const Surroundings here = points_.surroundings_of(place);
   if (points_.is_thin(here.nearest)) {
     if (auto creased = fit_creased_nearby(here, place)) return creased;
+    if (auto creased = fit_acute(here, place)) return creased;
     return fit_in_space(here, place);
   }
   if (auto plain = fit_plain(here, place)) return plain;

@@ -47,6 +47,8 @@ class PatchFitter {
                                           double roughness) const;
   std::optional<SurfacePatch> fit_creased_nearby(const Surroundings& surroundings,
                                                  const Eigen::Vector3d& place) const;
+  std::optional<SurfacePatch> fit_acute(const Surroundings& surroundings,
+                                        const Eigen::Vector3d& place) const;
   std::optional<SurfacePatch> fit_sheet(const Surroundings& surroundings,
                                         const Eigen::Vector3d& place, const Members& members,
                                         double roughness) const;

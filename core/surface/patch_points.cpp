@@ -207,6 +207,16 @@ PatchPoints::Members PatchPoints::members_of(const Surroundings& surroundings,
   return members;
 }
 
+PatchPoints::Members PatchPoints::all_round(const Surroundings& surroundings) const {
+  Members members;
+  members.radius = surroundings.reach;
+  for (const auto& neighbour : surroundings.nearest) members.all.push_back(neighbour.index);
+  drop_twins(members.all, surroundings.spacing);
+  for (const auto i : members.all) members.outward += points_[i].normal;
+  members.outward.normalize();
+  return members;
+}
+
 PatchPoints::Members PatchPoints::nearer_of(const Members& members,
                                             const Eigen::Vector3d& place) const {
   Members nearer;

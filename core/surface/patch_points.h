@@ -65,6 +65,9 @@ class PatchPoints {
   Members members_of(const Surroundings& surroundings, const Eigen::Vector3d& place,
                      double width) const;
 
+  /// The nearest, on whichever side of a thin part; no copies of others.
+  Members all_round(const Surroundings& surroundings) const;
+
   /// Whether points without told normals show which of two sheets they lie on, even by the crease:
   /// they scatter little and are not strung on lines, of which a few along a round body look like
   /// sheets of a prism. O(points in a patch times the nearest).

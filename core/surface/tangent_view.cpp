@@ -8,6 +8,9 @@
 #include <span>
 #include <utility>
 
+#include "core/geometry/moments.h"
+#include "core/surface/opposite_walls.h"
+
 namespace instep {
 namespace {
 
@@ -29,6 +32,9 @@ constexpr std::size_t kMoreWithin = 8;
 constexpr double kHardlyFlat = 0.3;
 constexpr double kNearlyABall = 0.42;
 constexpr double kWidestReach = 0.3;
+/// Cosine to the direction from the middle: of the walls at the tip of a wedge of 60 degrees a
+/// half.
+constexpr double kFacesMiddle = 0.6;
 /// Of more an even part is put in order.
 constexpr std::size_t kMostInOrder = 8000;
 
@@ -74,6 +80,29 @@ void look(const std::vector<Eigen::Vector3d>& points,
   }
 }
 
+/// Of those that lie on the same wall of a thin part as the nearest one. Walls that face to the
+/// middle of the body or away from it may be two layers of one skin: none of these.
+std::vector<PointIndex::Neighbour> on_one_wall(const std::vector<Eigen::Vector3d>& points,
+                                               const std::vector<PointIndex::Neighbour>& nearest) {
+  std::vector<Eigen::Vector3d> places;
+  Moments moments;
+  for (const auto& one : nearest) {
+    places.push_back(points[one.index]);
+    moments.add(places.back() - places.front());
+  }
+  const auto walls = OppositeWalls::among(places, moments.flattest());
+  std::vector<PointIndex::Neighbour> same;
+  if (!walls) return same;
+  const auto side = walls->sides.front();
+  const Eigen::Vector2d arm = places.front().head<2>();
+  if (std::abs(walls->walls[side].normal.head<2>().dot(arm)) > kFacesMiddle * arm.norm())
+    return same;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    if (walls->sides[i] == side) same.push_back(nearest[i]);
+  }
+  return same;
+}
+
 /// As many of the nearest as lie within reach, nearest first.
 struct Nearest {
   std::vector<PointIndex::Neighbour> some;  ///< of very many every so many-th
@@ -104,6 +133,11 @@ TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const Poin
   const auto nearest = index.nearest(centre, kNearest);
   const double reach = std::sqrt(nearest.back().squared_distance);
   look(points, nearest, kTriedFirst, best);
+  if (!best.is_enough()) {
+    const auto wall = on_one_wall(points, nearest);
+    const std::array<std::size_t, 1> all = {wall.size()};
+    if (!wall.empty()) look(points, wall, all, best);
+  }
   const bool crowded = reach <= kCrowdedReach;
   // Within a radius many are found far quicker than one by one.
   double wide = kWider * reach;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "core/girth/contour_trace.h"
+#include "core/girth/unseen_bends.h"
+#include "core/surface/blended_surface.h"
+
+namespace instep {
+
+/// Half-widths of 95 % intervals for what the lengths of a section may be where it bends sharply
+/// between points of a thin part, of which a patch in space knows both sides: the tip may be as
+/// round as that field draws it, or an edge. Where the contour turns by more than 36 degrees from
+/// one point to the next, what an edge that turns as far is longer than an arc is the doubt. It
+/// adds up over the section, since a body has round tips or sharp ones.
+///
+/// Lengths in the unit of the contour; `spacing`: of the points. O(corners log corners).
+UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double spacing);
+
+}  // namespace instep

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace instep {
+
+/// The two walls of a thin part, such as a fin, a slit or the tip of a wedge, told apart by where
+/// points lie that show both: one plane through all of them would run between the walls.
+struct OppositeWalls {
+  /// Through the middle of its points.
+  struct Wall {
+    Eigen::Vector3d middle;
+    Eigen::Vector3d normal;  ///< of either sign
+
+    double distance(const Eigen::Vector3d& place) const {
+      return std::abs(normal.dot(place - middle));
+    }
+  };
+
+  std::array<Wall, 2> walls;
+  std::vector<std::uint8_t> sides;  ///< of each point, 0 or 1
+
+  /// `flattest`: the direction in which the points spread least, of unit length. Nothing if two
+  /// planes do not explain the points ten times as well as one does (in squares), if they turn by
+  /// more than 60 degrees, if they lie beside each other as those of a roof do and not over each
+  /// other, or if one has fewer than five points, or these lie on a line. O(points), or where there
+  /// may be two walls its square.
+  static std::optional<OppositeWalls> among(const std::vector<Eigen::Vector3d>& points,
+                                            const Eigen::Vector3d& flattest);
+};
+
+}  // namespace instep
