@@ -18,26 +18,33 @@ constexpr double kSharpestTurn = 0.75 * std::numbers::pi;
 /// Part of what an edge may add that is half of a 95 % interval.
 constexpr double kLikely = 1.0;
 
-/// The contour from a corner on, as far as points lie apart.
+/// A short piece of the contour.
 struct Bend {
-  double way;
+  double begin;  ///< way along the contour
   double turn;
 };
 
-/// Those led by patches in space, the sharpest first.
+/// By how much the contour turns over a way that may pass its first corner.
+double turn_over(const ContourCourse& course, double begin, double way) {
+  const double end = begin + way;
+  const double whole = end > course.length() ? course.whole_turn() : 0.0;
+  const double rest = end > course.length() ? end - course.length() : end;
+  return whole + course.turn_at(rest) - course.turn_at(begin);
+}
+
+bool is_in_space(const BlendedSurface& surface, const Eigen::Vector2d& place) {
+  const auto* patch = surface.leading_patch({place.x(), place.y(), 0.0});
+  return patch != nullptr && std::holds_alternative<HermitePatch>(patch->field);
+}
+
+/// Those in the middle of which a patch in space leads, the sharpest first.
 std::vector<Bend> sharp_bends(const Contour& contour, const ContourCourse& course,
-                              const BlendedSurface& surface, double spacing) {
+                              const BlendedSurface& surface, double way) {
   std::vector<Bend> bends;
   for (std::size_t i = 0; i < contour.points.size(); ++i) {
-    const double way = course.way_to(i);
-    const bool is_over = way + spacing > course.length();
-    const double turn = course.turn_at(is_over ? way + spacing - course.length() : way + spacing) -
-                        course.turn_at(way) + (is_over ? course.whole_turn() : 0.0);
-    if (!(std::abs(turn) > kOrdinaryTurn)) continue;
-    const Eigen::Vector2d middle = course.place_at(way + 0.5 * spacing);
-    const auto* patch = surface.leading_patch({middle.x(), middle.y(), 0.0});
-    if (patch != nullptr && std::holds_alternative<HermitePatch>(patch->field))
-      bends.push_back({way, turn});
+    const Bend bend{course.way_to(i), turn_over(course, course.way_to(i), way)};
+    if (!(std::abs(bend.turn) > kOrdinaryTurn)) continue;
+    if (is_in_space(surface, course.place_at(bend.begin + 0.5 * way))) bends.push_back(bend);
   }
   std::stable_sort(bends.begin(), bends.end(), [](const Bend& a, const Bend& b) {
     return std::abs(a.turn) > std::abs(b.turn);
@@ -47,20 +54,20 @@ std::vector<Bend> sharp_bends(const Contour& contour, const ContourCourse& cours
 
 }  // namespace
 
-UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double spacing) {
+UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double way) {
   UnseenBends sum;
-  if (!(spacing > 0.0)) return sum;
+  if (!(way > 0.0)) return sum;
   const ContourCourse course(contour);
   std::vector<Bend> counted;
-  for (const Bend& bend : sharp_bends(contour, course, surface, spacing)) {
+  for (const Bend& bend : sharp_bends(contour, course, surface, way)) {
     const bool overlaps = std::any_of(counted.begin(), counted.end(), [&](const Bend& other) {
-      const double apart = std::abs(other.way - bend.way);
-      return std::min(apart, course.length() - apart) < spacing;
+      const double apart = std::abs(other.begin - bend.begin);
+      return std::min(apart, course.length() - apart) < way;
     });
     if (overlaps) continue;
     counted.push_back(bend);
     const double longer =
-        kLikely * spacing * longer_by_corner(std::abs(bend.turn), kOrdinaryTurn, kSharpestTurn);
+        kLikely * way * longer_by_corner(std::abs(bend.turn), kOrdinaryTurn, kSharpestTurn);
     sum.contact_u95 += longer;
     if (bend.turn > 0.0) sum.stretched_u95 += longer;
   }

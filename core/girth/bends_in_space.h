@@ -8,11 +8,12 @@ namespace instep {
 
 /// Half-widths of 95 % intervals for what the lengths of a section may be where it bends sharply
 /// between points of a thin part, of which a patch in space knows both sides: the tip may be as
-/// round as that field draws it, or an edge. Where the contour turns by more than 36 degrees from
-/// one point to the next, what an edge that turns as far is longer than an arc is the doubt. It
-/// adds up over the section, since a body has round tips or sharp ones.
+/// round as that field draws it, or an edge. Where the contour turns by more than 36 degrees on so
+/// short a way that points do not tell its course, what an edge that turns as far is longer than an
+/// arc is the doubt. It adds up over the section, since a body has round tips or sharp ones.
 ///
-/// Lengths in the unit of the contour; `spacing`: of the points. O(corners log corners).
-UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double spacing);
+/// `way`: that short, in the unit of the contour, as the half-widths; less than its length. Nothing
+/// if it is not above 0. O(corners log corners).
+UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double way);
 
 }  // namespace instep

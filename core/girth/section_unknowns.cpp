@@ -22,6 +22,9 @@ constexpr double kFoldInSigmas = 12.0;
 /// less, all but one were told within the interval as it was.
 constexpr double kLeastFolds = 0.15;
 
+/// Two sides of a thin part that noise makes so thick, each, tell nothing of where they meet.
+constexpr double kTipInSigmas = 4.0;
+
 double folds_by_noise(const PlaneBand& band, const Contour& section) {
   // Folds are no finer than the grain.
   if (kFoldInSigmas * band.sigma < band.grain) return 0.0;
@@ -36,13 +39,14 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
                             const std::vector<const ContourIndex*>& loops,
                             const BlendedSurface& surface, const SectionEvidence& evidence,
                             double near) {
-  SectionUnknowns unknowns{unseen_bends_of(section, evidence.ways, near),
-                           bends_between_lines(section, surface, band.spacing),
-                           bends_in_space(section, surface, band.spacing),
-                           layers_near_plane(band, surface, near),
-                           {},
-                           folds_by_noise(band, section),
-                           doubt_of_edge(band, *loops.front())};
+  SectionUnknowns unknowns{
+      unseen_bends_of(section, evidence.ways, near),
+      bends_between_lines(section, surface, band.spacing),
+      bends_in_space(section, surface, band.spacing + kTipInSigmas * band.sigma),
+      layers_near_plane(band, surface, near),
+      {},
+      folds_by_noise(band, section),
+      doubt_of_edge(band, *loops.front())};
   // What lies off the one layer is the other one, which counts already.
   if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, section, loops);
   return unknowns;

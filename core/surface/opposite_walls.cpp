@@ -16,8 +16,12 @@ constexpr int kRounds = 8;
 /// What two planes leave of the variance round one plane: of a noisy sheet that is cut in two
 /// layers a third or more.
 constexpr double kExplained = 0.1;
-/// Least cosine between their normals.
+/// The same as twice the logarithm of a likelihood: of a dozen points noise leaves as little.
+constexpr double kLeastGain = 50.0;
+/// Least cosine between their normals, and of either to the direction in which they lie over each
+/// other.
 constexpr double kNearlyParallel = 0.5;
+constexpr double kFacing = 0.5;
 /// Of the points, seen along the normals, those whose nearest one is of the other wall: of walls
 /// that lie over each other half, or a third where one has four times the points; of the two sides
 /// of a roof a seventh.
@@ -75,41 +79,65 @@ bool are_interleaved(const Points& points, const Sides& sides, const Eigen::Vect
   return static_cast<double>(mixed) > kInterleaved * static_cast<double>(points.size());
 }
 
-}  // namespace
-
-std::optional<OppositeWalls> OppositeWalls::among(const Points& points,
-                                                  const Eigen::Vector3d& flattest) {
-  if (points.size() < 2 * kFewestOnAWall) return std::nullopt;
-  const auto whole = wall_of(points, Sides(points.size(), 0), 0);
-  if (!whole) return std::nullopt;
-  Sides sides = sides_by_height(points, flattest);
-  double squares = 0.0;
-  OppositeWalls walls;
+/// Of each point the nearer one, until nothing changes or the last of the rounds.
+std::optional<OppositeWalls> parted_across(const Points& points, const Eigen::Vector3d& across) {
+  OppositeWalls walls{{}, sides_by_height(points, across)};
   for (int round = 0; round < kRounds; ++round) {
-    const auto first = wall_of(points, sides, 0);
-    const auto second = wall_of(points, sides, 1);
+    const auto first = wall_of(points, walls.sides, 0);
+    const auto second = wall_of(points, walls.sides, 1);
     if (!first || !second) return std::nullopt;
     walls.walls = {*first, *second};
-    Sides anew;
-    squares = 0.0;
+    Sides sides;
     for (const auto& point : points) {
-      const double to_first = first->distance(point);
-      const double to_second = second->distance(point);
-      anew.push_back(to_second < to_first);
-      squares += std::pow(std::min(to_first, to_second), 2);
+      sides.push_back(second->distance(point) < first->distance(point));
     }
-    if (anew == sides) break;
-    sides = std::move(anew);
+    std::swap(sides, walls.sides);
+    if (sides == walls.sides) break;
   }
-  double squares_of_one = 0.0;
-  for (const auto& point : points) squares_of_one += std::pow(whole->distance(point), 2);
-  const double one = variance_of(squares_of_one, points.size(), 1);
-  if (!(variance_of(squares, points.size(), 2) < kExplained * one)) return std::nullopt;
-  if (std::abs(walls.walls[0].normal.dot(walls.walls[1].normal)) < kNearlyParallel)
-    return std::nullopt;
-  if (!are_interleaved(points, sides, flattest)) return std::nullopt;
-  walls.sides = std::move(sides);
   return walls;
+}
+
+/// Whether they explain the points plainly better than one plane, which leaves `of_one` of them.
+bool is_plain(const OppositeWalls& walls, const Points& points, double of_one) {
+  double squares = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    squares += std::pow(walls.walls[walls.sides[i]].distance(points[i]), 2);
+  }
+  const double of_both = variance_of(squares, points.size(), 2);
+  if (!(of_both < kExplained * of_one)) return false;
+  return static_cast<double>(points.size()) * std::log(of_one / of_both) > kLeastGain;
+}
+
+/// Whether they lie over each other, seen along a direction that they face.
+bool are_opposite(const OppositeWalls& walls, const Points& points,
+                  const Eigen::Vector3d& direction) {
+  const auto& [first, second] = walls.walls;
+  if (std::abs(first.normal.dot(second.normal)) < kNearlyParallel) return false;
+  if (std::abs(first.normal.dot(direction)) < kFacing) return false;
+  if (std::abs(second.normal.dot(direction)) < kFacing) return false;
+  return are_interleaved(points, walls.sides, direction);
+}
+
+}  // namespace
+
+std::optional<OppositeWalls> OppositeWalls::among(const Points& points) {
+  if (points.size() < 2 * kFewestOnAWall) return std::nullopt;
+  Moments moments;
+  for (const auto& point : points) moments.add(point - points.front());
+  const auto axes = moments.axes();
+  const auto whole = wall_of(points, Sides(points.size(), 0), 0);
+  if (!whole) return std::nullopt;
+  double squares = 0.0;
+  for (const auto& point : points) squares += std::pow(whole->distance(point), 2);
+  const double variance = variance_of(squares, points.size(), 1);
+  // Of a wedge that is cut off before its edge the walls are further apart than wide.
+  for (const Eigen::Index axis : {0, 1}) {
+    const Eigen::Vector3d across = axes.eigenvectors().col(axis);
+    auto walls = parted_across(points, across);
+    if (walls && is_plain(*walls, points, variance) && are_opposite(*walls, points, across))
+      return walls;
+  }
+  return std::nullopt;
 }
 
 }  // namespace instep

@@ -25,13 +25,11 @@ struct OppositeWalls {
   std::array<Wall, 2> walls;
   std::vector<std::uint8_t> sides;  ///< of each point, 0 or 1
 
-  /// `flattest`: the direction in which the points spread least, of unit length. Nothing if two
-  /// planes do not explain the points ten times as well as one does (in squares), if they turn by
-  /// more than 60 degrees, if they lie beside each other as those of a roof do and not over each
-  /// other, or if one has fewer than five points, or these lie on a line. O(points), or where there
-  /// may be two walls its square.
-  static std::optional<OppositeWalls> among(const std::vector<Eigen::Vector3d>& points,
-                                            const Eigen::Vector3d& flattest);
+  /// Nothing if two planes do not explain the points ten times as well as one does (in squares),
+  /// and few points better than that, if they turn by more than 60 degrees, if they lie beside each
+  /// other as those of a roof do and not over each other, or if one has fewer than six points, or
+  /// these lie on a line. O(points), or where there may be two walls its square.
+  static std::optional<OppositeWalls> among(const std::vector<Eigen::Vector3d>& points);
 };
 
 }  // namespace instep

@@ -125,7 +125,7 @@ void CellNormals::find_walls(const std::vector<Eigen::Vector3d>& points, std::si
     if (near == cell) first = round.size();
     for (const auto member : grid_.members(near)) round.push_back(points[member]);
   });
-  look.walls = OppositeWalls::among(round, look.normal);
+  look.walls = OppositeWalls::among(round);
   if (!look.walls) return;
   const auto begin = look.walls->sides.begin() + static_cast<std::ptrdiff_t>(first);
   look.sides.assign(begin, begin + static_cast<std::ptrdiff_t>(grid_.members(cell).size()));

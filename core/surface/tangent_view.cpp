@@ -8,7 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "core/geometry/moments.h"
 #include "core/surface/opposite_walls.h"
 
 namespace instep {
@@ -85,12 +84,8 @@ void look(const std::vector<Eigen::Vector3d>& points,
 std::vector<PointIndex::Neighbour> on_one_wall(const std::vector<Eigen::Vector3d>& points,
                                                const std::vector<PointIndex::Neighbour>& nearest) {
   std::vector<Eigen::Vector3d> places;
-  Moments moments;
-  for (const auto& one : nearest) {
-    places.push_back(points[one.index]);
-    moments.add(places.back() - places.front());
-  }
-  const auto walls = OppositeWalls::among(places, moments.flattest());
+  for (const auto& one : nearest) places.push_back(points[one.index]);
+  const auto walls = OppositeWalls::among(places);
   std::vector<PointIndex::Neighbour> same;
   if (!walls) return same;
   const auto side = walls->sides.front();

@@ -9,6 +9,7 @@
 
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/oriented_points.h"
+#include "tests/support/prism_points.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -255,6 +256,17 @@ TEST(NormalTrust, NormalsThatAreNearlyAlikeTellNothing) {
       const Normals normals(body.normals.size(), way.normalized());
       EXPECT_EQ(body.trust(with_noise(normals, 2.0, 8)), NormalTrust::kNone)
           << body.name << ": " << way.transpose();
+    }
+  }
+}
+
+/// Those of the two walls face away from each other, back to back: they were dropped.
+TEST(NormalTrust, IsInThoseOfThinParts) {
+  for (const double degrees : {30.0, 45.0}) {
+    for (const int count : {500, 2000}) {
+      const auto cloud = test::faced_prism_points(test::rhombus(degrees, 60.0), count, 1);
+      EXPECT_NE(trust_in(cloud.normals, PointIndex(cloud.positions)), NormalTrust::kNone)
+          << degrees << " " << count;
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/support/oriented_points.h"
+#include "tests/support/prism_points.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/scanned_lines.h"
 
@@ -112,6 +113,27 @@ TEST(CellNormals, AreTurnedOutOfTheBody) {
 /// at the edges lead from one wall to the next.
 TEST(CellNormals, FindTheirWayRoundASquarePrism) {
   EXPECT_EQ(wrong_after_orienting(test::prism_points(1.0, 0.5, 0.04, 0.002, 8), 0.06), 0U);
+}
+
+/// Of a prism 100 across, in a unit in which it is one.
+std::vector<OrientedPoint> faced_points(const test::PrismCorners& corners, int count) {
+  const PointCloud cloud = test::faced_prism_points(corners, count, 3);
+  std::vector<OrientedPoint> points;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    points.push_back({0.01 * cloud.positions[i], cloud.normals[i], 0.0});
+  }
+  return points;
+}
+
+/// One normal for both walls of a cell pointed into the body on one of them, and walls that met in
+/// less than 50 degrees were turned alike.
+TEST(CellNormals, PointOutOfBothWallsOfAThinPart) {
+  for (const double degrees : {20.0, 30.0, 45.0}) {
+    EXPECT_LE(wrong_after_orienting(faced_points(test::rhombus(degrees, 50.0), 2000), 0.035), 10U)
+        << degrees;
+  }
+  const test::PrismCorners plate = {{-50, -2}, {50, -2}, {50, 2}, {-50, 2}};
+  EXPECT_LE(wrong_after_orienting(faced_points(plate, 2000), 0.035), 10U);
 }
 
 TEST(CellNormals, DoNotMindWhereTheBodyStandsNorItsUnit) {

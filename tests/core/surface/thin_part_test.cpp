@@ -160,5 +160,45 @@ TEST(ThinPart, HasTheEdgeOfItsRimWhereThePatchReachesRoundIt) {
   }
 }
 
+/// Two walls that run to an edge along y at the origin.
+OrientedPoints wedge_points(double degrees, double sigma) {
+  const double half = 0.5 * degrees * std::numbers::pi / 180.0;
+  OrientedPoints points;
+  test::RandomNumbers random(5);
+  for (const double side : {-1.0, 1.0}) {
+    const Vector3d along(std::cos(half), 0.0, side * std::sin(half));
+    const Vector3d outward(-std::sin(half), 0.0, side * std::cos(half));
+    for (int i = 0; i < 2500; ++i) {
+      points.push_back({random.uniform(0.0, 1.0) * along +
+                            random.uniform(-0.5, 0.5) * Vector3d::UnitY() +
+                            sigma * random.normal() * outward,
+                        outward, sigma * sigma});
+    }
+  }
+  return points;
+}
+
+/// A field in space rounded it: of bodies with such edges girths were refused, or millimetres short
+/// without a word.
+TEST(ThinPart, HasAnAcuteEdge) {
+  for (const double degrees : {20.0, 40.0, 60.0}) {
+    for (const double sigma : {0.0, 0.04 * kSpacing}) {
+      SCOPED_TRACE(testing::Message() << degrees << " " << sigma);
+      const auto points = wedge_points(degrees, sigma);
+      const auto patch = fitter_of(points).fit({0.25 * kSpacing, 0.1, 0.0});
+      ASSERT_TRUE(patch);
+      const auto* creased = std::get_if<CreasedPatch>(&patch->field);
+      ASSERT_TRUE(creased);
+      EXPECT_NEAR(creased->turn(), (180.0 - degrees) * std::numbers::pi / 180.0, 0.1);
+      EXPECT_GT(patch->rounding, 0.0);
+      // The tip lies as far off as noise of the walls moves where they meet.
+      const double off =
+          (0.1 * kSpacing + 2.0 * sigma) / std::sin(degrees * std::numbers::pi / 360.0);
+      EXPECT_GT(patch->at({-off, 0.1, 0.0}).value, 0.0);
+      EXPECT_LT(patch->at({off, 0.1, 0.0}).value, 0.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace instep
