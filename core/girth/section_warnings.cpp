@@ -56,6 +56,10 @@ const char* reason_of_doubt(const SectionUnknowns& unknowns, const MeasuredSecti
     return "the section may have edges between the lines that the points stand in, so that the "
            "girth is uncertain: scan with closer lines, or from more sides";
   }
+  if (is_most_of(unknowns.in_space.stretched_u95, section)) {
+    return "the points do not show how sharp the tip of a thin part is, so that the girth is "
+           "uncertain: scan it from nearer, or from more sides";
+  }
   return "the points are so few or noisy that the girth is uncertain: scan again, with more or "
          "better "
          "frames";

@@ -3,22 +3,17 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
-#include "core/girth/plane_band.h"
-#include "core/girth/plane_slab.h"
-#include "core/girth/section_loops.h"
 #include "tests/support/cylinder_tape.h"
 #include "tests/support/prism_points.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/traced_section.h"
 
 namespace instep {
 namespace {
@@ -61,26 +56,8 @@ PointCloud in_rings(const PrismCorners& corners, int rings, double step, std::ui
   return cloud;
 }
 
-/// The section of a cloud at the level plane, in its unit.
-struct Section {
-  explicit Section(const PointCloud& cloud) : Section(band_of(cloud)) {}
-  explicit Section(PlaneBand band)
-      : spacing(band.spacing),
-        surface(PatchFitter(band.points, std::move(band.index), band.roughness)),
-        contour(loops_on(band, surface).front().contour) {}
-
-  static PlaneBand band_of(const PointCloud& cloud) {
-    SlabSource slabs(cloud, test::level_plane());
-    return band_at(slabs, std::nullopt).value();
-  }
-
-  double spacing;
-  BlendedSurface surface;
-  Contour contour;
-};
-
 UnseenBends bends_of(const PointCloud& cloud) {
-  const Section section(cloud);
+  const test::TracedSection section(cloud);
   return bends_between_lines(section.contour, section.surface, section.spacing);
 }
 
@@ -92,12 +69,10 @@ TEST(BendsBetweenLines, AreThoseOfABoxInColumns) {
 }
 
 TEST(BendsBetweenLines, AreTheSameWhereverTheContourBegins) {
-  Section section(in_columns(box(), 60, 0.8, 1));
-  auto& [points, outward] = section.contour;
+  test::TracedSection section(in_columns(box(), 60, 0.8, 1));
   const auto bends = bends_between_lines(section.contour, section.surface, section.spacing);
   for (int i = 0; i < 40; ++i) {
-    std::rotate(points.begin(), points.begin() + 7, points.end());
-    std::rotate(outward.begin(), outward.begin() + 7, outward.end());
+    section.begin_later(7);
     const auto same = bends_between_lines(section.contour, section.surface, section.spacing);
     EXPECT_NEAR(same.contact_u95, bends.contact_u95, 1e-12) << i;
   }

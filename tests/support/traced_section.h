@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/geometry/point_cloud.h"
+#include "core/girth/contour_trace.h"
+#include "core/girth/plane_band.h"
+#include "core/surface/blended_surface.h"
+
+namespace instep::test {
+
+/// The largest loop of a cloud at the level plane, in its unit, and the surface that it lies on.
+struct TracedSection {
+  explicit TracedSection(const PointCloud& cloud);
+
+  double spacing;
+  BlendedSurface surface;
+  Contour contour;
+
+  /// The same line from so many corners further on.
+  void begin_later(int corners);
+
+ private:
+  explicit TracedSection(PlaneBand band);
+};
+
+}  // namespace instep::test
