@@ -22,6 +22,9 @@ constexpr double kLeastGain = 50.0;
 /// other.
 constexpr double kNearlyParallel = 0.5;
 constexpr double kFacing = 0.5;
+/// Walls that face more along the third axis are none that a plane across it cuts: two level rows
+/// of points round an edge look like them.
+constexpr double kLevel = 0.7;
 /// Of the points, seen along the normals, those whose nearest one is of the other wall: of walls
 /// that lie over each other half, or a third where one has four times the points; of the two sides
 /// of a roof a seventh.
@@ -112,6 +115,7 @@ bool is_plain(const OppositeWalls& walls, const Points& points, double of_one) {
 bool are_opposite(const OppositeWalls& walls, const Points& points,
                   const Eigen::Vector3d& direction) {
   const auto& [first, second] = walls.walls;
+  if (std::max(std::abs(first.normal.z()), std::abs(second.normal.z())) > kLevel) return false;
   if (std::abs(first.normal.dot(second.normal)) < kNearlyParallel) return false;
   if (std::abs(first.normal.dot(direction)) < kFacing) return false;
   if (std::abs(second.normal.dot(direction)) < kFacing) return false;

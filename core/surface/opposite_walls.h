@@ -10,7 +10,8 @@
 namespace instep {
 
 /// The two walls of a thin part, such as a fin, a slit or the tip of a wedge, told apart by where
-/// points lie that show both: one plane through all of them would run between the walls.
+/// points lie that show both: one plane through all of them would run between the walls. Seen from
+/// a tape plane: the third axis is square to it.
 struct OppositeWalls {
   /// Through the middle of its points.
   struct Wall {
@@ -27,8 +28,9 @@ struct OppositeWalls {
 
   /// Nothing if two planes do not explain the points ten times as well as one does (in squares),
   /// and few points better than that, if they turn by more than 60 degrees, if they lie beside each
-  /// other as those of a roof do and not over each other, or if one has fewer than six points, or
-  /// these lie on a line. O(points), or where there may be two walls its square.
+  /// other as those of a roof do and not over each other, if they face along the third axis, as two
+  /// rows do that lie level, or if one has fewer than six points, or these lie on a line.
+  /// O(points), or where there may be two walls its square.
   static std::optional<OppositeWalls> among(const std::vector<Eigen::Vector3d>& points);
 };
 

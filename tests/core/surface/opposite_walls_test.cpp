@@ -23,7 +23,8 @@ Points two_walls(double apart, double degrees, double sigma, std::size_t count,
   for (std::size_t i = 0; i < count; ++i) {
     const double x = random.uniform(-0.5, 0.5);
     const double half = 0.5 * apart - slope * x + sigma * random.normal();
-    points.emplace_back(x, random.uniform(-0.5, 0.5), i % 2 == 0 ? half : -half);
+    const double z = random.uniform(-0.5, 0.5);
+    points.emplace_back(x, i % 2 == 0 ? half : -half, z);
   }
   return points;
 }
@@ -85,9 +86,9 @@ TEST(OppositeWalls, AreNotTheSidesOfARoofNorThoseOfABend) {
     Points bend;
     for (int i = 0; i < 40; ++i) {
       const double x = random.uniform(-0.5, 0.5);
-      const double y = random.uniform(-0.5, 0.5);
-      roof.emplace_back(x, y, -0.4 * std::abs(x));
-      bend.emplace_back(x, y, -0.8 * x * x);
+      const double z = random.uniform(-0.5, 0.5);
+      roof.emplace_back(x, -0.4 * std::abs(x), z);
+      bend.emplace_back(x, -0.8 * x * x, z);
     }
     EXPECT_FALSE(OppositeWalls::among(roof)) << draw;
     EXPECT_FALSE(OppositeWalls::among(bend)) << draw;
@@ -97,12 +98,24 @@ TEST(OppositeWalls, AreNotTheSidesOfARoofNorThoseOfABend) {
 TEST(OppositeWalls, AreNotTwoLinesNorAFewPoints) {
   Points lines;
   for (int i = 0; i < 20; ++i) {
-    lines.emplace_back(0.05 * i, 0.0, 0.1);
-    lines.emplace_back(0.05 * i, 0.0, -0.1);
+    lines.emplace_back(0.05 * i, 0.1, 0.0);
+    lines.emplace_back(0.05 * i, -0.1, 0.0);
   }
   EXPECT_FALSE(OppositeWalls::among(lines));
   EXPECT_FALSE(OppositeWalls::among(two_walls(0.2, 0.0, 0.0, 10, 1)));
   EXPECT_FALSE(OppositeWalls::among(Points(40, Vector3d(1.0, 2.0, 3.0))));
+}
+
+/// Each lies on a plane of its own.
+TEST(OppositeWalls, AreNotTwoLevelRowsRoundAnEdge) {
+  Points rows;
+  for (int i = 0; i < 12; ++i) {
+    for (const double height : {-0.1, 0.1}) {
+      rows.emplace_back(0.08 * i, 0.0, height);
+      rows.emplace_back(0.0, 0.08 * i, height);
+    }
+  }
+  EXPECT_FALSE(OppositeWalls::among(rows));
 }
 
 }  // namespace

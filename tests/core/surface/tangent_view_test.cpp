@@ -58,7 +58,8 @@ TEST(TangentView, SeesOneWallOfAThinPart) {
   std::vector<Vector3d> walls;
   for (int i = 0; i < 2000; ++i) {
     const double x = random.uniform(0.1, 0.5);
-    walls.emplace_back(x, random.uniform(-0.2, 0.2), (i % 2 == 0 ? 0.2 : -0.2) * (0.5 - x));
+    const double z = random.uniform(-0.2, 0.2);
+    walls.emplace_back(x, (i % 2 == 0 ? 0.2 : -0.2) * (0.5 - x), z);
   }
   for (const std::size_t i : {0U, 1U, 2U, 3U}) {
     const auto view = flattest_view(walls, PointIndex(walls), walls[i]);
