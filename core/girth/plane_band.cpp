@@ -226,8 +226,11 @@ std::vector<Eigen::Vector3d> told_normals(const PointCloud& cloud, const TapePla
                                           const PlaneBand& band) {
   std::vector<Eigen::Vector3d> normals;
   if (!cloud.has_normals()) return normals;
+  // Rounded as places are, so that what is equal stays so wherever the cloud lies.
+  constexpr double kSteps = 0x1p36;
   for (const std::size_t source : band.sources) {
-    normals.push_back(turned(cloud.normals[source], plane));
+    const Eigen::Vector3d normal = turned(cloud.normals[source], plane);
+    normals.emplace_back((kSteps * normal).array().round() / kSteps);
   }
   return normals;
 }

@@ -207,8 +207,9 @@ std::optional<SurfacePatch> PatchFitter::fit_acute(const Surroundings& surroundi
                                                    const Eigen::Vector3d& place) const {
   const Members members = points_.all_round(surroundings);
   Surroundings here = surroundings;
-  // Half of the points lie on either side.
+  // Only half of the points that were taken for those of one sheet lie on either.
   here.spacing *= std::numbers::sqrt2;
+  here.noise_area *= 2.0;
   std::optional<SurfacePatch> patch;
   if (here.exact && members.all.size() > points_.nearer_points()) {
     patch = fit_creased(here, place, points_.nearer_of(members, place), here.roughness);

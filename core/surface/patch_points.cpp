@@ -212,8 +212,7 @@ PatchPoints::Members PatchPoints::all_round(const Surroundings& surroundings) co
   members.radius = surroundings.reach;
   for (const auto& neighbour : surroundings.nearest) members.all.push_back(neighbour.index);
   drop_twins(members.all, surroundings.spacing);
-  for (const auto i : members.all) members.outward += points_[i].normal;
-  members.outward.normalize();
+  members.outward = surroundings.outward;
   return members;
 }
 

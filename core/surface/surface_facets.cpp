@@ -34,6 +34,9 @@ constexpr double kThickInUsual = 2.0;
 constexpr double kUsual = 0.25;
 /// Sine of the angle between a wall and the chord to what goes on from it, at most.
 constexpr double kOffWall = 0.5;
+/// By so much more the cosine to the normal of one wall tells it from the other: those of a plate
+/// are alike but for rounding, those of a wedge of 15 degrees differ by seven times as much.
+constexpr double kPlainlyTurned = 0.005;
 
 bool is_line(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& axes) {
   return axes.eigenvalues()[1] < kThinLine * axes.eigenvalues()[2];
@@ -222,8 +225,9 @@ bool SurfaceFacets::is_wall_of(const Facet& wall, const Facet& other) const {
   const auto begin = facets_.begin() + begins_[wall.cell];
   const auto end = facets_.begin() + begins_[wall.cell + 1];
   return std::none_of(begin, end, [&](const Facet& opposite) {
+    const double turned = std::abs(opposite.normal.dot(other.normal));
     return opposite.off(other.middle) < wall.off(other.middle) ||
-           std::abs(opposite.normal.dot(other.normal)) > std::abs(wall.normal.dot(other.normal));
+           turned > std::abs(wall.normal.dot(other.normal)) + kPlainlyTurned;
   });
 }
 
