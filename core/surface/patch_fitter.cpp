@@ -38,6 +38,11 @@ constexpr std::ptrdiff_t kFewestBent = 6;
 constexpr double kLeastBent = 0.05;
 /// The shape between the estimates of roughness may be rougher than they are.
 constexpr double kAllowanceInSpace = 4.0;
+/// And so many times as rough where, as at a tip between flat sides, the field lies further off the
+/// nearest third of its points than their noise explains (mean square).
+constexpr double kRougherInSpace = 10.0;
+constexpr std::size_t kNearestPart = 3;
+constexpr double kMissed = 1.2;
 /// Where there is noise, a patch is wider than the kriging's bandwidth by this factor, up to this
 /// part of the body.
 constexpr double kBandwidths = 2.0;
@@ -122,6 +127,18 @@ bool blurs(const HeightPatch& sheet, const std::vector<OrientedPoint>& points, d
   return off_by(sheet, points) > most * most * static_cast<double>(points.size());
 }
 
+/// Whether a field lies further off the nearest of its noisy points, which come first, than their
+/// noise explains.
+bool misses(const HermitePatch& field, const std::vector<OrientedPoint>& points) {
+  const std::size_t count = points.size() / kNearestPart;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(points[i].variance > 0.0)) return false;
+    squares += std::pow(field.at(points[i].position).value, 2) / points[i].variance;
+  }
+  return squares > kMissed * static_cast<double>(count);
+}
+
 }  // namespace
 
 PatchFitter::PatchFitter(std::vector<OrientedPoint> points, PointIndex index,
@@ -145,11 +162,16 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   for (auto& point : points) {
     if (is_harmless(point.variance, surroundings.spacing)) point.variance = 0.0;
   }
-  auto field = HermitePatch::fit(points, place, radius, kAllowanceInSpace * surroundings.roughness);
+  double roughness = kAllowanceInSpace * surroundings.roughness;
+  auto field = HermitePatch::fit(points, place, radius, roughness);
+  for (int again = 0; field && misses(*field, points) && again < kMostAttempts; ++again) {
+    roughness *= kRougherInSpace;
+    field = HermitePatch::fit(points, place, radius, roughness);
+  }
   if (!field) return std::nullopt;
   const double noise = surroundings.noise_area / (surroundings.spacing * surroundings.spacing);
   const double variance =
-      kWanderingInSpace * surroundings.roughness * std::pow(surroundings.spacing, 3) +
+      kWanderingInSpace * roughness / kAllowanceInSpace * std::pow(surroundings.spacing, 3) +
       noise / static_cast<double>(kAveragedInSpace);
   return SurfacePatch{place, place, radius, std::move(*field), std::move(members), variance};
 }
