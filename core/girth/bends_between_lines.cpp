@@ -137,7 +137,8 @@ UnseenBends bends_between_lines(const Contour& contour, const BlendedSurface& su
     if (kFewestStretches * stretch.length > course.length()) continue;
     if (has_edge(contour, course, stretch)) continue;
     const Turns turns = turns_round(course, stretch);
-    const double longer = kLikely * stretch.length * longer_by_corner(turns.unlike, kSmoothTurn);
+    const double longer =
+        kLikely * stretch.length * longer_by_corner(turns.unlike, kSmoothTurn, kSharpestCorner);
     sum.contact_u95 += longer;
     if (turns.all > 0.0) sum.stretched_u95 += longer;
   }

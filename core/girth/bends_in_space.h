@@ -13,7 +13,8 @@ namespace instep {
 /// arc is the doubt. It adds up over the section, since a body has round tips or sharp ones.
 ///
 /// `way`: that short, in the unit of the contour, as the half-widths; less than its length. Nothing
-/// if it is not above 0. O(corners log corners).
+/// if it is not above 0. O(corners log corners), and as many looks for a patch as corners that
+/// bend.
 UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double way);
 
 }  // namespace instep

@@ -68,7 +68,9 @@ struct Girth {
 /// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
 /// than a tenth of it to each side, or that of its contact length than a fifth. Strays and loops
 /// that far fewer points make are left out; of several loops the one round the largest area counts,
-/// and the others are named in a warning. A crease such as a last's featherline stays sharp.
+/// and the others are named in a warning. A crease such as a last's featherline stays sharp, and so
+/// does the edge of a thin part down to some 15 degrees; how round a tip may be that no point
+/// shows is in the interval. Of thin parts with noise, and of slots, many are refused.
 ///
 /// Where nothing closes, or what does leaves much doubt or many points beside it, the bodies near
 /// the plane are looked at alone (core/girth/bodies_apart.h), for a wall or a floor beside a body
@@ -101,7 +103,8 @@ struct Girth {
 ///
 /// Deterministic: the same cloud gives the same bytes each time and with any number of threads; on
 /// processors of another kind the same to 1e-7 mm, for the C library rounds functions as each
-/// computes them fastest.
+/// computes them fastest; but of 122 girths of plates and wedges three differ by 0.001 to 0.3 mm,
+/// within a fifth of their intervals.
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
                            const GirthOptions& options = {});
 

@@ -59,10 +59,11 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
   const auto with_bends = [&](double told, double UnseenBends::*length) {
-    const double seen = std::hypot(distrust * told, unknowns.edge);
-    return std::hypot(seen, unknowns.bends.*length,
-                      std::hypot(unknowns.between_lines.*length, unknowns.in_space.*length)) +
-           reach;
+    double squares = std::pow(distrust * told, 2) + std::pow(unknowns.edge, 2);
+    for (const auto& bends : {unknowns.bends, unknowns.between_lines, unknowns.in_space}) {
+      squares += std::pow(bends.*length, 2);
+    }
+    return std::sqrt(squares) + reach;
   };
   section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +
                         unknowns.skin.contact + unknowns.folds;

@@ -7,6 +7,12 @@
 
 namespace instep {
 
+/// Of an arc (radians) that is no corner in place of which one is looked for: smooth bodies turn as
+/// much out of sight, or between points.
+inline constexpr double kOrdinaryTurn = 0.2 * std::numbers::pi;
+/// A corner that turns more is no better told by its ends' directions.
+inline constexpr double kSharpestCorner = 0.6 * std::numbers::pi;
+
 /// Half-widths of 95 % intervals for what the lengths of a section may be where it bends sharply
 /// and no point shows it, as out of sight round the rim of a last or the edge of a sole; in the
 /// unit of the contour.
@@ -32,7 +38,8 @@ UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& w
 
 /// By how much a stretch that turns by `turn` may be longer if it is a corner in place of an arc,
 /// against its length and beyond what one with an `ordinary` turn may be; both in radians, above 0.
-/// As if it turned by `sharpest` at most, less than half a turn.
-double longer_by_corner(double turn, double ordinary, double sharpest = 0.6 * std::numbers::pi);
+/// As if it turned by `sharpest` at most, less than half a turn: beyond it a corner's length grows
+/// without bounds.
+double longer_by_corner(double turn, double ordinary, double sharpest);
 
 }  // namespace instep

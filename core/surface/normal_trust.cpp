@@ -58,9 +58,9 @@ bool is_square(double off_square, double turned) {
   return off_square < kMostOffSquare * kMostOffSquare * turned;
 }
 
-/// Whether two points lie on opposite sides of a thin part, each behind the other: those of two
-/// neighbours along the skin of which one normal is turned over do so for one of them at most, but
-/// for noise.
+/// Whether two points lie each behind the other, as those on both sides of a thin part do. Of two
+/// neighbours along the skin of which one normal is turned over one does, or where that is flat
+/// half of the pairs do, by their noise: some_are_turned_over() hears these.
 bool are_back_to_back(const Eigen::Vector3d& one, const Eigen::Vector3d& other,
                       const Eigen::Vector3d& chord) {
   return one.dot(chord) < 0.0 && other.dot(chord) > 0.0;
@@ -189,7 +189,7 @@ NormalTrust trust_in(const std::vector<Eigen::Vector3d>& normals, const PointInd
     hear(normals, index, i, witness);
   }
   const double most_astray = std::max(1.0, kMostAstray * witness.points);
-  const bool agree = witness.alike >= kLeastAlike * witness.pairs &&
+  const bool agree = witness.pairs > 0.0 && witness.alike >= kLeastAlike * witness.pairs &&
                      witness.opposed <= kMostOpposed * witness.pairs &&
                      witness.lonely <= most_astray;
   const bool outward = sum.norm() <= kOneWay * lengths && flux > kLeastFlux * distances;

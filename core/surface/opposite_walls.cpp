@@ -89,7 +89,7 @@ std::optional<OppositeWalls> parted_across(const Points& points, const Eigen::Ve
     const auto first = wall_of(points, walls.sides, 0);
     const auto second = wall_of(points, walls.sides, 1);
     if (!first || !second) return std::nullopt;
-    walls.walls = {*first, *second};
+    walls.both = {*first, *second};
     Sides sides;
     for (const auto& point : points) {
       sides.push_back(second->distance(point) < first->distance(point));
@@ -104,7 +104,7 @@ std::optional<OppositeWalls> parted_across(const Points& points, const Eigen::Ve
 bool is_plain(const OppositeWalls& walls, const Points& points, double of_one) {
   double squares = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    squares += std::pow(walls.walls[walls.sides[i]].distance(points[i]), 2);
+    squares += std::pow(walls.both[walls.sides[i]].distance(points[i]), 2);
   }
   const double of_both = variance_of(squares, points.size(), 2);
   if (!(of_both < kExplained * of_one)) return false;
@@ -114,7 +114,7 @@ bool is_plain(const OppositeWalls& walls, const Points& points, double of_one) {
 /// Whether they lie over each other, seen along a direction that they face.
 bool are_opposite(const OppositeWalls& walls, const Points& points,
                   const Eigen::Vector3d& direction) {
-  const auto& [first, second] = walls.walls;
+  const auto& [first, second] = walls.both;
   if (std::max(std::abs(first.normal.z()), std::abs(second.normal.z())) > kLevel) return false;
   if (std::abs(first.normal.dot(second.normal)) < kNearlyParallel) return false;
   if (std::abs(first.normal.dot(direction)) < kFacing) return false;

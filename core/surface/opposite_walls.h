@@ -23,7 +23,7 @@ struct OppositeWalls {
     }
   };
 
-  std::array<Wall, 2> walls;
+  std::array<Wall, 2> both;
   std::vector<std::uint8_t> sides;  ///< of each point, 0 or 1
 
   /// Nothing if two planes do not explain the points ten times as well as one does (in squares),

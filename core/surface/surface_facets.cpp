@@ -34,9 +34,8 @@ constexpr double kThickInUsual = 2.0;
 constexpr double kUsual = 0.25;
 /// Sine of the angle between a wall and the chord to what goes on from it, at most.
 constexpr double kOffWall = 0.5;
-/// By so much more the cosine to the normal of one wall tells it from the other: those of a plate
-/// are alike but for rounding, those of a wedge of 15 degrees differ by seven times as much.
-constexpr double kPlainlyTurned = 0.005;
+/// Cosines that differ by less do so by rounding, as those to the two walls of a plate.
+constexpr double kRounding = 1e-9;
 
 bool is_line(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& axes) {
   return axes.eigenvalues()[1] < kThinLine * axes.eigenvalues()[2];
@@ -176,7 +175,7 @@ void SurfaceFacets::add_walls(const std::vector<Eigen::Vector3d>& points, std::s
       sum += points[members[i]];
       count += 1.0;
     }
-    const auto& wall = look.walls->walls[side];
+    const auto& wall = look.walls->both[side];
     const Eigen::Vector3d middle = count > 0.0 ? Eigen::Vector3d(sum / count) : wall.middle;
     facets_.push_back({cell, middle, wall.normal});
   }
@@ -227,7 +226,7 @@ bool SurfaceFacets::is_wall_of(const Facet& wall, const Facet& other) const {
   return std::none_of(begin, end, [&](const Facet& opposite) {
     const double turned = std::abs(opposite.normal.dot(other.normal));
     return opposite.off(other.middle) < wall.off(other.middle) ||
-           turned > std::abs(wall.normal.dot(other.normal)) + kPlainlyTurned;
+           turned > std::abs(wall.normal.dot(other.normal)) + kRounding;
   });
 }
 

@@ -90,7 +90,7 @@ std::vector<PointIndex::Neighbour> on_one_wall(const std::vector<Eigen::Vector3d
   if (!walls) return same;
   const auto side = walls->sides.front();
   const Eigen::Vector2d arm = places.front().head<2>();
-  if (std::abs(walls->walls[side].normal.head<2>().dot(arm)) > kFacesMiddle * arm.norm())
+  if (std::abs(walls->both[side].normal.head<2>().dot(arm)) > kFacesMiddle * arm.norm())
     return same;
   for (std::size_t i = 0; i < nearest.size(); ++i) {
     if (walls->sides[i] == side) same.push_back(nearest[i]);

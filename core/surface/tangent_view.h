@@ -24,8 +24,9 @@ struct TangentView {
 
 /// Of the points nearest to `centre` as many as look flat, up to kMostInView of them, evenly chosen
 /// by their distance from it, in a unit in which the body is about one long: more where noise is
-/// thicker than the spacing, fewer where the surface bends much or is thin. Where no count looks
-/// flat, the flattest.
+/// thicker than the spacing, fewer where the surface bends much. Of a thin part those on one of its
+/// walls, unless that faces the middle of the body (the origin) or away from it: there may be two
+/// layers of one skin. Where no count looks flat, the flattest.
 TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
                           const Eigen::Vector3d& centre);
 

@@ -63,10 +63,10 @@ TEST(OppositeWalls, AreTheirPlanes) {
   const auto points = two_walls(0.3, 30.0, 0.0, 60, 1);
   const auto walls = OppositeWalls::among(points);
   ASSERT_TRUE(walls);
-  const auto& [first, second] = walls->walls;
+  const auto& [first, second] = walls->both;
   EXPECT_NEAR(std::abs(first.normal.dot(second.normal)), std::cos(std::numbers::pi / 6.0), 1e-9);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_NEAR(walls->walls[walls->sides[i]].distance(points[i]), 0.0, 1e-9) << i;
+    EXPECT_NEAR(walls->both[walls->sides[i]].distance(points[i]), 0.0, 1e-9) << i;
   }
 }
 
