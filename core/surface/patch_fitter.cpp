@@ -38,11 +38,13 @@ constexpr std::ptrdiff_t kFewestBent = 6;
 constexpr double kLeastBent = 0.05;
 /// The shape between the estimates of roughness may be rougher than they are.
 constexpr double kAllowanceInSpace = 4.0;
-/// And so many times as rough where, as at a tip between flat sides, the field lies further off the
-/// nearest third of its points than their noise explains (mean square).
+/// And so many times as rough, twice at most, where, as at a tip between flat sides, the field
+/// lies further off the nearest third of its points than their noise explains (mean square): still
+/// rougher it goes out to a wall beside the body.
 constexpr double kRougherInSpace = 10.0;
+constexpr int kMostAgain = 2;
 constexpr std::size_t kNearestPart = 3;
-constexpr double kMissed = 1.2;
+constexpr double kMissed = 2.0;
 /// Where there is noise, a patch is wider than the kriging's bandwidth by this factor, up to this
 /// part of the body.
 constexpr double kBandwidths = 2.0;
@@ -164,7 +166,7 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   }
   double roughness = kAllowanceInSpace * surroundings.roughness;
   auto field = HermitePatch::fit(points, place, radius, roughness);
-  for (int again = 0; field && misses(*field, points) && again < kMostAttempts; ++again) {
+  for (int again = 0; field && misses(*field, points) && again < kMostAgain; ++again) {
     roughness *= kRougherInSpace;
     field = HermitePatch::fit(points, place, radius, roughness);
   }
