@@ -7,10 +7,9 @@
 
 namespace instep {
 
-/// Of an arc (radians) that is no corner in place of which one is looked for: smooth bodies turn as
-/// much out of sight, or between points.
+/// By as much (radians) smooth bodies turn as well, out of sight or between points.
 inline constexpr double kOrdinaryTurn = 0.2 * std::numbers::pi;
-/// A corner that turns more is no better told by its ends' directions.
+/// A corner that turns more (radians) is no better told by its ends' directions.
 inline constexpr double kSharpestCorner = 0.6 * std::numbers::pi;
 
 /// Half-widths of 95 % intervals for what the lengths of a section may be where it bends sharply

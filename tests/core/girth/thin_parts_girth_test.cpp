@@ -38,7 +38,7 @@ Told told_of(const test::PrismCorners& corners, int count, double sigma = 0.0) {
   return told;
 }
 
-/// Below 50 degrees all were refused, of however many points, or told up to 97 mm too short.
+/// Below 50 degrees all were refused, of however many points, or told up to 96 mm too short.
 TEST(ThinParts, WithAnAcuteEdgeAreTold) {
   for (const double degrees : {20.0, 30.0, 40.0, 50.0}) {
     for (const int count : {500, 2000}) {
