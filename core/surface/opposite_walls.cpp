@@ -27,7 +27,7 @@ constexpr double kFacing = 0.5;
 constexpr double kLevel = 0.7;
 /// Of the points, seen along the normals, those whose nearest one is of the other wall: of walls
 /// that lie over each other half, or a third where one has four times the points; of the two sides
-/// of a roof a seventh.
+/// of a roof, by 40 points, a twentieth.
 constexpr double kInterleaved = 0.25;
 /// Points of a wall spread by this much of their length across it at least (sums of squares).
 constexpr double kThinLine = 0.08;

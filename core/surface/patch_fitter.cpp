@@ -78,7 +78,8 @@ constexpr double kMostRounding = 0.5;
 /// ellipses err 1.1 mm, not 0.9, and 69 % hold, not 85; with less than half of it, edges of lenses
 /// are taken for round.
 constexpr double kMostBentTip = 0.25;
-/// Sides that turn more (radians) hardly meet: eleven degrees are what noise makes of a plate.
+/// Sides that turn more (radians) run beside each other, as those of a plate: where they seem to
+/// meet is chance.
 constexpr double kHardlyATip = 2.95;
 /// Noise of more than this part of the spacing hides how sharp an edge is.
 constexpr double kHidesSharpness = 2e-4;
