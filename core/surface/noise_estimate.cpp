@@ -107,20 +107,19 @@ void hush_wide(const std::vector<Neighbourhood>& neighbourhoods,
   }
 }
 
-bool is_exact(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-              std::size_t point) {
-  const TangentView view = flattest_view(points, index, points[point]);
+bool is_exact(const PointIndex& index, const Eigen::Vector3d& place) {
+  const TangentView view = flattest_view(index.points(), index, place);
   if (is_plain(view)) return true;
-  const auto here = neighbourhood_of(view, point);
+  const auto here = neighbourhood_of(view, 0);
   return here && here->is_exact();
 }
 
-/// Nothing if the points round one show noise. Where they plainly show none half of them tell it.
-std::optional<double> roughness_if_exact(const std::vector<Eigen::Vector3d>& points,
-                                         const PointIndex& index, std::size_t point) {
-  const TangentView view = flattest_view(points, index, points[point]);
+/// Nothing if the points round a place show noise. Where they plainly show none half of them tell
+/// it.
+std::optional<double> roughness_if_exact(const PointIndex& index, const Eigen::Vector3d& place) {
+  const TangentView view = flattest_view(index.points(), index, place);
   if (is_plain(view)) return roughness_of_plain(view);
-  const auto here = neighbourhood_of(view, point);
+  const auto here = neighbourhood_of(view, 0);
   if (!here || !here->is_exact()) return std::nullopt;
   return here->likely_roughness(std::max(here->variance, kLeastVariance), std::nullopt);
 }
@@ -244,19 +243,25 @@ NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const P
   return estimate;
 }
 
-std::optional<NoiseEstimate> estimate_if_exact(const std::vector<Eigen::Vector3d>& points,
-                                               const PointIndex& index,
-                                               const std::vector<std::size_t>& places) {
+std::optional<NoiseEstimate> estimate_if_exact(const PointIndex& index,
+                                               const std::vector<std::size_t>& places,
+                                               const std::function<PointIndex()>& crowd) {
   const auto chosen = chosen_of(places);
   NoiseEstimate estimate;
+  std::optional<PointIndex> all;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    if (i % kTurns.size() == kTurns.front()) {
-      const auto roughness = roughness_if_exact(points, index, chosen[i]);
-      if (!roughness) return std::nullopt;
-      estimate.roughness.push_back({points[chosen[i]], *roughness});
-    } else if (!is_exact(points, index, chosen[i])) {
-      return std::nullopt;
-    }
+    const auto& place = index.points()[chosen[i]];
+    const bool tells = i % kTurns.size() == kTurns.front();
+    const auto look = [&](const PointIndex& among) {
+      if (!tells) return is_exact(among, place);
+      const auto roughness = roughness_if_exact(among, place);
+      if (roughness) estimate.roughness.push_back({place, *roughness});
+      return roughness.has_value();
+    };
+    if (look(index)) continue;
+    if (!crowd) return std::nullopt;
+    if (!all) all.emplace(crowd());
+    if (!look(*all)) return std::nullopt;
   }
   if (estimate.roughness.empty()) return std::nullopt;
   return estimate;

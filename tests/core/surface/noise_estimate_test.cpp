@@ -224,7 +224,7 @@ TEST(NoiseEstimate, IsFiniteForAnything) {
 }
 
 std::optional<NoiseEstimate> if_exact(const Points& points) {
-  return estimate_if_exact(points, PointIndex(points), ring_of(points));
+  return estimate_if_exact(PointIndex(points), ring_of(points));
 }
 
 TEST(NoiseEstimateIfExact, IsThatOfExactPointsAlone) {
@@ -250,6 +250,28 @@ TEST(NoiseEstimateIfExact, SeesNoiseInAFiftiethOfTheRing) {
   }
 }
 
+/// Along the edges of a ridge a few spacings wide of the points that were chosen, many of those
+/// they come from.
+TEST(NoiseEstimateIfExact, AsksTheCrowdWhereThePointsAreTooFarApart) {
+  for (const std::uint64_t seed : {18U, 19U, 20U}) {
+    auto crowd = test::positions_of(test::sphere_points(0.5, 80000, 0.0, seed));
+    for (auto& point : crowd) {
+      point *= 1.0 + 0.01 * std::max(0.0, 1.0 - std::abs(std::atan2(point.y(), point.x())) / 0.03);
+    }
+    const auto if_of_crowd = [](const Points& all) {
+      Points chosen;
+      for (std::size_t i = 0; i < all.size(); i += 20) chosen.push_back(all[i]);
+      EXPECT_FALSE(if_exact(chosen));
+      return estimate_if_exact(PointIndex(chosen), ring_of(chosen),
+                               [&] { return PointIndex(all); });
+    };
+    EXPECT_TRUE(if_of_crowd(crowd)) << seed;
+    test::RandomNumbers random(seed);
+    for (auto& point : crowd) point *= 1.0 + 0.001 * random.normal();
+    EXPECT_FALSE(if_of_crowd(crowd)) << seed;
+  }
+}
+
 /// Waves of twice the height wander by four times as much.
 TEST(NoiseEstimateIfExact, FindsHigherWavesRougher) {
   const auto disc = test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 4000, 0.0, 16);
@@ -260,7 +282,7 @@ TEST(NoiseEstimateIfExact, FindsHigherWavesRougher) {
   const auto roughness = [&](double height, double often) {
     auto waves = test::positions_of(disc);
     for (auto& place : waves) place.z() = height * std::sin(often * (place.x() + 0.4 * place.y()));
-    const auto noise = estimate_if_exact(waves, PointIndex(waves), places);
+    const auto noise = estimate_if_exact(PointIndex(waves), places);
     return noise ? middle_roughness(*noise) : 0.0;
   };
   for (const double often : {3.0, 5.0}) {
@@ -270,7 +292,7 @@ TEST(NoiseEstimateIfExact, FindsHigherWavesRougher) {
 
 TEST(NoiseEstimateIfExact, IsNothingWithoutPlaces) {
   const auto points = sphere(0.0, 17);
-  EXPECT_FALSE(estimate_if_exact(points, PointIndex(points), {}));
+  EXPECT_FALSE(estimate_if_exact(PointIndex(points), {}));
   EXPECT_FALSE(if_exact({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 
