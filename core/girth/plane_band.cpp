@@ -168,7 +168,7 @@ std::vector<double> told_sigmas(const PointCloud& cloud, const PlaneBand& band,
 /// In the band's unit.
 NoiseEstimate noise_of(const PointCloud& cloud, const PlaneBand& band,
                        std::optional<double> sigma_mm) {
-  return estimate_noise(band.index.points(), band.index, along_the_plane(cloud, band),
+  return estimate_noise(band.index, along_the_plane(cloud, band),
                         told_sigmas(cloud, band, sigma_mm));
 }
 
@@ -243,7 +243,7 @@ std::vector<Eigen::Vector3d> shown_normals(const PointCloud& cloud, const TapePl
   const double sigma = std::max(band.sigma, most_scatter(band.scattered));
   const double side =
       std::min(std::max(grains * band.grain, kNormalCellInSigmas * sigma), kLargestNormalCell);
-  CellNormals cells(band.index.points(), band.index, side, sigma, kFewestNormalPoints);
+  CellNormals cells(band.index, side, sigma, kFewestNormalPoints);
   if (cloud.view_directions.empty()) cells.orient_by_neighbours();
   std::vector<Eigen::Vector3d> normals = cells.of_points();
   if (cloud.view_directions.empty()) return normals;

@@ -59,17 +59,12 @@ double Neighbourhood::likely_roughness(double at_variance, std::optional<double>
          radius;
 }
 
-std::optional<Neighbourhood> neighbourhood_of(const TangentView& view, std::size_t point) {
+std::optional<Neighbourhood> neighbourhood_of(const TangentView& view) {
   const double radius = view.radius();
   auto likelihood = likelihood_of(view.points, radius);
   if (!likelihood) return std::nullopt;
   const double variance = radius * radius * likeliest_variance(*likelihood);
-  return Neighbourhood{point, radius, std::move(*likelihood), variance};
-}
-
-std::optional<Neighbourhood> neighbourhood_of(const std::vector<Eigen::Vector3d>& points,
-                                              const PointIndex& index, std::size_t point) {
-  return neighbourhood_of(flattest_view(points, index, points[point]), point);
+  return Neighbourhood{radius, std::move(*likelihood), variance};
 }
 
 bool is_plain(const TangentView& view) {

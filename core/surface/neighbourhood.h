@@ -11,13 +11,12 @@
 
 namespace instep {
 
-/// The heights round one point of a cloud over their own tangent plane, and what they tell of noise
+/// The heights of points round a place over their own tangent plane, and what they tell of noise
 /// and shape: restricted maximum likelihood with the kernel r^3, curvature taken out, which tells
 /// white noise from wandering shape by its scale.
 ///
 /// Lengths in a unit in which the body is about one long; a roughness is that of LocalRoughness.
 struct Neighbourhood {
-  std::size_t point;  ///< at its middle
   double radius;
   KrigingLikelihood likelihood;  ///< in units of the radius
   double variance;               ///< the noise that fits best if the roughness may be anything
@@ -31,11 +30,8 @@ struct Neighbourhood {
   double likely_roughness(double at_variance, std::optional<double> usual) const;
 };
 
-/// As `view` shows them, of the points round `point`. Nothing of too few. O(kMostInView^3).
-std::optional<Neighbourhood> neighbourhood_of(const TangentView& view, std::size_t point);
-
-std::optional<Neighbourhood> neighbourhood_of(const std::vector<Eigen::Vector3d>& points,
-                                              const PointIndex& index, std::size_t point);
+/// As `view` shows them. Nothing of too few. O(kMostInView^3).
+std::optional<Neighbourhood> neighbourhood_of(const TangentView& view);
 
 /// Whether one polynomial passes through all points: none of them is off it by noise. Costs far
 /// less than a neighbourhood.

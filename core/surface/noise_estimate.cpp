@@ -39,28 +39,34 @@ std::vector<std::size_t> chosen_of(const std::vector<std::size_t>& places) {
   return chosen;
 }
 
+/// A point, and what those round it show.
+struct Asked {
+  std::size_t point;
+  Eigen::Vector3d place;
+  Neighbourhood shown;
+};
+
 /// Of some of the places, in their order.
-std::vector<Neighbourhood> neighbourhoods_of(const std::vector<Eigen::Vector3d>& points,
-                                             const PointIndex& index,
-                                             const std::vector<std::size_t>& places) {
+std::vector<Asked> asked_of(const PointIndex& index, const std::vector<std::size_t>& places) {
   const auto chosen = chosen_of(places);
   std::vector<std::optional<Neighbourhood>> looked(chosen.size());
   bool found = false;
   bool exact = true;
   for (const std::size_t turn : kTurns) {
     for (std::size_t i = turn; i < looked.size(); i += kTurns.size()) {
-      looked[i] = neighbourhood_of(points, index, chosen[i]);
+      looked[i] = neighbourhood_of(flattest_view(index, index.points()[chosen[i]]));
       if (!looked[i]) continue;
       found = true;
       exact = exact && looked[i]->is_exact();
     }
     if (found && exact) break;
   }
-  std::vector<Neighbourhood> neighbourhoods;
-  for (auto& one : looked) {
-    if (one) neighbourhoods.push_back(std::move(*one));
+  std::vector<Asked> asked;
+  for (std::size_t i = 0; i < looked.size(); ++i) {
+    if (!looked[i]) continue;
+    asked.push_back({chosen[i], index.points()[chosen[i]], std::move(*looked[i])});
   }
-  return neighbourhoods;
+  return asked;
 }
 
 /// By what to raise what is told, from how many times as much each neighbourhood shows.
@@ -69,26 +75,25 @@ double scale_of_told(const std::vector<double>& excesses) {
 }
 
 /// Each with its own noise, whatever is usual.
-std::vector<double> likely_roughnesses(const std::vector<Neighbourhood>& neighbourhoods,
+std::vector<double> likely_roughnesses(const std::vector<Asked>& asked,
                                        const std::vector<double>& noise) {
   std::vector<double> likely;
-  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
-    likely.push_back(neighbourhoods[i].likely_roughness(noise[i], std::nullopt));
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    likely.push_back(asked[i].shown.likely_roughness(noise[i], std::nullopt));
   }
   return likely;
 }
 
 /// `expected`: the noise of each (a variance); `roughnesses`: those that go with it. Of those that
 /// show less it is not asked how plainly where only more counts.
-std::vector<NoiseWitness> witnesses_of(const std::vector<Eigen::Vector3d>& points,
-                                       const std::vector<Neighbourhood>& neighbourhoods,
+std::vector<NoiseWitness> witnesses_of(const std::vector<Asked>& asked,
                                        const std::vector<double>& expected,
                                        const std::vector<double>& roughnesses, bool only_more) {
   std::vector<NoiseWitness> witnesses;
-  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
-    const auto& here = neighbourhoods[i];
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto& here = asked[i].shown;
     const double own = std::max(here.variance, kLeastVariance);
-    NoiseWitness witness{points[here.point], expected[i], own, 0.0};
+    NoiseWitness witness{asked[i].place, expected[i], own, 0.0};
     if (own > expected[i] || !only_more) {
       const double gain = here.misfit(expected[i], roughnesses[i]) -
                           here.misfit(own, here.likely_roughness(own, std::nullopt));
@@ -100,36 +105,35 @@ std::vector<NoiseWitness> witnesses_of(const std::vector<Eigen::Vector3d>& point
 }
 
 /// Takes their say from witnesses whose neighbourhoods are too wide.
-void hush_wide(const std::vector<Neighbourhood>& neighbourhoods,
-               std::vector<NoiseWitness>& witnesses) {
+void hush_wide(const std::vector<Asked>& asked, std::vector<NoiseWitness>& witnesses) {
   for (std::size_t i = 0; i < witnesses.size(); ++i) {
-    if (neighbourhoods[i].radius > kTooWideToAccuse) witnesses[i].contradiction = 0.0;
+    if (asked[i].shown.radius > kTooWideToAccuse) witnesses[i].contradiction = 0.0;
   }
 }
 
 bool is_exact(const PointIndex& index, const Eigen::Vector3d& place) {
-  const TangentView view = flattest_view(index.points(), index, place);
+  const TangentView view = flattest_view(index, place);
   if (is_plain(view)) return true;
-  const auto here = neighbourhood_of(view, 0);
+  const auto here = neighbourhood_of(view);
   return here && here->is_exact();
 }
 
 /// Nothing if the points round a place show noise. Where they plainly show none half of them tell
 /// it.
 std::optional<double> roughness_if_exact(const PointIndex& index, const Eigen::Vector3d& place) {
-  const TangentView view = flattest_view(index.points(), index, place);
+  const TangentView view = flattest_view(index, place);
   if (is_plain(view)) return roughness_of_plain(view);
-  const auto here = neighbourhood_of(view, 0);
+  const auto here = neighbourhood_of(view);
   if (!here || !here->is_exact()) return std::nullopt;
   return here->likely_roughness(std::max(here->variance, kLeastVariance), std::nullopt);
 }
 
 /// What is expected of each, in variances.
-std::vector<double> expected_noise(const std::vector<Neighbourhood>& neighbourhoods,
-                                   const std::vector<double>& told, const NoiseEstimate& estimate) {
+std::vector<double> expected_noise(const std::vector<Asked>& asked, const std::vector<double>& told,
+                                   const NoiseEstimate& estimate) {
   std::vector<double> variances;
-  for (const auto& here : neighbourhoods) {
-    const double sigma = told.empty() ? estimate.sigma : estimate.told_scale * told[here.point];
+  for (const auto& [point, place, here] : asked) {
+    const double sigma = told.empty() ? estimate.sigma : estimate.told_scale * told[point];
     variances.push_back(std::max(sigma * sigma, kLeastVariance));
   }
   return variances;
@@ -148,10 +152,10 @@ double set_uneven(std::vector<LocalNoise> known, NoiseEstimate& estimate) {
 /// Whether some neighbourhoods scatter by more than `least`, a standard deviation, and are fewer
 /// than the others only because these have most of the points: they are plainly wider. Where exact
 /// points seem to scatter, round creases of sparse bodies, they are not.
-bool are_outvoted(const std::vector<Neighbourhood>& neighbourhoods, double least) {
+bool are_outvoted(const std::vector<Asked>& asked, double least) {
   std::vector<double> scattered;
   std::vector<double> quiet;
-  for (const auto& here : neighbourhoods) {
+  for (const auto& [point, place, here] : asked) {
     (here.variance > least * least ? scattered : quiet).push_back(here.radius);
   }
   if (scattered.size() < kFewestOutvoted || scattered.size() > quiet.size()) return false;
@@ -166,22 +170,20 @@ struct NoiseAndShape {
 
 /// The noise of each place, where one for all plainly will not do. `here`: as expected; the noise
 /// that the answer is against afterwards.
-std::vector<LocalNoise> uneven_among(const std::vector<Eigen::Vector3d>& points,
-                                     const std::vector<Neighbourhood>& neighbourhoods,
+std::vector<LocalNoise> uneven_among(const std::vector<Asked>& asked,
                                      const std::vector<double>& told, NoiseAndShape& here,
                                      NoiseEstimate& estimate) {
-  auto witnesses = witnesses_of(points, neighbourhoods, here.noise, here.roughness, !told.empty());
+  auto witnesses = witnesses_of(asked, here.noise, here.roughness, !told.empty());
   if (!told.empty()) {
-    hush_wide(neighbourhoods, witnesses);
+    hush_wide(asked, witnesses);
     return noise_beyond_told(witnesses);
   }
   auto uneven = uneven_noise(witnesses);
   const double least = least_noise(witnesses);
-  if (!uneven.empty() || !are_outvoted(neighbourhoods, least)) return uneven;
+  if (!uneven.empty() || !are_outvoted(asked, least)) return uneven;
   // As if the least noise were told of all.
   const std::vector<double> noise(here.noise.size(), least * least);
-  uneven = noise_beyond_told(
-      witnesses_of(points, neighbourhoods, noise, likely_roughnesses(neighbourhoods, noise), true));
+  uneven = noise_beyond_told(witnesses_of(asked, noise, likely_roughnesses(asked, noise), true));
   if (!uneven.empty()) {
     here.noise = noise;
     estimate.sigma = least;
@@ -190,15 +192,14 @@ std::vector<LocalNoise> uneven_among(const std::vector<Eigen::Vector3d>& points,
 }
 
 /// What is used, and in `estimate` what that is against the usual.
-NoiseAndShape set_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                        const std::vector<std::size_t>& places,
-                        const std::vector<Neighbourhood>& neighbourhoods,
-                        const std::vector<double>& told, NoiseEstimate& estimate) {
-  NoiseAndShape here{expected_noise(neighbourhoods, told, estimate), {}};
-  here.roughness = likely_roughnesses(neighbourhoods, here.noise);
-  auto uneven = uneven_among(points, neighbourhoods, told, here, estimate);
+NoiseAndShape set_noise(const PointIndex& index, const std::vector<std::size_t>& places,
+                        const std::vector<Asked>& asked, const std::vector<double>& told,
+                        NoiseEstimate& estimate) {
+  NoiseAndShape here{expected_noise(asked, told, estimate), {}};
+  here.roughness = likely_roughnesses(asked, here.noise);
+  auto uneven = uneven_among(asked, told, here, estimate);
   if (told.empty()) {
-    estimate.scattered = scattered_places(points, index, places, estimate.shown);
+    estimate.scattered = scattered_places(index, places, estimate.shown);
   }
   if (uneven.empty() && estimate.scattered.empty()) return here;
   if (!uneven.empty()) {
@@ -209,36 +210,35 @@ NoiseAndShape set_noise(const std::vector<Eigen::Vector3d>& points, const PointI
     if (!told.empty()) estimate.told_scale *= usual;
   }
   for (std::size_t i = 0; i < here.noise.size(); ++i) {
-    const double scatter = scatter_at(estimate.scattered, points[neighbourhoods[i].point]);
+    const double scatter = scatter_at(estimate.scattered, asked[i].place);
     here.noise[i] = std::max(here.noise[i], scatter * scatter);
   }
-  here.roughness = likely_roughnesses(neighbourhoods, here.noise);
+  here.roughness = likely_roughnesses(asked, here.noise);
   return here;
 }
 
 }  // namespace
 
-NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             const std::vector<std::size_t>& places,
+NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                              const std::vector<double>& told) {
-  const auto neighbourhoods = neighbourhoods_of(points, index, places);
+  const auto asked = asked_of(index, places);
   std::vector<double> variances;
   std::vector<double> excesses;
-  for (const auto& here : neighbourhoods) {
+  for (const auto& [point, place, here] : asked) {
     variances.push_back(here.variance);
-    if (!told.empty()) excesses.push_back(std::sqrt(here.variance) / told[here.point]);
+    if (!told.empty()) excesses.push_back(std::sqrt(here.variance) / told[point]);
   }
   NoiseEstimate estimate;
   estimate.told_scale = scale_of_told(excesses);
   if (!told.empty()) estimate.sigma = estimate.told_scale * median(told);
-  if (neighbourhoods.empty()) return estimate;
+  if (asked.empty()) return estimate;
   estimate.shown = std::sqrt(median(std::move(variances)));
   if (told.empty()) estimate.sigma = estimate.shown;
-  auto [noise, roughness] = set_noise(points, index, places, neighbourhoods, told, estimate);
+  auto [noise, roughness] = set_noise(index, places, asked, told, estimate);
   const double usual = std::max(median(std::move(roughness)), 1e-300);
-  for (std::size_t i = 0; i < neighbourhoods.size(); ++i) {
+  for (std::size_t i = 0; i < asked.size(); ++i) {
     estimate.roughness.push_back(
-        {points[neighbourhoods[i].point], neighbourhoods[i].likely_roughness(noise[i], usual)});
+        {asked[i].place, asked[i].shown.likely_roughness(noise[i], usual)});
   }
   return estimate;
 }

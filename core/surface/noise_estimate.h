@@ -49,8 +49,7 @@ struct NoiseEstimate {
 /// of the neighbourhoods show plainly more, all of it is raised to what the middle one of them
 /// shows, and where beside each other a few still do, theirs is raised further
 /// (noise_beyond_told()).
-NoiseEstimate estimate_noise(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             const std::vector<std::size_t>& places,
+NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                              const std::vector<double>& told);
 
 /// The same of points of which nothing is told, if all of the places that may be used are of exact

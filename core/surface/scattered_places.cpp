@@ -30,9 +30,9 @@ constexpr double kThickest = 0.36;
 constexpr double kWidest = 0.09;
 
 /// The noise that is plainly in a view, a standard deviation; else 0.
-double scatter_in(const TangentView& view, std::size_t point, double usual) {
+double scatter_in(const TangentView& view, double usual) {
   if (view.thickness > kThickest || view.radius() > kWidest || is_plain(view)) return 0.0;
-  const auto here = neighbourhood_of(view, point);
+  const auto here = neighbourhood_of(view);
   if (!here) return 0.0;
   const double scatter = std::sqrt(here->variance);
   const double least = std::max({kPlainScatter * view.spacing(), kPlainlyMore * usual, kTexture});
@@ -47,14 +47,14 @@ double scatter_in(const TangentView& view, std::size_t point, double usual) {
 
 }  // namespace
 
-std::vector<ScatteredPlace> scattered_places(const std::vector<Eigen::Vector3d>& points,
-                                             const PointIndex& index,
+std::vector<ScatteredPlace> scattered_places(const PointIndex& index,
                                              const std::vector<std::size_t>& places, double usual) {
   std::vector<ScatteredPlace> known;
   for (std::size_t i = 0; i < places.size(); i += kPlacesInView) {
-    const TangentView view = flattest_view(points, index, points[places[i]]);
+    const Eigen::Vector3d& place = index.points()[places[i]];
+    const TangentView view = flattest_view(index, place);
     if (!view.crowded || usual > kPlainScatter * view.spacing()) return {};
-    known.push_back({points[places[i]], scatter_in(view, places[i], usual)});
+    known.push_back({place, scatter_in(view, usual)});
   }
   return most_scatter(known) > 0.0 ? known : std::vector<ScatteredPlace>();
 }

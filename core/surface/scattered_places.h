@@ -24,8 +24,7 @@ struct ScatteredPlace {
 /// Not told: many parts of less than a fiftieth of the section; noise of more than some two
 /// spacings, of which no view looks flat. Taken for noise: two layers that lie nearly as close as
 /// the points, ribs or a ridge as narrow as two or three spacings.
-std::vector<ScatteredPlace> scattered_places(const std::vector<Eigen::Vector3d>& points,
-                                             const PointIndex& index,
+std::vector<ScatteredPlace> scattered_places(const PointIndex& index,
                                              const std::vector<std::size_t>& places, double usual);
 
 /// The noise of a point at some place: the most that the two nearest of `known` have, for a part

@@ -94,9 +94,9 @@ Moments moments_round(std::size_t cell, const VoxelGrid& grid, const std::vector
 
 }  // namespace
 
-SurfaceFacets::SurfaceFacets(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                             double side, double sigma, std::size_t fewest)
-    : grid_(points, side), facet_of_(points.size()), middle_index_({}) {
+SurfaceFacets::SurfaceFacets(const PointIndex& index, double side, double sigma, std::size_t fewest)
+    : grid_(index.points(), side), facet_of_(index.points().size()), middle_index_({}) {
+  const auto& points = index.points();
   const auto clusters = clusters_of(grid_, points);
   std::vector<Look> looks(clusters.size());
   std::vector<double> thicknesses;

@@ -33,8 +33,7 @@ class SurfaceFacets {
   /// line over those of the lines beside it. Where they are thicker than `sigma`, their noise,
   /// explains, opposite walls are looked for. `side` > 0: of a cell. In a unit in which the section
   /// is one across. O(points log points).
-  SurfaceFacets(const std::vector<Eigen::Vector3d>& points, const PointIndex& index, double side,
-                double sigma, std::size_t fewest);
+  SurfaceFacets(const PointIndex& index, double side, double sigma, std::size_t fewest);
 
   std::size_t size() const { return facets_.size(); }
   const Facet& operator[](std::size_t facet) const { return facets_[facet]; }

@@ -30,9 +30,8 @@ struct Bend {
 
 }  // namespace
 
-CellNormals::CellNormals(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                         double side, double sigma, std::size_t fewest)
-    : facets_(points, index, side, sigma, fewest) {}
+CellNormals::CellNormals(const PointIndex& index, double side, double sigma, std::size_t fewest)
+    : facets_(index, side, sigma, fewest) {}
 
 void CellNormals::orient_by_neighbours() {
   std::vector<double> least_bends(facets_.size(), kLargestBend);

@@ -14,8 +14,7 @@ namespace instep {
 class CellNormals {
  public:
   /// As SurfaceFacets takes them.
-  CellNormals(const std::vector<Eigen::Vector3d>& points, const PointIndex& index, double side,
-              double sigma, std::size_t fewest);
+  CellNormals(const PointIndex& index, double side, double sigma, std::size_t fewest);
 
   /// Turns normals to agree with their neighbours along a minimum spanning tree of the bends (Hoppe
   /// 1992; bends of less than 8 degrees in any order), within parts that no sharp edge crosses, nor

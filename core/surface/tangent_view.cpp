@@ -122,8 +122,8 @@ double TangentView::spacing() const {
   return radius() * std::sqrt(std::numbers::pi / static_cast<double>(points.cols()));
 }
 
-TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                          const Eigen::Vector3d& centre) {
+TangentView flattest_view(const PointIndex& index, const Eigen::Vector3d& centre) {
+  const auto& points = index.points();
   Flattest best;
   const auto nearest = index.nearest(centre, kNearest);
   const double reach = std::sqrt(nearest.back().squared_distance);

@@ -27,8 +27,7 @@ struct TangentView {
 /// thicker than the spacing, fewer where the surface bends much. Of a thin part those on one of its
 /// walls, unless that faces the middle of the body (the origin) or away from it: there may be two
 /// layers of one skin. Where no count looks flat, the flattest.
-TangentView flattest_view(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                          const Eigen::Vector3d& centre);
+TangentView flattest_view(const PointIndex& index, const Eigen::Vector3d& centre);
 
 /// What is read off a view costs the cube of this.
 inline constexpr std::size_t kMostInView = 60;

@@ -23,7 +23,7 @@ std::vector<std::size_t> every(std::size_t step, const Points& points) {
 }
 
 NoiseEstimate estimate(const Points& points, const std::vector<double>& told = {}) {
-  return estimate_noise(points, PointIndex(points), every(points.size() / 40 + 1, points), told);
+  return estimate_noise(PointIndex(points), every(points.size() / 40 + 1, points), told);
 }
 
 Points sphere(double sigma, std::uint64_t seed) {
@@ -87,12 +87,12 @@ std::vector<std::size_t> ring_of(const Points& points) {
 TEST(NoiseEstimate, TellsUnevenNoiseFromEven) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     const auto same = sphere(0.003, seed);
-    EXPECT_TRUE(estimate_noise(same, PointIndex(same), ring_of(same), {}).uneven.empty()) << seed;
+    EXPECT_TRUE(estimate_noise(PointIndex(same), ring_of(same), {}).uneven.empty()) << seed;
     auto points = test::positions_of(test::sphere_points(0.5, 4000, 0.0, seed));
     test::RandomNumbers random(seed);
     const auto sigma_of = [](const Vector3d& point) { return point.x() > 0.0 ? 0.006 : 0.0015; };
     for (auto& point : points) point *= 1.0 + sigma_of(point) * random.normal() / 0.5;
-    const auto noise = estimate_noise(points, PointIndex(points), ring_of(points), {});
+    const auto noise = estimate_noise(PointIndex(points), ring_of(points), {});
     ASSERT_FALSE(noise.uneven.empty()) << seed;
     for (const auto& local : noise.uneven) {
       if (std::abs(local.place.x()) < 0.15) continue;  // reaches over the step
@@ -147,7 +147,7 @@ TEST(NoiseEstimate, RaisesWhatIsToldWhereThePointsShowMore) {
   const auto times_of = [](const Eigen::Vector3d& place) { return place.x() > 0.2 ? 4.0 : 1.0; };
   for (auto& point : points) point *= 1.0 + 0.001 * times_of(point) * random.normal() / 0.5;
   const std::vector<double> told(points.size(), 0.001);
-  const auto noise = estimate_noise(points, PointIndex(points), ring_of(points), told);
+  const auto noise = estimate_noise(PointIndex(points), ring_of(points), told);
   ASSERT_FALSE(noise.uneven.empty());
   EXPECT_NEAR(noise.told_scale, noise.sigma / 0.001, 1e-9);
   for (const auto& local : noise.uneven) {
@@ -158,7 +158,7 @@ TEST(NoiseEstimate, RaisesWhatIsToldWhereThePointsShowMore) {
 
 TEST(NoiseEstimate, TellsTheRoughnessOfSomeFortyPlaces) {
   const auto points = sphere(0.003, 7);
-  const auto noise = estimate_noise(points, PointIndex(points), every(1, points), {});
+  const auto noise = estimate_noise(PointIndex(points), every(1, points), {});
   EXPECT_GE(noise.roughness.size(), 20U);
   EXPECT_LE(noise.roughness.size(), 60U);
   for (const auto& known : noise.roughness) {
@@ -196,8 +196,8 @@ TEST(NoiseEstimate, OrderOfPointsDoesNotMatter) {
   Points turned(points.rbegin(), points.rend());
   std::vector<std::size_t> turned_places;
   for (const auto place : places) turned_places.push_back(points.size() - 1 - place);
-  const auto noise = estimate_noise(points, PointIndex(points), places, {});
-  const auto other = estimate_noise(turned, PointIndex(turned), turned_places, {});
+  const auto noise = estimate_noise(PointIndex(points), places, {});
+  const auto other = estimate_noise(PointIndex(turned), turned_places, {});
   EXPECT_NEAR(other.sigma, noise.sigma, 1e-9);
 }
 
@@ -213,7 +213,7 @@ TEST(NoiseEstimate, IsFiniteForAnything) {
   twice.insert(twice.end(), twice.begin(), twice.begin() + 2000);
   for (const auto& points : {line, cloud, twice, Points(50, Vector3d(1, 2, 3)), Points{{0, 0, 0}},
                              Points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}) {
-    const auto noise = estimate_noise(points, PointIndex(points), every(1, points), {});
+    const auto noise = estimate_noise(PointIndex(points), every(1, points), {});
     EXPECT_TRUE(std::isfinite(noise.sigma));
     EXPECT_GE(noise.sigma, 0.0);
     for (const auto& known : noise.roughness) {

@@ -65,9 +65,7 @@ struct Belt {
     });
   }
 
-  std::vector<ScatteredPlace> scattered() const {
-    return scattered_places(points, index, places, 0.0);
-  }
+  std::vector<ScatteredPlace> scattered() const { return scattered_places(index, places, 0.0); }
 };
 
 TEST(ScatteredPlaces, AreFoundInAFiftiethOfAnExactCrowd) {

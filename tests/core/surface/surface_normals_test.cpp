@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
 CellNormals normals_of(const Points& points, double side, std::size_t fewest = 8) {
-  return {points, PointIndex(points), side, 0.0, fewest};
+  return {PointIndex(points), side, 0.0, fewest};
 }
 
 void append(std::vector<OrientedPoint>& points, std::vector<OrientedPoint> more,

@@ -29,7 +29,7 @@ std::vector<Vector3d> sheet(std::size_t count, double sigma) {
 
 TEST(TangentView, SeesASheetFlat) {
   const auto points = sheet(10000, 0.0);
-  const auto view = flattest_view(points, PointIndex(points), Vector3d::Zero());
+  const auto view = flattest_view(PointIndex(points), Vector3d::Zero());
   EXPECT_EQ(view.points.cols(), 60);
   EXPECT_LT(view.thickness, 1e-6);
   EXPECT_LT(view.points.row(2).cwiseAbs().maxCoeff(), 1e-9);
@@ -41,7 +41,7 @@ TEST(TangentView, SeesASheetFlat) {
 
 TEST(TangentView, IsWiderWhereNoiseIsThick) {
   const auto points = sheet(10000, 0.02);
-  const auto view = flattest_view(points, PointIndex(points), Vector3d::Zero());
+  const auto view = flattest_view(PointIndex(points), Vector3d::Zero());
   EXPECT_EQ(view.points.cols(), 60);
   EXPECT_GT(view.radius(), 0.08);
   EXPECT_TRUE(view.crowded);
@@ -49,7 +49,7 @@ TEST(TangentView, IsWiderWhereNoiseIsThick) {
 
 TEST(TangentView, IsNoCrowdWherePointsLieWideApart) {
   const auto points = sheet(1000, 0.0);
-  EXPECT_FALSE(flattest_view(points, PointIndex(points), Vector3d::Zero()).crowded);
+  EXPECT_FALSE(flattest_view(PointIndex(points), Vector3d::Zero()).crowded);
 }
 
 /// Both walls of a thin part looked like noise: of wedges of 500 exact points it was 2 mm.
@@ -62,7 +62,7 @@ TEST(TangentView, SeesOneWallOfAThinPart) {
     walls.emplace_back(x, (i % 2 == 0 ? 0.2 : -0.2) * (0.5 - x), z);
   }
   for (const std::size_t i : {0U, 1U, 2U, 3U}) {
-    const auto view = flattest_view(walls, PointIndex(walls), walls[i]);
+    const auto view = flattest_view(PointIndex(walls), walls[i]);
     EXPECT_LT(view.thickness, 1e-6) << i;
     EXPECT_GE(view.points.cols(), 6) << i;
   }
