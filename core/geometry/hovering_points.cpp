@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/geometry/moments.h"
-#include "core/geometry/stray_points.h"
+#include "core/geometry/point_spacing.h"
 #include "core/picked.h"
 
 namespace instep {

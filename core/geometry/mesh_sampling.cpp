@@ -8,6 +8,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "core/geometry/disjoint_sets.h"
+
 namespace instep {
 namespace {
 
@@ -62,24 +64,8 @@ Vector3d face_vector(const TriangleMesh& mesh, const Triangle& triangle) {
   return (mesh.positions[triangle[1]] - corner).cross(mesh.positions[triangle[2]] - corner);
 }
 
-/// The sets that triangles fall into, joined by shared edges.
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[find(b)] = find(a); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 /// Joins the triangles that share an edge; false if two of them run along it the same way.
-bool join_along_edges(const TriangleMesh& mesh, Pieces& pieces) {
+bool join_along_edges(const TriangleMesh& mesh, DisjointSets& pieces) {
   struct Side {
     std::uint64_t edge;
     std::size_t triangle;
@@ -118,7 +104,7 @@ Vector3d centre_of_area(const TriangleMesh& mesh) {
 }
 
 /// +1 or -1 for each triangle: whether its own winding points out of the body.
-std::vector<double> outward_signs(const TriangleMesh& mesh, Pieces& pieces) {
+std::vector<double> outward_signs(const TriangleMesh& mesh, DisjointSets& pieces) {
   const Vector3d centre = centre_of_area(mesh);
   std::vector<double> volume(mesh.triangles.size(), 0.0);
   std::vector<double> magnitude(mesh.triangles.size(), 0.0);
@@ -126,15 +112,15 @@ std::vector<double> outward_signs(const TriangleMesh& mesh, Pieces& pieces) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& triangle = mesh.triangles[t];
     const double part = face_vector(mesh, triangle).dot(mesh.positions[triangle[0]] - centre);
-    volume[pieces.find(t)] += part;
-    magnitude[pieces.find(t)] += std::abs(part);
+    volume[pieces.of(t)] += part;
+    magnitude[pieces.of(t)] += std::abs(part);
     whole += part;
   }
   // Below this share of a piece's faces the sign of its volume is chance.
   constexpr double kTelling = 0.1;
   std::vector<double> signs(mesh.triangles.size());
   for (std::size_t t = 0; t < signs.size(); ++t) {
-    const std::size_t piece = pieces.find(t);
+    const std::size_t piece = pieces.of(t);
     const bool telling = std::abs(volume[piece]) > kTelling * magnitude[piece];
     signs[t] = (telling ? volume[piece] : whole) < 0.0 ? -1.0 : 1.0;
   }
@@ -199,7 +185,7 @@ bool is_refined(const TriangleMesh& mesh, double longest_edge_mm) {
 PointCloud corners_with_normals(const TriangleMesh& mesh) {
   PointCloud cloud;
   cloud.positions = mesh.positions;
-  Pieces pieces(mesh.triangles.size());
+  DisjointSets pieces(mesh.triangles.size());
   if (!join_along_edges(mesh, pieces)) return cloud;
 
   const auto signs = outward_signs(mesh, pieces);

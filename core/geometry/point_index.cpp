@@ -6,8 +6,6 @@
 #include <nanoflann.hpp>
 #include <utility>
 
-#include "core/median.h"
-
 namespace instep {
 namespace {
 
@@ -135,18 +133,6 @@ std::vector<PointIndex::Neighbour> PointIndex::around(const Eigen::Vector3d& que
   AllFound all(std::nextafter(radius * radius, radius * radius + 1.0));
   tree_->tree.findNeighbors(all, query.data(), nanoflann::SearchParams());
   return std::move(all).take();
-}
-
-double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                      std::size_t sample) {
-  if (points.size() < 2 || sample == 0) return 0.0;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    const auto found = index.nearest(points[i], 2);
-    distances.push_back(std::sqrt(found.back().squared_distance));
-  }
-  return median(std::move(distances));
 }
 
 }  // namespace instep

@@ -42,10 +42,4 @@ class PointIndex {
   std::unique_ptr<Tree> tree_;
 };
 
-/// Median distance from a point to its nearest other point, over an even sample of some
-/// `sample` points (fewer than twice as many): the spacing of a cloud. Zero for fewer than two
-/// points.
-double median_spacing(const std::vector<Eigen::Vector3d>& points, const PointIndex& index,
-                      std::size_t sample = 2000);
-
 }  // namespace instep

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <tuple>
 
+#include "core/geometry/disjoint_sets.h"
 #include "core/geometry/point_index.h"
 
 namespace instep {
@@ -24,50 +24,8 @@ TreeEdge edge_between(std::size_t a, std::size_t b, double squared_length) {
           std::sqrt(squared_length)};
 }
 
-/// Which points hang together already.
-class Parts {
- public:
-  explicit Parts(std::size_t count) : parents_(count), count_(count) {
-    std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
-  }
-
-  std::uint32_t of(std::uint32_t point) {
-    while (parents_[point] != point) {
-      parents_[point] = parents_[parents_[point]];
-      point = parents_[point];
-    }
-    return point;
-  }
-
-  /// False if they hung together before.
-  bool join(std::uint32_t a, std::uint32_t b) {
-    a = of(a);
-    b = of(b);
-    if (a == b) return false;
-    parents_[std::max(a, b)] = std::min(a, b);
-    --count_;
-    return true;
-  }
-
-  std::size_t count() const { return count_; }
-
-  /// The number of each point's part, from zero.
-  std::vector<std::uint32_t> numbers() {
-    std::vector<std::uint32_t> numbers(parents_.size());
-    std::uint32_t next = 0;
-    for (std::uint32_t point = 0; point < parents_.size(); ++point) {
-      const std::uint32_t root = of(point);
-      numbers[point] = root == point ? next++ : numbers[root];
-    }
-    return numbers;
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-  std::size_t count_;
-};
-
-void take_shortest(std::vector<TreeEdge>& candidates, Parts& parts, std::vector<TreeEdge>& tree) {
+void take_shortest(std::vector<TreeEdge>& candidates, DisjointSets& parts,
+                   std::vector<TreeEdge>& tree) {
   std::sort(candidates.begin(), candidates.end(), shorter);
   for (const TreeEdge& edge : candidates) {
     if (parts.join(edge.from, edge.to)) tree.push_back(edge);
@@ -96,7 +54,8 @@ struct Half {
 
 /// For each part its shortest edge to any other. The binary numbers of two parts differ somewhere:
 /// so the nearest foreign point is the nearest of those found among the opposite halves.
-std::vector<TreeEdge> shortest_edges_out(const std::vector<Eigen::Vector3d>& points, Parts& parts) {
+std::vector<TreeEdge> shortest_edges_out(const std::vector<Eigen::Vector3d>& points,
+                                         DisjointSets& parts) {
   const auto numbers = parts.numbers();
   std::vector<TreeEdge> best(parts.count(), {0, 0, std::numeric_limits<double>::infinity()});
   for (std::uint32_t bit = 0; (std::size_t{1} << bit) < parts.count(); ++bit) {
@@ -125,7 +84,7 @@ std::vector<TreeEdge> minimum_spanning_tree(const std::vector<Eigen::Vector3d>& 
   std::vector<TreeEdge> tree;
   if (points.size() < 2) return tree;
   tree.reserve(points.size() - 1);
-  Parts parts(points.size());
+  DisjointSets parts(points.size());
   auto candidates = neighbour_edges(points);
   take_shortest(candidates, parts, tree);
   while (parts.count() > 1) {

@@ -1,32 +1,18 @@
 #include "core/geometry/stray_points.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/voxel_grid.h"
-#include "core/median.h"
 
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbours = 8;
 constexpr double kStrayRatio = 2.2;
 /// A cell and those round it hold some twenty points of an even surface; a stray, more than three
 /// spacings off, has fewer than this for company.
 constexpr double kCellInSpacings = 1.5;
 constexpr std::size_t kCompany = 10;
-
-/// Of a point whose `others` nearest others lie at most so far from it.
-double spacing_within(double distance, std::size_t others) {
-  return distance *
-         std::sqrt(std::numbers::pi / static_cast<double>(std::max<std::size_t>(others, 1)));
-}
-
-/// `nearest`: to the point, itself included.
-double own_spacing(const std::vector<PointIndex::Neighbour>& nearest) {
-  return spacing_within(std::sqrt(nearest.back().squared_distance), nearest.size() - 1);
-}
 
 /// The spacings of points, each looked for once: points that stand apart ask for the same ones.
 class OwnSpacings {
@@ -57,7 +43,7 @@ class OwnSpacings {
   static constexpr double kUnknown = -1.0;
 
   std::vector<PointIndex::Neighbour> nearest_of(std::size_t point) const {
-    return index_.nearest(index_.points()[point], kNeighbours + 1);
+    return index_.nearest(index_.points()[point], kSpacingNeighbours + 1);
   }
 
   double spacing_of(std::size_t point) {
@@ -84,21 +70,6 @@ std::vector<bool> stray_points(const PointIndex& index, double spacing) {
     for (const auto member : grid.members(cell)) strays[member] = spacings.stands_alone(member);
   }
   return strays;
-}
-
-double own_spacing(const PointIndex& index, const Eigen::Vector3d& point) {
-  return own_spacing(index.nearest(point, kNeighbours + 1));
-}
-
-double usual_spacing(const PointIndex& index, std::size_t sample) {
-  const auto& points = index.points();
-  if (points.size() < 2 || sample == 0) return 0.0;
-  std::vector<double> spacings;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    spacings.push_back(own_spacing(index, points[i]));
-  }
-  return median(std::move(spacings));
 }
 
 }  // namespace instep

@@ -13,12 +13,4 @@ namespace instep {
 /// cells of that size are well filled nobody is asked for neighbours.
 std::vector<bool> stray_points(const PointIndex& index, double spacing);
 
-/// Side of the square that a point of the index has for itself, by the distance to its eighth
-/// neighbour.
-double own_spacing(const PointIndex& index, const Eigen::Vector3d& point);
-
-/// The middle one of the spacings of some `sample` points (fewer than twice as many) spread over
-/// the list. Zero for fewer than two points.
-double usual_spacing(const PointIndex& index, std::size_t sample);
-
 }  // namespace instep

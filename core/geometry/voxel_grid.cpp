@@ -1,7 +1,8 @@
 #include "core/geometry/voxel_grid.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "core/geometry/disjoint_sets.h"
 
 namespace instep {
 namespace {
@@ -34,14 +35,6 @@ void sort_by_keys(std::vector<KeyOfPoint>& keys) {
     std::sort(begin, end);
     begin = end;
   }
-}
-
-std::size_t root_of(std::vector<std::size_t>& parents, std::size_t cell) {
-  while (parents[cell] != cell) {
-    parents[cell] = parents[parents[cell]];
-    cell = parents[cell];
-  }
-  return cell;
 }
 
 }  // namespace
@@ -106,23 +99,14 @@ std::vector<std::size_t> VoxelGrid::face_neighbourhood(std::size_t cell) const {
 }
 
 std::vector<std::size_t> VoxelGrid::clusters() const {
-  std::vector<std::size_t> parents(cell_count());
-  std::iota(parents.begin(), parents.end(), std::size_t{0});
+  DisjointSets joined(cell_count());
   for (std::size_t cell = 0; cell < cell_count(); ++cell) {
     for (const std::size_t other : neighbourhood(cell)) {
       if (other >= cell) break;
-      const std::size_t a = root_of(parents, cell);
-      const std::size_t b = root_of(parents, other);
-      parents[std::max(a, b)] = std::min(a, b);
+      joined.join(cell, other);
     }
   }
-  std::vector<std::size_t> numbers(cell_count());
-  std::size_t count = 0;
-  for (std::size_t cell = 0; cell < cell_count(); ++cell) {
-    const std::size_t root = root_of(parents, cell);
-    numbers[cell] = root == cell ? count++ : numbers[root];
-  }
-  return numbers;
+  return joined.numbers();
 }
 
 std::vector<std::size_t> VoxelGrid::clusters_of_points() const {

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 #include "core/geometry/plane_vectors.h"
+#include "core/geometry/point_spacing.h"
 #include "core/girth/contour_course.h"
 #include "core/surface/point_lines.h"
 
@@ -116,8 +116,7 @@ double way_between_lines(const Contour& contour, std::size_t corner,
     arms.push_back(surface.points()[i].position - patch->centre);
   }
   const PointLines lines = lines_among(arms, patch->at(here).gradient.normalized(), patch->radius);
-  const double spacing =
-      patch->radius * std::sqrt(std::numbers::pi / static_cast<double>(arms.size()));
+  const double spacing = spacing_within(patch->radius, arms.size());
   if (lines.apart < kLinesApart * spacing) return 0.0;
   const double across = std::abs(cross(contour.outward[corner], lines.across.head<2>()));
   return across < kAcross ? 0.0 : lines.apart / across;

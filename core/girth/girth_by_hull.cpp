@@ -9,6 +9,7 @@
 
 #include "core/geometry/plane_vectors.h"
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
 #include "core/girth/plane_slab.h"
@@ -55,7 +56,7 @@ Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane&
   for (double half_width = kThinnest * size; half_width < size; half_width *= 1.4) {
     PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestBandPoints) continue;
-    const double spacing = median_spacing(slab.places, PointIndex(slab.places));
+    const double spacing = median_nearest_distance(PointIndex(slab.places));
     if (half_width >= kWidestBandInSpacings * spacing) {
       return Neighbourhood{std::move(slab), spacing, tape_round(cloud, plane, kAbout * size)};
     }

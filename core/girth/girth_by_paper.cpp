@@ -1,12 +1,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/principal_frame.h"
 #include "core/girth/girth.h"
@@ -34,7 +34,6 @@ constexpr std::size_t kMostInCircle = 60;
 
 constexpr std::size_t kFewestPoints = 10;
 /// Neighbours from which the spacing is told, and about how many points are asked.
-constexpr std::size_t kSpacingNeighbours = 8;
 constexpr std::size_t kSpacingPlaces = 4000;
 /// The band is looked for in slabs of this part of the cloud's size, and so many times this much
 /// thinner or thicker ones.
@@ -66,20 +65,6 @@ struct PartialCloud {
   double tape_about_mm = 0.0;
 };
 
-/// Side of the square that a point has for itself; the middle one over points spread evenly over
-/// the list.
-double spacing_of(const std::vector<Eigen::Vector3d>& places) {
-  const PointIndex index(places);
-  std::vector<double> sides;
-  const std::size_t stride = std::max<std::size_t>(1, places.size() / kSpacingPlaces);
-  for (std::size_t i = 0; i < places.size(); i += stride) {
-    const auto nearest = index.nearest(places[i], kSpacingNeighbours + 1);
-    sides.push_back(std::sqrt(std::numbers::pi * nearest.back().squared_distance /
-                              static_cast<double>(nearest.size() - 1)));
-  }
-  return median(std::move(sides));
-}
-
 double extent(const PointCloud& cloud) {
   Eigen::AlignedBox3d box;
   for (const auto& position : cloud.positions) box.extend(position);
@@ -93,7 +78,7 @@ Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& pla
   for (double half_width = thinnest * size; half_width < 0.5 * size; half_width *= kSlabGrowth) {
     const PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestPoints) continue;
-    const double wanted = kBandInSpacings * spacing_of(slab.places);
+    const double wanted = kBandInSpacings * usual_spacing(PointIndex(slab.places), kSpacingPlaces);
     if (!(half_width >= wanted && wanted > 0.0)) continue;
     if (!is_cut(slab.places)) {
       return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
@@ -143,7 +128,7 @@ class SectionOfSurface {
   std::vector<Eigen::Vector2d> intersections() const {
     std::vector<Eigen::Vector2d> found;
     const PointIndex index(flat_);
-    const double spacing = std::max(median_spacing(flat_, index), 1e-3 * threshold());
+    const double spacing = std::max(median_nearest_distance(index), 1e-3 * threshold());
     for (std::size_t i = 0; i < flat_.size(); ++i) {
       const auto normal = line_normal(circle(index, flat_[i], spacing));
       if (!normal) continue;

@@ -10,6 +10,7 @@
 #include "core/geometry/hovering_points.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/off_skin_points.h"
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/stray_points.h"
 #include "core/girth/section_probe.h"
 #include "core/median.h"

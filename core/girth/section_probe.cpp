@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/scan_lines.h"
-#include "core/geometry/stray_points.h"
 #include "core/girth/section_box.h"
 
 namespace instep {

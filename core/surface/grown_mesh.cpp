@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <queue>
 #include <span>
 #include <utility>
 
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "core/surface/partial_mesh.h"
 
 namespace instep {
@@ -26,7 +26,6 @@ constexpr std::size_t kNeighbours = 20;
 /// Third corners that an edge tries, the best first.
 constexpr std::size_t kTried = 8;
 /// Neighbours that tell how coarse the sampling is.
-constexpr std::size_t kSpacingNeighbours = 8;
 /// Longest edge, against the spacing at its ends.
 constexpr double kReach = 4.0;
 /// Cosine of the sharpest bend between neighbouring triangles: 120 degrees.
@@ -68,8 +67,8 @@ class Growth {
         around.push_back(static_cast<Corner>(found.index));
         if (around.size() <= kSpacingNeighbours) squared = found.squared_distance;
       }
-      const auto counted = static_cast<double>(std::min(around.size(), kSpacingNeighbours));
-      spacings_.push_back(std::sqrt(squared * std::numbers::pi / std::max(counted, 1.0)));
+      spacings_.push_back(
+          spacing_within(std::sqrt(squared), std::min(around.size(), kSpacingNeighbours)));
       neighbours_.push_back(std::move(around));
     }
   }

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "core/geometry/point_spacing.h"
 #include "core/surface/kriging_likelihood.h"
 
 namespace instep {
@@ -60,7 +60,7 @@ constexpr double kEven = 1e-10;
 
 /// Whether all points within the radius are.
 bool are_exact(const std::vector<OrientedPoint>& points, double radius) {
-  const double spacing = radius * std::sqrt(std::numbers::pi / static_cast<double>(points.size()));
+  const double spacing = spacing_within(radius, points.size());
   return std::all_of(points.begin(), points.end(), [&](const OrientedPoint& point) {
     return is_harmless(point.variance, spacing);
   });

@@ -1,11 +1,11 @@
 #include "core/surface/octree_surface.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/spanning_tree.h"
 #include "core/picked.h"
 #include "core/surface/box_normals.h"
@@ -38,7 +38,7 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   report(0.0);
   std::vector<Eigen::Vector3d> distinct;
   for (const std::size_t i : distinct_points(input)) distinct.push_back(input[i]);
-  const double spacing = median_spacing(distinct, PointIndex(distinct));
+  const double spacing = median_nearest_distance(PointIndex(distinct));
   auto points = without_near_duplicates(distinct, kDuplicate * spacing);
   if (2 * points.size() < options.fewest) return no_surface();
   const auto tree = minimum_spanning_tree(points);

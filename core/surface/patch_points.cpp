@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
+#include "core/geometry/point_spacing.h"
 #include "core/median.h"
 #include "core/picked.h"
 
@@ -130,8 +130,7 @@ PatchPoints::Surroundings PatchPoints::surroundings_of(const Eigen::Vector3d& pl
   for (std::size_t i = 0; i < count; ++i) {
     variance += points_[here.nearest[i].index].variance / static_cast<double>(count);
   }
-  const auto found = static_cast<double>(here.nearest.size());
-  here.spacing = here.reach * std::sqrt(std::numbers::pi / found);
+  here.spacing = spacing_within(here.reach, here.nearest.size());
   here.noise_area = variance * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
   here.exact = is_harmless(variance, here.spacing);

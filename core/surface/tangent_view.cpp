@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <utility>
 
+#include "core/geometry/point_spacing.h"
 #include "core/surface/opposite_walls.h"
 
 namespace instep {
@@ -119,7 +119,7 @@ Nearest nearest_within(const PointIndex& index, const Eigen::Vector3d& centre, d
 }  // namespace
 
 double TangentView::spacing() const {
-  return radius() * std::sqrt(std::numbers::pi / static_cast<double>(points.cols()));
+  return spacing_within(radius(), static_cast<std::size_t>(points.cols()));
 }
 
 TangentView flattest_view(const PointIndex& index, const Eigen::Vector3d& centre) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 
 namespace instep::bench {
 namespace {
@@ -14,7 +15,7 @@ std::string number(const std::optional<double>& value) {
 }
 
 double spacing_of(const PointCloud& cloud) {
-  return median_spacing(cloud.positions, PointIndex(cloud.positions));
+  return median_nearest_distance(PointIndex(cloud.positions));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "tests/bench/peers/peer.h"
 
 namespace instep::bench {
@@ -54,7 +55,7 @@ std::optional<PeerGirths> by_advancing_front(const PeerSubject& subject) {
 std::optional<PeerGirths> by_advancing_front_on_slab(const PeerSubject& subject) {
   constexpr double kHalfWidthInSpacings = 6.0;
   const auto& positions = subject.cloud.positions;
-  const double half_width = kHalfWidthInSpacings * median_spacing(positions, PointIndex(positions));
+  const double half_width = kHalfWidthInSpacings * median_nearest_distance(PointIndex(positions));
   PeerGirths girths;
   const std::clock_t begin = std::clock();
   for (const auto& plane : subject.planes) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/point_spacing.h"
 #include "core/geometry/stray_points.h"
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"

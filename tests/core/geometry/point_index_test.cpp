@@ -77,13 +77,5 @@ TEST(PointIndex, AnswersOnNoPoints) {
   EXPECT_TRUE(index.within({0, 0, 0}, 3).empty());
 }
 
-TEST(MedianSpacing, IsThePitchOfAGrid) {
-  std::vector<Vector3d> points;
-  for (int x = 0; x < 20; ++x) {
-    for (int y = 0; y < 20; ++y) points.emplace_back(1.5 * x, 1.5 * y, 0);
-  }
-  EXPECT_NEAR(median_spacing(points, PointIndex(points)), 1.5, 1e-12);
-}
-
 }  // namespace
 }  // namespace instep

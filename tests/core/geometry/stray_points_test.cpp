@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/point_spacing.h"
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
 
@@ -117,39 +118,6 @@ TEST(StrayPoints, DoNotDependOnTheUnit) {
   const PointIndex larger(points);
   EXPECT_DOUBLE_EQ(usual_spacing(larger, 200), 1024.0 * spacing);
   EXPECT_EQ(stray_points(larger, 1024.0 * spacing), before);
-}
-
-Points grid(int side, double pitch) {
-  Points points;
-  for (int i = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j) points.emplace_back(pitch * i, pitch * j, 7.0);
-  }
-  return points;
-}
-
-/// The eighth neighbour is across the diagonal: eight points share a circle of that radius.
-TEST(UsualSpacing, OfAGridIsThatOfItsDiagonalNeighbours) {
-  for (const double pitch : {0.01, 1.0, 30.0}) {
-    const PointIndex index(grid(30, pitch));
-    EXPECT_NEAR(usual_spacing(index, 900), pitch * std::sqrt(2.0 * std::numbers::pi / 8.0),
-                1e-12 * pitch);
-  }
-}
-
-TEST(UsualSpacing, OfRandomPointsIsTheSideOfTheSquareThatEachHas) {
-  test::RandomNumbers random(6);
-  Points points;
-  for (int i = 0; i < 10000; ++i) {
-    points.emplace_back(random.uniform(0.0, 50.0), random.uniform(0.0, 50.0), 0.0);
-  }
-  EXPECT_NEAR(usual_spacing(PointIndex(points), 500), 0.5, 0.03);
-}
-
-TEST(UsualSpacing, IsZeroWhereThereIsNone) {
-  EXPECT_EQ(usual_spacing(PointIndex({}), 10), 0.0);
-  EXPECT_EQ(usual_spacing(PointIndex({Vector3d(1, 2, 3)}), 10), 0.0);
-  EXPECT_EQ(usual_spacing(PointIndex(Points(50, Vector3d(1, 2, 3))), 10), 0.0);
-  EXPECT_GT(usual_spacing(PointIndex({Vector3d(1, 2, 3), Vector3d(1, 2, 4)}), 10), 0.0);
 }
 
 }  // namespace

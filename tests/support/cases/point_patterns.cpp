@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep::test {
@@ -38,7 +39,7 @@ Indices at_random(const PointCloud& crowd, std::size_t count, RandomNumbers& ran
 /// Distance between `count` points if those of the crowd are spread evenly at random.
 double mean_spacing(const PointCloud& crowd, const PointIndex& index, std::size_t count) {
   constexpr double kNearestAmongRandom = 0.47;  // median distance times the root of the density
-  return median_spacing(crowd.positions, index) / kNearestAmongRandom *
+  return median_nearest_distance(index) / kNearestAmongRandom *
          std::sqrt(static_cast<double>(crowd.size()) / static_cast<double>(count));
 }
 
