@@ -8,7 +8,6 @@
 
 #include "core/geometry/plane_vectors.h"
 #include "core/geometry/point_spacing.h"
-#include "core/girth/contour_course.h"
 #include "core/surface/point_lines.h"
 
 namespace instep {
@@ -43,8 +42,9 @@ struct Stretch {
 };
 
 /// Those whose middle is further off than that.
-std::vector<Stretch> stretches_off_points(const Contour& contour, const BlendedSurface& surface,
-                                          const ContourCourse& course, double least_off) {
+std::vector<Stretch> stretches_off_points(const ContourCourse& course,
+                                          const BlendedSurface& surface, double least_off) {
+  const Contour& contour = course.contour();
   std::vector<Stretch> stretches;
   bool within = false;
   bool begins_within = false;
@@ -92,13 +92,12 @@ Turns turns_round(const ContourCourse& course, const Stretch& stretch) {
 }
 
 /// Whether the surface has an edge there already, of whose doubt its patch tells.
-bool has_edge(const Contour& contour, const ContourCourse& course, const Stretch& stretch) {
+bool has_edge(const ContourCourse& course, const Stretch& stretch) {
+  const Contour& contour = course.contour();
   for (std::size_t i = 0; i < contour.points.size(); ++i) {
     const double off = std::remainder(course.way_to(i) - stretch.middle, course.length());
     if (std::abs(off) > 0.5 * stretch.length) continue;
-    const std::size_t next = (i + 1) % contour.points.size();
-    const double turn = turn_between(contour.outward[i], contour.outward[next]);
-    if (std::abs(turn) > kTurnOfEdge) return true;
+    if (std::abs(contour.turn(i)) > kTurnOfEdge) return true;
   }
   return false;
 }
@@ -124,17 +123,16 @@ double way_between_lines(const Contour& contour, std::size_t corner,
 
 }  // namespace
 
-UnseenBends bends_between_lines(const Contour& contour, const BlendedSurface& surface,
+UnseenBends bends_between_lines(const ContourCourse& course, const BlendedSurface& surface,
                                 double spacing) {
-  const ContourCourse course(contour);
   UnseenBends sum;
-  for (auto stretch : stretches_off_points(contour, surface, course, kOffPoints * spacing)) {
+  for (auto stretch : stretches_off_points(course, surface, kOffPoints * spacing)) {
     if (turns_round(course, stretch).unlike < kSmoothTurn) continue;
-    const double apart = way_between_lines(contour, stretch.corner, surface);
+    const double apart = way_between_lines(course.contour(), stretch.corner, surface);
     if (apart == 0.0) continue;
     stretch.length = std::max(stretch.length, apart);
     if (kFewestStretches * stretch.length > course.length()) continue;
-    if (has_edge(contour, course, stretch)) continue;
+    if (has_edge(course, stretch)) continue;
     const Turns turns = turns_round(course, stretch);
     const double longer =
         kLikely * stretch.length * longer_by_corner(turns.unlike, kSmoothTurn, kSharpestCorner);

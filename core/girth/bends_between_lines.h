@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour_course.h"
 #include "core/girth/unseen_bends.h"
 #include "core/surface/blended_surface.h"
 
@@ -17,7 +17,7 @@ namespace instep {
 ///
 /// Lengths in the unit of the contour; `spacing`: of the points. O(corners log points), and as many
 /// corners and points of a patch for each stretch that turns so.
-UnseenBends bends_between_lines(const Contour& contour, const BlendedSurface& surface,
+UnseenBends bends_between_lines(const ContourCourse& course, const BlendedSurface& surface,
                                 double spacing);
 
 }  // namespace instep

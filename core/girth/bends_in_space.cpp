@@ -7,8 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/girth/contour_course.h"
-
 namespace instep {
 namespace {
 
@@ -37,10 +35,10 @@ bool is_in_space(const BlendedSurface& surface, const Eigen::Vector2d& place) {
 }
 
 /// Those in the middle of which a patch in space leads, the sharpest first.
-std::vector<Bend> sharp_bends(const Contour& contour, const ContourCourse& course,
-                              const BlendedSurface& surface, double way) {
+std::vector<Bend> sharp_bends(const ContourCourse& course, const BlendedSurface& surface,
+                              double way) {
   std::vector<Bend> bends;
-  for (std::size_t i = 0; i < contour.points.size(); ++i) {
+  for (std::size_t i = 0; i < course.contour().points.size(); ++i) {
     const Bend bend{course.way_to(i), turn_over(course, course.way_to(i), way)};
     if (!(std::abs(bend.turn) > kOrdinaryTurn)) continue;
     if (is_in_space(surface, course.place_at(bend.begin + 0.5 * way))) bends.push_back(bend);
@@ -53,12 +51,11 @@ std::vector<Bend> sharp_bends(const Contour& contour, const ContourCourse& cours
 
 }  // namespace
 
-UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double way) {
+UnseenBends bends_in_space(const ContourCourse& course, const BlendedSurface& surface, double way) {
   UnseenBends sum;
   if (!(way > 0.0)) return sum;
-  const ContourCourse course(contour);
   std::vector<Bend> counted;
-  for (const Bend& bend : sharp_bends(contour, course, surface, way)) {
+  for (const Bend& bend : sharp_bends(course, surface, way)) {
     const bool overlaps = std::any_of(counted.begin(), counted.end(), [&](const Bend& other) {
       const double apart = std::abs(other.begin - bend.begin);
       return std::min(apart, course.length() - apart) < way;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour_course.h"
 #include "core/girth/unseen_bends.h"
 #include "core/surface/blended_surface.h"
 
@@ -15,6 +15,6 @@ namespace instep {
 /// `way`: that short, in the unit of the contour, as the half-widths; less than its length. Nothing
 /// if it is not above 0. O(corners log corners), and as many looks for a patch as corners that
 /// bend.
-UnseenBends bends_in_space(const Contour& contour, const BlendedSurface& surface, double way);
+UnseenBends bends_in_space(const ContourCourse& course, const BlendedSurface& surface, double way);
 
 }  // namespace instep

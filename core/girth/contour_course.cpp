@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/plane_vectors.h"
-
 namespace instep {
 
 ContourCourse::ContourCourse(const Contour& contour) : contour_(contour) {
   for (std::size_t i = 0; i < contour.points.size(); ++i) {
-    const std::size_t next = (i + 1) % contour.points.size();
-    ways_.push_back(ways_.back() + (contour.points[next] - contour.points[i]).norm());
-    turns_.push_back(turns_.back() + turn_between(contour.outward[i], contour.outward[next]));
+    ways_.push_back(ways_.back() + contour.chord(i));
+    turns_.push_back(turns_.back() + contour.turn(i));
   }
 }
 
@@ -30,7 +27,7 @@ double ContourCourse::turn_at(double way) const {
 Eigen::Vector2d ContourCourse::place_at(double way) const {
   const auto [corner, part] = station_at(way - length() * std::floor(way / length()));
   const auto& points = contour_.points;
-  return (1.0 - part) * points[corner] + part * points[(corner + 1) % points.size()];
+  return (1.0 - part) * points[corner] + part * points[contour_.next(corner)];
 }
 
 }  // namespace instep

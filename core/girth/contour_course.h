@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 
 namespace instep {
 
@@ -15,6 +15,8 @@ class ContourCourse {
   /// O(corners).
   explicit ContourCourse(const Contour& contour);
 
+  const Contour& contour() const { return contour_; }
+  /// Of the polygon through the corners.
   double length() const { return ways_.back(); }
   /// All round (radians).
   double whole_turn() const { return turns_.back(); }

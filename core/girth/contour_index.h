@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 
 namespace instep {
 

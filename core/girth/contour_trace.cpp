@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include "core/geometry/plane_vectors.h"
-#include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
-
-/// Pieces of a chord that a tape lies on: it leaves the curve at the ends of pieces only.
-constexpr int kPiecesUnderTape = 8;
 
 constexpr int kMostCorrections = 12;
 /// A last move of Newton that is shorter, in steps, leaves an error of its square.
@@ -106,64 +101,6 @@ std::optional<Place> turn_corner(BlendedSurface& surface, const Place& from, dou
 }
 
 }  // namespace
-
-double Contour::length() const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t next = (i + 1) % points.size();
-    const double turn = turn_between(outward[i], outward[next]);
-    sum += (points[next] - points[i]).norm() * (1.0 + turn * turn / 24.0);
-  }
-  return sum;
-}
-
-double Contour::tape_length() const {
-  const auto fine = refined(kPiecesUnderTape);
-  const auto hull = convex_hull(fine);
-  const std::size_t count = hull.size();
-  if (count < 3) return perimeter(hull);
-  std::vector<Eigen::Vector2d> sides;
-  sides.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) sides.push_back(hull[(i + 1) % count] - hull[i]);
-  std::vector<double> turns;  // from each side to the next
-  turns.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    turns.push_back(turn_between(sides[i], sides[(i + 1) % count]));
-  }
-  // Both run counter-clockwise, so the hull's corners are met one after the other on the curve.
-  auto at = std::find(fine.begin(), fine.end(), hull.front());
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d& corner = hull[(i + 1) % count];
-    const auto next = std::next(at) == fine.end() ? fine.begin() : std::next(at);
-    const bool touches = *next == corner;
-    at = std::find(next, fine.end(), corner);
-    if (at == fine.end()) at = std::find(fine.begin(), next, corner);
-    // At a corner the turn is no arc's: the neighbour's tells.
-    const double turn = std::min(turns[(i + count - 1) % count], turns[i]);
-    sum += sides[i].norm() * (touches ? 1.0 + turn * turn / 24.0 : 1.0);
-  }
-  // The cubics of a curve without hollows may bend a little more than its arcs.
-  return std::min(sum, length());
-}
-
-std::vector<Eigen::Vector2d> Contour::refined(int parts) const {
-  std::vector<Eigen::Vector2d> fine;
-  fine.reserve(points.size() * static_cast<std::size_t>(parts));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t next = (i + 1) % points.size();
-    const double chord = (points[next] - points[i]).norm();
-    const Eigen::Vector2d leave = chord * Eigen::Vector2d(-outward[i].y(), outward[i].x());
-    const Eigen::Vector2d arrive = chord * Eigen::Vector2d(-outward[next].y(), outward[next].x());
-    for (int k = 0; k < parts; ++k) {
-      const double t = static_cast<double>(k) / parts;
-      const double rest = 1.0 - t;
-      fine.push_back(rest * rest * ((1.0 + 2.0 * t) * points[i] + t * leave) +
-                     t * t * ((1.0 + 2.0 * rest) * points[next] - rest * arrive));
-    }
-  }
-  return fine;
-}
 
 std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vector2d& start,
                                      double step, double reach, double longest) {

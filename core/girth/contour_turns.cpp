@@ -20,10 +20,8 @@ std::vector<double> turns_of_line(const Contour& contour) {
   const std::size_t count = contour.points.size();
   std::vector<double> turns(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = (i + 1) % count;
-    const double turn = turn_between(contour.outward[i], contour.outward[next]);
-    turns[i] += 0.5 * turn;
-    turns[next] += 0.5 * turn;
+    turns[i] += 0.5 * contour.turn(i);
+    turns[contour.next(i)] += 0.5 * contour.turn(i);
   }
   return turns;
 }
@@ -51,14 +49,11 @@ ContourTurns turns_of(const Contour& contour) {
   return {turns_of_line(contour), turns_of_tape(contour)};
 }
 
-double mean_fold_depth(const Contour& contour) {
+double mean_fold_depth(const Contour& contour, double more) {
   double turned = 0.0;
-  for (std::size_t i = 0; i < contour.outward.size(); ++i) {
-    const std::size_t next = (i + 1) % contour.outward.size();
-    turned += std::abs(turn_between(contour.outward[i], contour.outward[next]));
-  }
+  for (std::size_t i = 0; i < contour.outward.size(); ++i) turned += std::abs(contour.turn(i));
   const double folds = std::max(0.5 * turned / std::numbers::pi - 1.0, kLeastFolds);
-  return 0.5 * (contour.length() - contour.tape_length()) / folds;
+  return 0.5 * more / folds;
 }
 
 }  // namespace instep

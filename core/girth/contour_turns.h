@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 
 namespace instep {
 
@@ -17,7 +17,7 @@ ContourTurns turns_of(const Contour& contour);
 
 /// How deep the hollows and folds of a contour go, on the mean: half of what it is longer than a
 /// tape round it, for every full turn that it makes to and fro beyond the one round the body. Of
-/// one that hardly turns more than that, more than any of its folds.
-double mean_fold_depth(const Contour& contour);
+/// one that hardly turns more than that, more than any of its folds. `more`: what it is longer.
+double mean_fold_depth(const Contour& contour, double more);
 
 }  // namespace instep

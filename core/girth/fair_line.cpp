@@ -29,8 +29,8 @@ Eigen::MatrixX2d terms_nearest_to(const Contour& contour, const ClosedSplineBasi
   double way = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     // Each corner stands for half of the chords beside it.
-    const double before = (contour.points[i] - contour.points[(i + count - 1) % count]).norm();
-    const double after = (contour.points[(i + 1) % count] - contour.points[i]).norm();
+    const double before = contour.chord(i > 0 ? i - 1 : count - 1);
+    const double after = contour.chord(i);
     const double share = 0.5 * (before + after);
     const auto spot = basis.at(way);
     for (int a = 0; a < 4; ++a) {

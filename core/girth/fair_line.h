@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 #include "core/girth/corner_grid.h"
 #include "core/surface/closed_spline_basis.h"
 

@@ -90,7 +90,7 @@ std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& 
     stretch.contact.push_back(turns.contact[i] / slope);
     stretch.stretched.push_back(turns.stretched[i] / slope);
     stretch.slopes.push_back(slope);
-    stretch.length += (contour.points[(i + 1) % count] - contour.points[i]).norm();
+    stretch.length += contour.chord(i);
   }
   return stretches;
 }
@@ -237,7 +237,7 @@ double doubt_of_direction(double sigma, const Contour& contour) {
     const std::size_t to = (window + 1) * corners / windows;
     double way = 0.0;
     for (std::size_t i = from; i < to; ++i) {
-      way += (contour.points[(i + 1) % corners] - contour.points[i]).norm();
+      way += contour.chord(i);
     }
     const double turn = turn_between(contour.outward[from], contour.outward[to % corners]);
     bends += std::pow(std::min(std::abs(turn), kSharpestRound), 2) / way;

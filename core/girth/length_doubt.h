@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/geometry/polygon.h"
+#include "core/girth/contour_trace.h"
 #include "core/girth/section_gaps.h"
 
 namespace instep {

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/girth/contour.h"
 #include "core/girth/contour_index.h"
-#include "core/girth/contour_trace.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/surface/blended_surface.h"

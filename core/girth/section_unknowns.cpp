@@ -7,6 +7,7 @@
 #include "core/girth/bends_between_lines.h"
 #include "core/girth/bends_in_space.h"
 #include "core/girth/cloud_edge.h"
+#include "core/girth/contour_course.h"
 #include "core/girth/contour_turns.h"
 
 namespace instep {
@@ -21,7 +22,6 @@ constexpr double kFoldInSigmas = 12.0;
 /// Folds that add less than this part of a length may be the body's: of 55 lobed bodies that wind
 /// less, all but one were told within the interval as it was.
 constexpr double kLeastFolds = 0.15;
-
 /// Two sides of a thin part that noise makes so thick, each, tell nothing of where they meet.
 constexpr double kTipInSigmas = 4.0;
 
@@ -30,25 +30,26 @@ double folds_by_noise(const PlaneBand& band, const Contour& section) {
   if (kFoldInSigmas * band.sigma < band.grain) return 0.0;
   const double more = section.length() - section.tape_length();
   if (!(more > kLeastFolds * section.length())) return 0.0;
-  return mean_fold_depth(section) < kFoldInSigmas * band.sigma ? more : 0.0;
+  return mean_fold_depth(section, more) < kFoldInSigmas * band.sigma ? more : 0.0;
 }
 
 }  // namespace
 
-SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
-                            const std::vector<const ContourIndex*>& loops,
-                            const BlendedSurface& surface, const SectionEvidence& evidence,
-                            double near) {
+SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                            const BlendedSurface& surface, const SectionEvidence& evidence) {
+  const SectionLoop& section = loops.front();
+  const ContourCourse course(section.contour);
+  const double near = evidence_reach(band);
   SectionUnknowns unknowns{
-      unseen_bends_of(section, evidence.ways, near),
-      bends_between_lines(section, surface, band.spacing),
-      bends_in_space(section, surface, band.spacing + kTipInSigmas * band.sigma),
+      unseen_bends_of(course, evidence.ways, near),
+      bends_between_lines(course, surface, band.spacing),
+      bends_in_space(course, surface, band.spacing + kTipInSigmas * band.sigma),
       layers_near_plane(band, surface, near),
       {},
-      folds_by_noise(band, section),
-      doubt_of_edge(band, *loops.front())};
+      folds_by_noise(band, section.contour),
+      doubt_of_edge(band, section.index)};
   // What lies off the one layer is the other one, which counts already.
-  if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, section, loops);
+  if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, loops);
   return unknowns;
 }
 

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/girth/contour_index.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
+#include "core/girth/section_loops.h"
 #include "core/girth/skin_layers.h"
 #include "core/girth/smooth_section.h"
 #include "core/girth/unfollowed_skin.h"
@@ -25,12 +25,10 @@ struct SectionUnknowns {
   double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())
 };
 
-/// `loops`: all that the plane cuts, the section's first. `near`: how far from a contour or the
-/// plane points count. O(m log m) for the m points of the band.
-SectionUnknowns unknowns_of(const PlaneBand& band, const Contour& section,
-                            const std::vector<const ContourIndex*>& loops,
-                            const BlendedSurface& surface, const SectionEvidence& evidence,
-                            double near);
+/// `loops`: all that the plane cuts, the section first, for which `evidence` is. O(m log m) for the
+/// m points of the band.
+SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                            const BlendedSurface& surface, const SectionEvidence& evidence);
 
 /// Widens the intervals by them, and where noise was not what was told.
 void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/plane_slab.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.h"
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 #include "core/girth/length_doubt.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
@@ -108,56 +108,62 @@ Result<ToldGirth> girth_without_normals(PointCloud cloud, const TapePlane& plane
   return told;
 }
 
+/// For a cloud in which no section closes.
+Result<ToldGirth> girth_without_loops(const PlaneBand& band, const PointCloud& cloud,
+                                      const TapePlane& plane, const GirthOptions& options) {
+  if (cloud.has_normals() && !band.normals_dropped) {
+    auto told = girth_without_normals(cloud, plane, options);
+    if (is_told(told)) return told;
+  }
+  return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
+              "scan the body all round, or move the plane");
+}
+
+/// Of the first of the loops, if so much is known of it.
+ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
+                      const PlaneBand& band, SlabSource& slabs) {
+  const Contour& contour = loops.front().contour;
+  const double length = contour.length();
+  const auto evidence = evidence_for(band, loops.front().index, evidence_reach(band));
+  if (evidence.gap > kWidestBridge * length) {
+    return refused(band, contour,
+                   fail(ErrorCode::kInsufficientData,
+                        "more than a quarter of the section at the tape plane has no points",
+                        "scan the body all round"));
+  }
+  auto section = measured(slabs, band, loops, surface, evidence);
+  const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence);
+  widen(band, unknowns, section);
+  if (!(section.stretched_u95 <= kMostDoubt * length)) {
+    return refused(band, contour, too_doubtful(unknowns, section));
+  }
+  if (!(section.contact_u95 <= kMostFolded * length)) {
+    return refused(band, contour, too_few_or_noisy());
+  }
+
+  ToldGirth told;
+  told.girth = girth_of(band, section, evidence);
+  told.girth.points = slabs.cloud().size();
+  told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
+  told.is_bridged = has_notable_gap(band, evidence);
+  told.has_layers = unknowns.layers.has_value();
+  const double unexplained = unexplained_share(band, loops, evidence);
+  told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
+  told.of_few = unexplained > kMostUnexplained;
+  told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);
+  return told;
+}
+
 /// Of slabs that are thinned already, or are here if their points ask for it.
 Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
                            bool strays_near_skin = false) {
-  const PointCloud& cloud = slabs.cloud();
   auto band = band_at(slabs, options.sigma_mm, strays_near_skin);
   if (!band) return tl::make_unexpected(band.error());
   // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
   const auto loops = loops_on(*band, surface);
-  if (loops.empty()) {
-    if (cloud.has_normals() && !band->normals_dropped) {
-      auto told = girth_without_normals(cloud, slabs.plane(), options);
-      if (is_told(told)) return told;
-    }
-    return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
-                "scan the body all round, or move the plane");
-  }
-  const Contour& contour = loops.front().contour;
-  const double near = evidence_reach(*band);
-  const auto evidence = evidence_for(*band, loops.front().index, near);
-  const double length = contour.length();
-  if (evidence.gap > kWidestBridge * length) {
-    return refused(*band, contour,
-                   fail(ErrorCode::kInsufficientData,
-                        "more than a quarter of the section at the tape plane has no points",
-                        "scan the body all round"));
-  }
-  auto section = measured(slabs, *band, loops, surface, evidence);
-  std::vector<const ContourIndex*> indices;
-  for (const auto& loop : loops) indices.push_back(&loop.index);
-  const SectionUnknowns unknowns = unknowns_of(*band, contour, indices, surface, evidence, near);
-  widen(*band, unknowns, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) {
-    return refused(*band, contour, too_doubtful(unknowns, section));
-  }
-  if (!(section.contact_u95 <= kMostFolded * length)) {
-    return refused(*band, contour, too_few_or_noisy());
-  }
-
-  ToldGirth told;
-  told.girth = girth_of(*band, section, evidence);
-  told.girth.points = cloud.size();
-  told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
-  told.is_bridged = has_notable_gap(*band, evidence);
-  told.has_layers = unknowns.layers.has_value();
-  const double unexplained = unexplained_share(*band, loops, evidence);
-  told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
-  told.of_few = unexplained > kMostUnexplained;
-  told.girth.warnings = warnings_of(*band, loops, evidence, unexplained, unknowns, section);
-  return told;
+  if (loops.empty()) return girth_without_loops(*band, slabs.cloud(), slabs.plane(), options);
+  return girth_along(loops, surface, *band, slabs);
 }
 
 bool is_surer(const ToldGirth& one, const ToldGirth& other) {

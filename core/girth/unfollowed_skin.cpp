@@ -47,16 +47,16 @@ bool may_lie_on(const ContourIndex& contour, const OrientedPoint& point, double 
   return may_run_to(contour, point, kOffInGrains * grain + noise + aside);
 }
 
-std::vector<Beside> off_the_section(const PlaneBand& band,
-                                    const std::vector<const ContourIndex*>& loops) {
+std::vector<Beside> off_the_section(const PlaneBand& band, const std::vector<SectionLoop>& loops) {
+  const ContourIndex& section = loops.front().index;
   std::vector<Beside> beside;
   for (const auto& point : band.points) {
     if (std::abs(point.normal.z()) > kTooLeaning * point.normal.head<2>().norm()) continue;
-    if (may_lie_on(*loops.front(), point, band.grain)) continue;
+    if (may_lie_on(section, point, band.grain)) continue;
     const bool followed = std::any_of(
         loops.begin() + 1, loops.end(),
-        [&](const ContourIndex* other) { return may_lie_on(*other, point, band.grain); });
-    const double off = loops.front()->foot_of(point.position.head<2>()).distance;
+        [&](const SectionLoop& other) { return may_lie_on(other.index, point, band.grain); });
+    const double off = section.foot_of(point.position.head<2>()).distance;
     beside.push_back({point.position, off, followed});
   }
   return beside;
@@ -123,8 +123,7 @@ double extent_of(const std::vector<Beside>& chained) {
 
 }  // namespace
 
-UnfollowedSkin unfollowed_skin(const PlaneBand& band, const Contour& section,
-                               const std::vector<const ContourIndex*>& loops) {
+UnfollowedSkin unfollowed_skin(const PlaneBand& band, const std::vector<SectionLoop>& loops) {
   auto beside = off_the_section(band, loops);
   if (beside.size() < kFewest) return {};
   beside = close_to_plane(std::move(beside), band.grain);
@@ -132,7 +131,8 @@ UnfollowedSkin unfollowed_skin(const PlaneBand& band, const Contour& section,
 
   UnfollowedSkin skin;
   double widest_reach = 0.0;
-  std::vector<Eigen::Vector2d> with_skin = section.points;
+  const auto& section = loops.front().contour.points;
+  std::vector<Eigen::Vector2d> with_skin = section;
   std::vector<bool> found(beside.size(), false);
   for (std::size_t i = 0; i < beside.size(); ++i) {
     if (found[i]) continue;
@@ -146,7 +146,7 @@ UnfollowedSkin unfollowed_skin(const PlaneBand& band, const Contour& section,
     }
   }
   const double longer =
-      perimeter(convex_hull(std::move(with_skin))) - perimeter(convex_hull(section.points));
+      perimeter(convex_hull(std::move(with_skin))) - perimeter(convex_hull(section));
   // Half a reach beyond the last point, there and back again.
   if (longer > 0.0) skin.stretched = longer + widest_reach;
   return skin;

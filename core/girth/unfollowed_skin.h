@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/girth/contour_index.h"
 #include "core/girth/plane_band.h"
+#include "core/girth/section_loops.h"
 
 namespace instep {
 
@@ -24,9 +24,8 @@ struct UnfollowedSkin {
 /// bodies but such as touch it; those cannot be told from a part of it. Where such points lead on
 /// to another loop, that counts with them.
 ///
-/// `section`: the contour. `loops`: the indices of all that are followed, that of the section
-/// first. O(points), and n log n for the n that lie beside the section.
-UnfollowedSkin unfollowed_skin(const PlaneBand& band, const Contour& section,
-                               const std::vector<const ContourIndex*>& loops);
+/// `loops`: all that are followed, the section first. O(points), and n log n for the n that lie
+/// beside the section.
+UnfollowedSkin unfollowed_skin(const PlaneBand& band, const std::vector<SectionLoop>& loops);
 
 }  // namespace instep

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <numbers>
 
-#include "core/girth/contour_course.h"
-
 namespace instep {
 namespace {
 
@@ -35,8 +33,8 @@ double longer_by_corner(double turn, double ordinary, double sharpest) {
   return corner_over_arc(std::clamp(turn, ordinary, sharpest)) - corner_over_arc(ordinary);
 }
 
-UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& ways, double near) {
-  const ContourCourse course(contour);
+UnseenBends unseen_bends_of(const ContourCourse& course, const std::vector<double>& ways,
+                            double near) {
   UnseenBends sum;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const bool last = i + 1 == ways.size();

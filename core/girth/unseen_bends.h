@@ -3,7 +3,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour_course.h"
 
 namespace instep {
 
@@ -23,17 +23,17 @@ struct UnseenBends {
 /// A stretch without points may be an arc, as the surface bridges it, or as long as the corner in
 /// which its ends' directions meet. That difference counts, and a fifth more since the surface
 /// draws these directions inwards, as far as it is more than that of a turn by 36 degrees, which
-/// smooth bodies make too. A stretch longer than half a circle over
-/// its ends is a spur that the surface made up: it may all be too long. Several stretches add up as
-/// independent ones.
+/// smooth bodies make too. A stretch longer than half a circle over its ends is a spur that the
+/// surface made up: it may all be too long. Several stretches add up as independent ones.
 ///
-/// `ways`: along the corners of the contour, as ContourIndex counts it, to each place where a point
+/// `ways`: along the course, as ContourIndex counts it too, to each place where a point
 /// lies, in order; also of points that stand for skin that nobody saw. Of each stretch only what is
 /// longer than `near` counts. Nothing without ways. O(corners + ways log corners).
 ///
 /// Too little where noise has rounded the ends of a stretch already, or where it bends one way and
 /// back.
-UnseenBends unseen_bends_of(const Contour& contour, const std::vector<double>& ways, double near);
+UnseenBends unseen_bends_of(const ContourCourse& course, const std::vector<double>& ways,
+                            double near);
 
 /// By how much a stretch that turns by `turn` may be longer if it is a corner in place of an arc,
 /// against its length and beyond what one with an `ordinary` turn may be; both in radians, above 0.

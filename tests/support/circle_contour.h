@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 
 namespace instep::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/geometry/point_cloud.h"
-#include "core/girth/contour_trace.h"
+#include "core/girth/contour.h"
 #include "core/girth/plane_band.h"
 #include "core/surface/blended_surface.h"
 

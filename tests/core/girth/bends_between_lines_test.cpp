@@ -58,7 +58,7 @@ PointCloud in_rings(const PrismCorners& corners, int rings, double step, std::ui
 
 UnseenBends bends_of(const PointCloud& cloud) {
   const test::TracedSection section(cloud);
-  return bends_between_lines(section.contour, section.surface, section.spacing);
+  return bends_between_lines(ContourCourse(section.contour), section.surface, section.spacing);
 }
 
 TEST(BendsBetweenLines, AreThoseOfABoxInColumns) {
@@ -70,10 +70,12 @@ TEST(BendsBetweenLines, AreThoseOfABoxInColumns) {
 
 TEST(BendsBetweenLines, AreTheSameWhereverTheContourBegins) {
   test::TracedSection section(in_columns(box(), 60, 0.8, 1));
-  const auto bends = bends_between_lines(section.contour, section.surface, section.spacing);
+  const auto bends =
+      bends_between_lines(ContourCourse(section.contour), section.surface, section.spacing);
   for (int i = 0; i < 40; ++i) {
     section.begin_later(7);
-    const auto same = bends_between_lines(section.contour, section.surface, section.spacing);
+    const auto same =
+        bends_between_lines(ContourCourse(section.contour), section.surface, section.spacing);
     EXPECT_NEAR(same.contact_u95, bends.contact_u95, 1e-12) << i;
   }
 }

@@ -14,7 +14,7 @@ PointCloud thin_ellipse() {
 }
 
 UnseenBends bends_of(const test::TracedSection& section, double times = 1.0) {
-  return bends_in_space(section.contour, section.surface, times * section.spacing);
+  return bends_in_space(ContourCourse(section.contour), section.surface, times * section.spacing);
 }
 
 TEST(BendsInSpace, AreThoseAtTheTipsOfAThinBody) {

@@ -41,10 +41,9 @@ UnfollowedSkin skin_of(std::vector<OrientedPoint> points, const Contour* other =
   band.points = std::move(points);
   band.grain = kGrain;
   const Contour section = test::circle_contour(kRadius, 3600);
-  const ContourIndex index(section);
-  if (other == nullptr) return unfollowed_skin(band, section, {&index});
-  const ContourIndex of_other(*other);
-  return unfollowed_skin(band, section, {&index, &of_other});
+  std::vector<SectionLoop> loops = {SectionLoop(section)};
+  if (other != nullptr) loops.emplace_back(*other);
+  return unfollowed_skin(band, loops);
 }
 
 /// How much longer than a circle a tape is that also goes round a point off it: two tangents and

@@ -36,7 +36,7 @@ std::vector<double> ways_without(int first, int second) {
 }
 
 double doubt(int first, int second, double near = 0.05) {
-  return unseen_bends_of(circle(), ways_without(first, second), near).contact_u95;
+  return unseen_bends_of(ContourCourse(circle()), ways_without(first, second), near).contact_u95;
 }
 
 /// Tangents at both ends meet in a corner.
@@ -47,7 +47,7 @@ double corner_less_arc(double degrees) {
 
 TEST(UnseenBends, AreNoneWhereAllIsSeen) {
   EXPECT_EQ(doubt(10, 11), 0.0);
-  EXPECT_EQ(unseen_bends_of(circle(), {}, 0.05).contact_u95, 0.0);
+  EXPECT_EQ(unseen_bends_of(ContourCourse(circle()), {}, 0.05).contact_u95, 0.0);
 }
 
 TEST(UnseenBends, AreNoneWhereTheGapIsShortOrHardlyTurns) {
@@ -74,11 +74,12 @@ TEST(UnseenBends, AreTheSameWhereverTheContourBegins) {
 TEST(UnseenBends, OfSeveralGapsAddUpAsIndependentOnes) {
   const double degree = ContourIndex(circle()).length() / 360.0;
   const std::vector<double> ways = {0.0, 90.0 * degree, 180.0 * degree, 270.0 * degree};
-  EXPECT_NEAR(unseen_bends_of(circle(), ways, 0.05).contact_u95, 2.0 * doubt(20, 110), 1e-9);
+  EXPECT_NEAR(unseen_bends_of(ContourCourse(circle()), ways, 0.05).contact_u95,
+              2.0 * doubt(20, 110), 1e-9);
 }
 
 TEST(UnseenBends, StayBoundedWhereAlmostNothingIsSeen) {
-  const double all = unseen_bends_of(circle(), {0.1}, 0.05).contact_u95;
+  const double all = unseen_bends_of(ContourCourse(circle()), {0.1}, 0.05).contact_u95;
   EXPECT_TRUE(std::isfinite(all));
   EXPECT_LT(all, 1.6 * ContourIndex(circle()).length());
 }
@@ -95,14 +96,15 @@ TEST(UnseenBends, IncludeASpurThatNobodySaw) {
   std::vector<double> ways;
   for (int i = 0; i < 360; ++i) ways.push_back(i * degree + (i > 90 ? longer : 0.0));
   std::erase_if(ways, [&](double way) { return std::abs(way - 90 * degree) < 0.5 * degree; });
-  EXPECT_NEAR(unseen_bends_of(spiked, ways, 0.05).contact_u95, longer, 0.02);
-  EXPECT_NEAR(unseen_bends_of(spiked, ways, 0.5).contact_u95, 0.0, 1e-12);
+  EXPECT_NEAR(unseen_bends_of(ContourCourse(spiked), ways, 0.05).contact_u95, longer, 0.02);
+  EXPECT_NEAR(unseen_bends_of(ContourCourse(spiked), ways, 0.5).contact_u95, 0.0, 1e-12);
 }
 
 TEST(UnseenBends, AreTheSameInAnyUnit) {
   auto ways = ways_without(20, 110);
   for (auto& way : ways) way *= 1000.0;
-  const double scaled = unseen_bends_of(circle(1000.0 * kRadius), ways, 50.0).contact_u95;
+  const double scaled =
+      unseen_bends_of(ContourCourse(circle(1000.0 * kRadius)), ways, 50.0).contact_u95;
   EXPECT_NEAR(scaled, 1000.0 * doubt(20, 110), 1e-6);
 }
 
@@ -113,10 +115,10 @@ TEST(UnseenBends, InwardsAreNoneOfAStretchedTapes) {
   inwards.points = circle().points;
   std::reverse(inwards.points.begin(), inwards.points.end());
   std::reverse(inwards.outward.begin(), inwards.outward.end());
-  const auto bends = unseen_bends_of(inwards, ways_without(20, 110), 0.05);
+  const auto bends = unseen_bends_of(ContourCourse(inwards), ways_without(20, 110), 0.05);
   EXPECT_NEAR(bends.contact_u95, doubt(20, 110), 1e-9);
   EXPECT_EQ(bends.stretched_u95, 0.0);
-  const auto outwards = unseen_bends_of(circle(), ways_without(20, 110), 0.05);
+  const auto outwards = unseen_bends_of(ContourCourse(circle()), ways_without(20, 110), 0.05);
   EXPECT_EQ(outwards.stretched_u95, outwards.contact_u95);
 }
 
