@@ -105,8 +105,8 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options) {
   if (auto sound = check_cloud(cloud); !sound) return tl::make_unexpected(sound.error());
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
-  SlabSource slabs(cloud, plane);
-  const auto band = band_at(slabs, options.sigma_mm);
+  SlabSource slabs(cloud, plane, options.sigma_mm);
+  const auto band = band_at(slabs);
   if (!band) return tl::make_unexpected(band.error());
   const MeshedBand meshed = mesh_of(*band);
   auto lines = section_of(meshed.mesh);

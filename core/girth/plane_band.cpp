@@ -155,8 +155,9 @@ std::vector<std::size_t> along_the_plane(const PointCloud& cloud, const PlaneBan
 }
 
 /// What is told of the noise of each point, in the band's unit; nothing if nothing is.
-std::vector<double> told_sigmas(const PointCloud& cloud, const PlaneBand& band,
-                                std::optional<double> sigma_mm) {
+std::vector<double> told_sigmas(const SlabSource& slabs, const PlaneBand& band) {
+  const PointCloud& cloud = slabs.cloud();
+  const auto sigma_mm = slabs.sigma_mm();
   if (!sigma_mm && !cloud.has_sigma()) return {};
   std::vector<double> told;
   for (std::size_t i = 0; i < band.sources.size(); ++i) {
@@ -167,10 +168,8 @@ std::vector<double> told_sigmas(const PointCloud& cloud, const PlaneBand& band,
 }
 
 /// In the band's unit.
-NoiseEstimate noise_of(const PointCloud& cloud, const PlaneBand& band,
-                       std::optional<double> sigma_mm) {
-  return estimate_noise(band.index, along_the_plane(cloud, band),
-                        told_sigmas(cloud, band, sigma_mm));
+NoiseEstimate noise_of(const SlabSource& slabs, const PlaneBand& band) {
+  return estimate_noise(band.index, along_the_plane(slabs.cloud(), band), told_sigmas(slabs, band));
 }
 
 /// A band, and in its unit what its points show of noise.
@@ -183,7 +182,8 @@ struct BandAndNoise {
 /// as many as tell the same: those left out would tell it again. Nothing of others.
 std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found) {
   const PointCloud& cloud = slabs.cloud();
-  const bool told = cloud.has_normals() || cloud.has_sigma() || !cloud.origins.empty();
+  const bool told =
+      slabs.sigma_mm() || cloud.has_normals() || cloud.has_sigma() || !cloud.origins.empty();
   if (told || found.spacing > kCrowded * kFinestGrain) return std::nullopt;
   const PlaneSlab slab = found.slab(slabs, kBandInGrains * kFinestGrain);
   const CellCrowds crowds = crowds_in_cells(slab.places, kFinestGrain);
@@ -202,17 +202,17 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
 
 /// All points of as wide a band as they ask for. Nothing if they form no surface.
 std::optional<BandAndNoise> whole(SlabSource& slabs, const SectionProbe& found,
-                                  std::optional<double> sigma_mm, bool strays_near_skin) {
+                                  bool strays_near_skin) {
   PlaneBand band = gather_enough(slabs, found, 0.0);
   drop_strays(strays_near_skin, band);
   if (band.sources.size() < kFewestPoints || !(band.spacing > 0.0)) return std::nullopt;
-  NoiseEstimate noise = noise_of(slabs.cloud(), band, sigma_mm);
+  NoiseEstimate noise = noise_of(slabs, band);
   if (grain_of(band.spacing, noise.sigma) > band.grain) {
     band = gather_enough(slabs, found, noise.sigma);
     drop_strays(strays_near_skin, band);
     if (band.sources.size() < kFewestPoints) return std::nullopt;
     if (noise.sigma > kThickInSpacings * band.spacing) {
-      noise = noise_of(slabs.cloud(), band, sigma_mm);
+      noise = noise_of(slabs, band);
     }
   }
   return BandAndNoise{std::move(band), std::move(noise)};
@@ -322,8 +322,7 @@ double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double s
   return std::max(share * told / unit_mm, error);
 }
 
-Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,
-                          bool strays_near_skin) {
+Result<PlaneBand> band_at(SlabSource& slabs, bool strays_near_skin) {
   const PointCloud& cloud = slabs.cloud();
   if (cloud.size() < kFewestPoints) {
     return fail(ErrorCode::kInsufficientData, "the cloud has too few points for a surface",
@@ -331,8 +330,8 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,
   }
   const auto found = probe_section(slabs);
   if (!found) return tl::make_unexpected(found.error());
-  auto made = sigma_mm || strays_near_skin ? std::nullopt : thinned(slabs, *found);
-  if (!made) made = whole(slabs, *found, sigma_mm, strays_near_skin);
+  auto made = strays_near_skin ? std::nullopt : thinned(slabs, *found);
+  if (!made) made = whole(slabs, *found, strays_near_skin);
   if (!made) return no_surface();
   auto& [band, noise] = *made;
   if (!is_cut(band.index.points())) {
@@ -346,7 +345,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,
   band.told_scale = noise.told_scale;
   band.uneven = std::move(noise.uneven);
   band.scattered = std::move(noise.scattered);
-  band.own_sigma = !sigma_mm && cloud.has_sigma();
+  band.own_sigma = !slabs.sigma_mm() && cloud.has_sigma();
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
   set_points(cloud, slabs.plane(), band);

@@ -7,7 +7,7 @@
 
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/point_index.h"
-#include "core/girth/plane_slab.h"
+#include "core/girth/slab_source.h"
 #include "core/result.h"
 #include "core/surface/noise_estimate.h"
 #include "core/surface/oriented_point.h"
@@ -64,11 +64,11 @@ struct PlaneBand {
 /// (core/geometry/piled_points.h). Of points on lines that are far apart, as many on each as the
 /// lines beside it can be seen with, or averages of them (core/girth/thinned_lines.h).
 ///
-/// The noise is `sigma_mm`, or what the cloud tells of each point, or what the points show
-/// (core/surface/noise_estimate.h): one for all, or where they contradict that, one for each place,
-/// or none but in parts that scatter.
-/// Where they plainly show more than they are told to have, what is told of points that were seen
-/// is raised to that, everywhere or in those places that do.
+/// The noise is the `sigma_mm` of `slabs`, or what the cloud tells of each point, or what the
+/// points show (core/surface/noise_estimate.h): one for all, or where they contradict that, one for
+/// each place, or none but in parts that scatter. Where they plainly show more than they are told
+/// to have, what is told of points that were seen is raised to that, everywhere or in those places
+/// that do.
 ///
 /// Points that stand alone are left out; of many such also those that have others of their kind for
 /// neighbours, and those that rise from the skin near it. `strays_near_skin`: there are known to be
@@ -77,8 +77,7 @@ struct PlaneBand {
 /// The cloud of `slabs` has passed check_cloud(). Fails with kInsufficientData for too few points
 /// or none that form a surface, kInvalidInput for a plane that has none near it or all on one side.
 /// O(points of the cloud), and m log m for the m near the plane.
-Result<PlaneBand> band_at(SlabSource& slabs, std::optional<double> sigma_mm,
-                          bool strays_near_skin = false);
+Result<PlaneBand> band_at(SlabSource& slabs, bool strays_near_skin = false);
 
 /// What is to be said where what came with the points was not believed: noise that they contradict,
 /// unless what they show is too little to matter, and normals that contradict each other.

@@ -2,12 +2,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
-#include "core/geometry/pile_level.h"
 #include "core/geometry/point_cloud.h"
-#include "core/geometry/scan_lines.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {
@@ -41,51 +38,6 @@ PlaneSlab within(const PlaneSlab& slab, double half_width);
 
 /// Those of a slab that are not marked, in the same order. `marked`: as many as there are.
 PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab);
-
-/// Slabs of one cloud at one plane, of widths that only what they hold can tell: picks more than is
-/// asked for, so that it seldom has to look through the cloud again, which it borrows.
-class SlabSource {
- public:
-  /// `weighed`: what the cloud tells of the noise of its points counts. O(n).
-  SlabSource(const PointCloud& cloud, const TapePlane& plane, bool weighed = true);
-
-  const PointCloud& cloud() const { return cloud_; }
-  const TapePlane& plane() const { return plane_; }
-
-  /// Size of the cloud as the plane sees it, so that it turns with the two: the diagonal of its box
-  /// there. Of at least one point.
-  double size() const { return size_; }
-
-  /// As slab_of() gives it, or thinned.
-  PlaneSlab slab(double half_width);
-
-  /// From now on slabs have no more of lines than thinned_lines() leaves.
-  void thin(const ScanLines& lines);
-  bool is_thinned() const { return lines_.has_value(); }
-
-  /// From now on slabs have no piles (core/geometry/pile_level.h), if those at most `half_width`
-  /// from the plane have some: in cells of `least_side` or more. Of a pile the points stay
-  /// that the least noise is told of. Thinned slabs stay, and the level that was found first.
-  void level_piles(double least_side, double half_width);
-
-  /// Of the points of the widest slab: strays amid lines, left out by thinning.
-  double stray_share() const { return stray_share_; }
-
- private:
-  void level_widest();
-  std::vector<double> told_noise(const PlaneSlab& slab) const;
-  void thin_widest();
-
-  const PointCloud& cloud_;
-  TapePlane plane_;
-  bool weighed_;
-  double size_ = 0.0;
-  std::optional<ScanLines> lines_;
-  std::optional<PileLevel> level_;  ///< in rounding steps
-  double stray_share_ = 0.0;
-  PlaneSlab widest_;
-  double half_width_ = -1.0;  ///< of it
-};
 
 /// False where the plane only touches what the points are of: hardly one of them lies on the plane
 /// or beyond it.

@@ -116,7 +116,7 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     }
     const auto lines = lines_far_apart(slabs, look, kWidestForLines * slabs.size());
     if (!lines) return *found;
-    slabs.thin(*lines);
+    slabs.thin_lines(lines->apart);
     const double several_lines = kGapsOfSlab * lines->apart;
     return probe_of(slabs, several_lines, step).value_or(*found);
   }
@@ -129,7 +129,7 @@ bool thin_thick_lines(SlabSource& slabs) {
   if (slabs.is_thinned()) return false;
   const double size = slabs.size();
   const auto lines = lines_far_apart(slabs, kFirstHalfWidth * size, kWidestForThick * size);
-  if (lines) slabs.thin(*lines);
+  if (lines) slabs.thin_lines(lines->apart);
   return lines.has_value();
 }
 

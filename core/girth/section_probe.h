@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/girth/plane_slab.h"
+#include "core/girth/slab_source.h"
 #include "core/result.h"
 
 namespace instep {

@@ -4,7 +4,7 @@
 
 #include "core/girth/contour.h"
 #include "core/girth/plane_band.h"
-#include "core/girth/plane_slab.h"
+#include "core/girth/slab_source.h"
 
 namespace instep {
 

@@ -276,27 +276,27 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
 
 }  // namespace
 
-ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
+ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, double apart,
                            bool weighed) {
   if (slab.places.empty()) return {};
-  auto left_out = crowds_in_cells(slab.places, lines.apart / kCells).crowding;
-  const LineAverages averages(cloud, slab, lines.apart, weighed);
+  auto left_out = crowds_in_cells(slab.places, apart / kCells).crowding;
+  const LineAverages averages(cloud, slab, apart, weighed);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     if (!left_out[i]) stretches.push_back(averages.round(i));
   }
   const double scatter = usual_scatter(stretches);
   std::size_t strays = 0;
-  if (scatter < kThickLine * lines.apart) {
+  if (scatter < kThickLine * apart) {
     for (const auto& stretch : stretches) {
       if (stretch.is_of_stray) left_out[stretch.number] = true;
     }
     strays = std::erase_if(stretches, [](const Stretch& stretch) { return stretch.is_of_stray; });
   }
   const double stray_share = static_cast<double>(strays) / static_cast<double>(slab.places.size());
-  if (scatter < kExact * lines.apart) return {without(left_out, slab), stray_share};
+  if (scatter < kExact * apart) return {without(left_out, slab), stray_share};
   const PlaneSlab averaged = slab_of(std::move(stretches), slab);
-  const auto repeated = near_copies(averaged.places, kSameStretch * lines.apart / kStretches);
+  const auto repeated = near_copies(averaged.places, kSameStretch * apart / kStretches);
   return {without(repeated, averaged), stray_share};
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/geometry/point_cloud.h"
-#include "core/geometry/scan_lines.h"
 #include "core/girth/plane_slab.h"
 
 namespace instep {
@@ -21,9 +20,10 @@ struct ThinnedLines {
 /// Within half a gap of a point on a line all have to be of that line: the middle of another sheet
 /// or of points all round would be taken.
 ///
-/// `slab` in its order, and of the cloud; `lines` in its unit. `weighed`: by what the cloud tells
+/// `slab` in its order, and of the cloud; `apart` > 0: from line to line, in
+/// its unit. `weighed`: by what the cloud tells
 /// of the noise of each, if it does. O(m (log m + points within half a gap)) for its m points.
-ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, const ScanLines& lines,
-                           bool weighed = true);
+ThinnedLines thinned_lines(const PointCloud& cloud, const PlaneSlab& slab, double apart,
+                           bool weighed);
 
 }  // namespace instep

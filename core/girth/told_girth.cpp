@@ -157,7 +157,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
 /// Of slabs that are thinned already, or are here if their points ask for it.
 Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
                            bool strays_near_skin = false) {
-  auto band = band_at(slabs, options.sigma_mm, strays_near_skin);
+  auto band = band_at(slabs, strays_near_skin);
   if (!band) return tl::make_unexpected(band.error());
   // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
@@ -193,7 +193,7 @@ bool ToldGirth::is_doubtful() const {
 
 Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
                                const GirthOptions& options) {
-  SlabSource slabs(cloud, plane, !options.sigma_mm);
+  SlabSource slabs(cloud, plane, options.sigma_mm);
   auto told = girth_at(slabs, options);
   // What patches leave out has spoilt the noise and the normals that their points show.
   const bool strays_near_skin = told && told->strays_near_skin;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/girth/plane_slab.h"
 #include "core/girth/section_loops.h"
+#include "core/girth/slab_source.h"
 #include "tests/support/cylinder_tape.h"
 
 namespace instep::test {
@@ -13,7 +13,7 @@ namespace {
 
 PlaneBand band_of(const PointCloud& cloud) {
   SlabSource slabs(cloud, level_plane());
-  return band_at(slabs, std::nullopt).value();
+  return band_at(slabs).value();
 }
 
 }  // namespace

@@ -24,8 +24,8 @@ PointCloud crowd(double sigma_mm = 0.0) {
 
 /// Points near the plane that were left out, as telling nothing more.
 std::size_t left_out(const PointCloud& cloud, std::optional<double> sigma_mm = {}) {
-  SlabSource slabs(cloud, oblique_plane());
-  const auto band = band_at(slabs, sigma_mm);
+  SlabSource slabs(cloud, oblique_plane(), sigma_mm);
+  const auto band = band_at(slabs);
   EXPECT_TRUE(band) << band.error().line();
   return band ? band->thinned_out : 0;
 }

@@ -11,6 +11,7 @@
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/cylinder_tape.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/scanned_lines.h"
 
 namespace instep {
 namespace {
@@ -187,6 +188,25 @@ TEST(GirthByMesh, WarnsThatItFollowsNoise) {
   EXPECT_TRUE(warns(*noisy, "noise"));
   EXPECT_GT(noisy->stretched_mm, kCylinderGirth + 0.5);
   EXPECT_GT(noisy->contact_mm, noisy->stretched_mm + 2.0);
+}
+
+/// Lines that are averaged, by what is told of all points, not by what the cloud tells of each.
+TEST(GirthByMesh, HeedsTheNoiseThatIsToldInPlaceOfTheClouds) {
+  const test::ScannedLines lines{42, 30, true, 6.0, 0.15, 0.1};
+  PointCloud plain;
+  plain.positions = lines.positions(1);
+  PointCloud telling = plain;
+  test::RandomNumbers random(2);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    telling.sigma_mm.push_back(random.uniform(0.01, 3.0));
+  }
+  const GirthOptions told{.sigma_mm = 0.1};
+  const auto expected = girth_by_mesh(plain, level_plane(), told);
+  const auto girth = girth_by_mesh(telling, level_plane(), told);
+  const auto weighed = girth_by_mesh(telling, level_plane());
+  ASSERT_TRUE(expected && girth && weighed);
+  EXPECT_EQ(girth->contact_mm, expected->contact_mm);
+  EXPECT_NE(weighed->contact_mm, expected->contact_mm);
 }
 
 TEST(GirthByMesh, RefusesWhatHoldsNoSurface) {

@@ -28,7 +28,7 @@ struct Traced {
 
 Traced traced(const PointCloud& cloud) {
   SlabSource slabs(cloud, test::level_plane());
-  auto band = band_at(slabs, std::nullopt);
+  auto band = band_at(slabs);
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
   auto loops = loops_on(*band, surface);
   return {std::move(*band), std::move(loops)};

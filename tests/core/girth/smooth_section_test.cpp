@@ -126,7 +126,7 @@ TEST(SmoothSection, IsForNoisyPoints) {
   const auto section = [&](double sigma_mm) {
     const auto cloud = test::cylinder(6000, sigma_mm);
     SlabSource slabs(cloud, plane);
-    const auto band = band_at(slabs, std::nullopt);
+    const auto band = band_at(slabs);
     EXPECT_TRUE(band);
     return smooth_section(slabs, *band, circle_in(*band));
   };

@@ -50,7 +50,7 @@ TEST(ThinnedLines, AreExactPointsThatWerePicked) {
   for (const bool round : {true, false}) {
     const auto cloud = scanned(round, 6.0, 0.2, 0.0);
     const PlaneSlab all = slab_of(cloud);
-    const PlaneSlab few = thinned_lines(cloud, all, {0.2, 6.0}).slab;
+    const PlaneSlab few = thinned_lines(cloud, all, 6.0, true).slab;
     EXPECT_TRUE(few.shares.empty());
     for (std::size_t i = 0; i < few.indices.size(); ++i) {
       const auto known = std::find(all.indices.begin(), all.indices.end(), few.indices[i]);
@@ -66,7 +66,7 @@ TEST(ThinnedLines, AreExactPointsThatWerePicked) {
 TEST(ThinnedLines, AreAveragesOfNoisyPointsWithoutAStepInwards) {
   for (const bool round : {true, false}) {
     const auto cloud = scanned(round, 6.0, 0.2, 0.3);
-    const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), {0.2, 6.0}).slab;
+    const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), 6.0, true).slab;
     const auto heights = heights_of(few);
     EXPECT_LT(root_mean_square(heights), 0.5 * 0.3);
     EXPECT_NEAR(mean(heights), 0.0, 0.02);
@@ -79,7 +79,7 @@ TEST(ThinnedLines, AreAveragesOfNoisyPointsWithoutAStepInwards) {
 /// They were of points on one side of their line, and as far off as if they were of two.
 TEST(ThinnedLines, OfPointsFarFromTheirLineAreOfAllOfIt) {
   const auto cloud = scanned(false, 2.7, 0.09, 0.5);
-  const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), {0.09, 2.7}).slab;
+  const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), 2.7, true).slab;
   std::vector<double> off;
   for (const double height : heights_of(few)) off.push_back(std::abs(height));
   EXPECT_LT(median(off), 0.18);
@@ -88,7 +88,7 @@ TEST(ThinnedLines, OfPointsFarFromTheirLineAreOfAllOfIt) {
 /// No place of a line where noise puts single points: that would be a layer of its own.
 TEST(ThinnedLines, LieNoneBesideAnother) {
   const auto cloud = scanned(true, 3.0, 0.1, 0.5);
-  const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), {0.1, 3.0}).slab;
+  const PlaneSlab few = thinned_lines(cloud, slab_of(cloud), 3.0, true).slab;
   for (std::size_t i = 0; i < few.places.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GT((few.places[i] - few.places[j]).norm(), 0.35);
@@ -104,7 +104,7 @@ TEST(ThinnedLines, LeaveOutStrays) {
       PointCloud cloud;
       cloud.positions =
           ScannedLines{kRadius, kRadius, round, 4.0, 0.2, sigma, kStrays}.positions(1);
-      const auto thinned = thinned_lines(cloud, slab_of(cloud), {0.2, 4.0});
+      const auto thinned = thinned_lines(cloud, slab_of(cloud), 4.0, true);
       for (const double height : heights_of(thinned.slab)) {
         EXPECT_NEAR(height, 0.0, std::max(6.0 * sigma, 1e-9)) << round << " " << sigma;
       }
@@ -120,15 +120,15 @@ TEST(ThinnedLines, BelieveTheBetterPoints) {
   good.sigma_mm.assign(good.positions.size(), 0.05);
   good.positions.insert(good.positions.end(), bad.positions.begin(), bad.positions.end());
   good.sigma_mm.resize(good.positions.size(), 0.5);
-  const auto heights = heights_of(thinned_lines(good, slab_of(good), {0.2, 6.0}).slab);
+  const auto heights = heights_of(thinned_lines(good, slab_of(good), 6.0, true).slab);
   EXPECT_LT(root_mean_square(heights), 0.06);
 }
 
 TEST(ThinnedLines, OfNoneOrAFewAreThese) {
   PointCloud cloud;
-  EXPECT_TRUE(thinned_lines(cloud, {}, {0.2, 6.0}).slab.places.empty());
+  EXPECT_TRUE(thinned_lines(cloud, {}, 6.0, true).slab.places.empty());
   cloud.positions = {{1, 2, 0}, {30, 2, 0}, {1, 40, 0}};
-  EXPECT_EQ(thinned_lines(cloud, slab_of(cloud), {0.2, 6.0}).slab.places.size(), 3U);
+  EXPECT_EQ(thinned_lines(cloud, slab_of(cloud), 6.0, true).slab.places.size(), 3U);
 }
 
 }  // namespace
