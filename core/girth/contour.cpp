@@ -11,11 +11,18 @@ namespace {
 
 /// Pieces of a chord that a tape lies on: it leaves the curve at the ends of pieces only.
 constexpr int kPiecesUnderTape = 8;
+/// Of the area of the hull: twice round is up to two times it, once round no more than one.
+constexpr double kOnce = 1.0 + 1e-6;
 
 }  // namespace
 
 double Contour::turn(std::size_t corner) const {
   return turn_between(outward[corner], outward[next(corner)]);
+}
+
+bool Contour::goes_round_once() const {
+  const double area = signed_area(points);
+  return area > 0.0 && area <= kOnce * signed_area(convex_hull(points));
 }
 
 double Contour::length() const {

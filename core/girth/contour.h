@@ -19,6 +19,9 @@ struct Contour {
   /// By how much the line turns on the way to it (radians), counter-clockwise above 0.
   double turn(std::size_t corner) const;
 
+  /// Counter-clockwise, and not on a second lap: it encloses no more than its hull does.
+  bool goes_round_once() const;
+
   /// Length along the curve: each chord is lengthened to the arc that turns as its ends do, to the
   /// second order of the turn.
   double length() const;

@@ -25,6 +25,9 @@ constexpr double kFirstCreaseAngle = 0.05;
 constexpr double kSharpestCrease = 2.8;
 /// Most corners of a line; one that has more is no section but noise.
 constexpr int kMostCorners = 64;
+/// A line that is closed has more corners, and comes back within this part of a step.
+constexpr std::size_t kFewestCorners = 8;
+constexpr double kBesideHome = 0.25;
 /// Most steps against those that the longest line would take at full length.
 constexpr double kMostSteps = 2.0;
 /// Least slope within the plane: below it the surface runs along the plane.
@@ -33,6 +36,34 @@ constexpr double kLeastSlope = 0.05;
 struct Place {
   Eigen::Vector2d point;
   Eigen::Vector2d outward;  ///< unit length
+};
+
+/// Tells when a line of steps is back where it began.
+class WayHome {
+ public:
+  enum class Step { kElsewhere, kPastIt, kFromIt };
+
+  /// `beside`: so near the line passes it.
+  WayHome(const Eigen::Vector2d& home, double beside) : home_(home), beside_(beside) {}
+
+  /// Of the steps one after the other. Home may lie in a bend, past the end of one step and before
+  /// the beginning of the next: the latter leads from it.
+  Step of_step(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const double length = (to - from).norm();
+    const Eigen::Vector2d along = (to - from) / length;
+    const Eigen::Vector2d arm = home_ - from;
+    const double ahead = along.dot(arm);
+    const bool in_bend = was_ahead_ && ahead <= 0.0 && arm.norm() < beside_;
+    was_ahead_ = ahead > length;
+    if (in_bend) return Step::kFromIt;
+    const bool past = ahead > 0.0 && !was_ahead_ && std::abs(cross(along, arm)) < beside_;
+    return past ? Step::kPastIt : Step::kElsewhere;
+  }
+
+ private:
+  Eigen::Vector2d home_;
+  double beside_;
+  bool was_ahead_ = false;
 };
 
 /// Newton along the gradient to the zero line, moving no further than `reach`.
@@ -110,6 +141,7 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
   Place here = *first;
   double way = 0.0;
   double bend = 0.0;
+  WayHome way_home(first->point, kBesideHome * step);
   double leeway = 0.0;  // so far the line may go before it can be too far from all points
   int corners = 0;
   const auto most = static_cast<std::size_t>(kMostSteps * longest / step);
@@ -136,11 +168,14 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
       leeway = reach - surface.distance_to_data({next->point.x(), next->point.y(), 0.0});
       if (leeway < 0.0) return std::nullopt;
     }
-    const Eigen::Vector2d home = first->point - here.point;
-    const Eigen::Vector2d along = (next->point - here.point) / length;
-    const bool passes_home = home.dot(along) > 0.0 && home.dot(along) <= length &&
-                             std::abs(cross(along, home)) < 0.25 * step;
-    if (contour.points.size() > 8 && passes_home) return contour;
+    const auto home = way_home.of_step(here.point, next->point);
+    if (contour.points.size() > kFewestCorners && home != WayHome::Step::kElsewhere) {
+      if (home == WayHome::Step::kFromIt) {
+        contour.points.pop_back();
+        contour.outward.pop_back();
+      }
+      return contour;
+    }
     here = *next;
   }
   return std::nullopt;

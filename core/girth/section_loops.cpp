@@ -77,7 +77,7 @@ std::vector<SectionLoop> trace_all(const PlaneBand& band, BlendedSurface& surfac
     if (!draft || pass_near(loops, draft->points.front(), kSameInGrains * band.grain)) continue;
     auto contour = trace_contour(surface, draft->points.front(), kReadingStep * band.grain,
                                  kWidestBridge, kLongestSection);
-    if (contour && signed_area(contour->points) > 0.0) loops.emplace_back(std::move(*contour));
+    if (contour && contour->goes_round_once()) loops.emplace_back(std::move(*contour));
   }
   return loops;
 }

@@ -45,6 +45,18 @@ TEST(Contour, OfACircleIsAsLongAsItsArcs) {
   EXPECT_LT(fine, coarse / 8.0);
 }
 
+TEST(Contour, GoesRoundOnceCounterClockwise) {
+  const auto circle = circle_of_corners(100);
+  EXPECT_TRUE(circle.goes_round_once());
+  auto backwards = circle;
+  std::reverse(backwards.points.begin(), backwards.points.end());
+  EXPECT_FALSE(backwards.goes_round_once());
+  const auto lap = circle_of_corners(90);
+  auto twice = circle;
+  twice.points.insert(twice.points.end(), lap.points.begin(), lap.points.end());
+  EXPECT_FALSE(twice.goes_round_once());
+}
+
 TEST(Contour, WithoutTurnsIsAsLongAsItsChords) {
   const Contour square{{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}, {5, Vector2d(0, -1)}};
   EXPECT_NEAR(square.length(), 8.0, 1e-12);

@@ -93,6 +93,20 @@ TEST(ContourTrace, DoesNotDependOnWhereItStarts) {
   }
 }
 
+/// Patches that are added on the way move the line from under its first corner: it comes back
+/// beside it, in a bend past the end of one step and before the beginning of the next.
+TEST(ContourTrace, GoesRoundOnceWhereverItStarts) {
+  constexpr double kSmallRadius = 0.12;
+  const auto points = test::sphere_points(kSmallRadius, 600, 0.006, 9);
+  for (int start = 0; start < 1000; ++start) {
+    auto surface = surface_of(points);
+    const double angle = 2.0 * kPi * start / 1000;
+    const auto contour = trace(surface, kSmallRadius * Vector2d(std::cos(angle), std::sin(angle)));
+    ASSERT_TRUE(contour) << start;
+    EXPECT_LT(area_of(contour->points), 1.5 * kPi * kSmallRadius * kSmallRadius) << start;
+  }
+}
+
 TEST(ContourTrace, MeetsThePerimeterOfASquarePrism) {
   for (const double sigma : {0.0, 0.001}) {
     auto surface = surface_of(test::prism_points(1.0, 0.4, 0.02, sigma, 4));
