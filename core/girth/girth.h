@@ -92,11 +92,14 @@ struct Girth {
 /// They take the noise of points to be independent: what is common to neighbours, such as a bent
 /// depth map, is not in them.
 ///
-/// Points in two layers (core/girth/skin_layers.h), as of a skin and a sock or from cameras with
-/// wrong poses, are named in a warning, and the interval reaches both. Points that lead away from
-/// the section though no skin through them was found (core/girth/unfollowed_skin.h), as of a part
-/// too thin for them or of what touches the body, are named too, and the interval reaches round
-/// them.
+/// Points in two layers all round (core/girth/skin_layers.h), as of a skin and a sock, are named in
+/// a warning, and the interval reaches both. Those of cameras with wrong poses hardly ever are, for
+/// they lie apart as the cosine of the direction, and where views overlap only: of 574 girths of
+/// which each view was up to 1 mm off 68 % held, and where two overlap a contact length may follow
+/// one layer and the other by turns. Points that lead away from the section though no skin through
+/// them was found (core/girth/unfollowed_skin.h), as of a part too thin for them or of what touches
+/// the body, are named too, and the interval reaches round them. A clump of some strays beside the
+/// skin may pass for a part of it.
 ///
 /// Intervals also know that noise may lie along normals or along a camera's rays, and that a noisy
 /// cloud's edge beside the plane bends the skin (doubt_of_direction(), doubt_of_edge()).

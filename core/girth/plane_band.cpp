@@ -191,8 +191,7 @@ std::optional<BandAndNoise> thinned(SlabSource& slabs, const SectionProbe& found
   PlaneBand band = band_of(without(crowds.crowding, slab), found);
   band.thinned_out = slab.places.size() - band.sources.size();
   band.grain = grain_of(band.spacing, 0.0);
-  auto noise = estimate_if_exact(band.index, along_the_plane(cloud, band),
-                                 [&] { return PointIndex(slab.places); });
+  auto noise = estimate_if_exact(band.index, along_the_plane(cloud, band));
   if (!noise) return std::nullopt;
   drop_strays(false, band);
   // What strays are beside them the whole crowd tells.

@@ -14,6 +14,13 @@ namespace {
 constexpr double kMostLean = 3.0;
 /// In grains: how far points are evidence, and a stretch without one that is worth a warning.
 constexpr double kReachInGrains = 2.5;
+/// In space, against that, or of the section if it is more: what lies further off is across a hole,
+/// as the back of a heel above a sole that was not seen. Of 141 girths of feet of which 20 mm and
+/// more were not seen, 13 were off by more than two intervals without a word on it; now 5 are. With
+/// six tenths there are no fewer, but of 2,000 drawn bodies 25 that are seen all round, from one
+/// side sparsely, have far wider intervals, not 6.
+constexpr double kReachInSpace = 0.8;
+constexpr double kLeastReachInSpace = 0.03;
 constexpr double kNotableGapInGrains = 6.0;
 
 double run_aside(const OrientedPoint& point) {
@@ -34,6 +41,7 @@ bool may_run_to(const ContourIndex& contour, const OrientedPoint& point, double 
 }
 
 SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near) {
+  std::size_t along = 0;
   std::size_t beside = 0;
   std::vector<double> ways;
   std::vector<double> seen;
@@ -45,6 +53,10 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
       if (foot.distance > near + run_aside(band.points[i])) ++beside;
       continue;
     }
+    ++along;
+    if (std::hypot(position.z(), foot.distance) >
+        std::max(kReachInSpace * near, kLeastReachInSpace))
+      continue;
     ways.push_back(foot.way);
     if (band.seen[i]) seen.push_back(foot.way);
   }
@@ -52,7 +64,7 @@ SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour,
   std::sort(seen.begin(), seen.end());
   const double gap = largest_gap_between(ways, contour.length());
   const double seen_gap = largest_gap_between(seen, contour.length());
-  return {std::move(ways), beside, gap, seen_gap};
+  return {along, beside, std::move(ways), gap, seen_gap};
 }
 
 bool has_notable_gap(const PlaneBand& band, const SectionEvidence& evidence) {

@@ -10,10 +10,13 @@ namespace instep {
 
 /// What the points near the tape plane say of a contour on it. Lengths in the band's unit.
 struct SectionEvidence {
-  std::vector<double> ways;  ///< along the contour to each point near it, in order
-  std::size_t beside = 0;    ///< points as near to the plane, but on no skin that runs to it
-  double gap = 0.0;          ///< longest stretch of the contour without a point
-  double seen_gap = 0.0;     ///< longest stretch without one that a camera saw
+  std::size_t along = 0;   ///< points near the contour and the plane
+  std::size_t beside = 0;  ///< points as near to the plane, but on no skin that runs to it
+  /// Along the contour to each of those along it that lies so near in space as to show that a
+  /// camera saw the skin there, in order.
+  std::vector<double> ways;
+  double gap = 0.0;       ///< longest stretch of the contour without one of these
+  double seen_gap = 0.0;  ///< longest stretch without one that a camera saw
 };
 
 /// Points further from the contour or the plane than this are no evidence for it. In the unit.

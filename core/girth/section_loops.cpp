@@ -87,7 +87,7 @@ std::vector<double> densities_of(const PlaneBand& band, const std::vector<Sectio
   std::vector<double> densities;
   for (const auto& loop : loops) {
     const auto evidence = evidence_for(band, loop.index, evidence_reach(band));
-    densities.push_back(static_cast<double>(evidence.ways.size()) / loop.index.length());
+    densities.push_back(static_cast<double>(evidence.along) / loop.index.length());
   }
   return densities;
 }
@@ -159,7 +159,7 @@ double unexplained_share(const PlaneBand& band, const std::vector<SectionLoop>& 
           });
         }));
   }
-  return unexplained / static_cast<double>(of_first.beside + of_first.ways.size());
+  return unexplained / static_cast<double>(of_first.beside + of_first.along);
 }
 
 }  // namespace instep

@@ -244,24 +244,18 @@ NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::siz
 }
 
 std::optional<NoiseEstimate> estimate_if_exact(const PointIndex& index,
-                                               const std::vector<std::size_t>& places,
-                                               const std::function<PointIndex()>& crowd) {
+                                               const std::vector<std::size_t>& places) {
   const auto chosen = chosen_of(places);
   NoiseEstimate estimate;
-  std::optional<PointIndex> all;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const auto& place = index.points()[chosen[i]];
-    const bool tells = i % kTurns.size() == kTurns.front();
-    const auto look = [&](const PointIndex& among) {
-      if (!tells) return is_exact(among, place);
-      const auto roughness = roughness_if_exact(among, place);
-      if (roughness) estimate.roughness.push_back({place, *roughness});
-      return roughness.has_value();
-    };
-    if (look(index)) continue;
-    if (!crowd) return std::nullopt;
-    if (!all) all.emplace(crowd());
-    if (!look(*all)) return std::nullopt;
+    if (i % kTurns.size() == kTurns.front()) {
+      const auto roughness = roughness_if_exact(index, place);
+      if (!roughness) return std::nullopt;
+      estimate.roughness.push_back({place, *roughness});
+    } else if (!is_exact(index, place)) {
+      return std::nullopt;
+    }
   }
   if (estimate.roughness.empty()) return std::nullopt;
   return estimate;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -56,12 +55,8 @@ NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::siz
 /// points; nothing as soon as one is not. Round a ring of points their neighbourhoods leave less
 /// than a fiftieth of it unseen in one piece. Where a polynomial passes through the points round a
 /// place that costs little.
-///
-/// `crowd`: those that the points were chosen from, if they were. Where a few are too far apart to
-/// tell a tight bend from noise, all of them are asked. It is called at most once.
 std::optional<NoiseEstimate> estimate_if_exact(const PointIndex& index,
-                                               const std::vector<std::size_t>& places,
-                                               const std::function<PointIndex()>& crowd = nullptr);
+                                               const std::vector<std::size_t>& places);
 
 /// The roughness at a place, from the nearest ones; a small positive number if there are none.
 double roughness_at(const std::vector<LocalRoughness>& known, const Eigen::Vector3d& place);

@@ -73,7 +73,7 @@ TEST(SectionEvidence, CountsPointsNearTheContourAndThoseBesideIt) {
                                      {at(90, kRadius, 1.1 * kNear)},
                                      {at(100, kRadius, -1.1 * kNear)},
                                      {at(110, 2.0 * kRadius, 1.1 * kNear)}});
-  EXPECT_EQ(evidence.ways.size(), 5U);
+  EXPECT_EQ(evidence.along, 5U);
   EXPECT_EQ(evidence.beside, 3U);
 }
 
@@ -107,6 +107,16 @@ TEST(SectionEvidence, NoPointBesideTheContourClosesAGap) {
       {{at(0)}, {at(90)}, {at(180)}, {at(230, kRadius + 1.1 * kNear)}, {at(250, 0.35, 0.06)}});
   EXPECT_EQ(evidence.ways.size(), 3U);
   EXPECT_NEAR(evidence.gap, way(180), 1e-9);
+}
+
+/// As the back of a heel above the sole that nobody saw.
+TEST(SectionEvidence, NoPointOffOnBothCountsClosesAGap) {
+  const double off = 0.9 * kNear;
+  const auto evidence =
+      evidence_of({{at(0)}, {at(60, kRadius, off / 2)}, {at(120, kRadius - off, off)}, {at(240)}});
+  EXPECT_EQ(evidence.along, 4U);
+  EXPECT_EQ(evidence.ways.size(), 3U);
+  EXPECT_NEAR(evidence.gap, way(180), 1e-6);
 }
 
 TEST(SectionEvidence, TellsTheWaysToItsPointsInOrder) {

@@ -250,28 +250,6 @@ TEST(NoiseEstimateIfExact, SeesNoiseInAFiftiethOfTheRing) {
   }
 }
 
-/// Along the edges of a ridge a few spacings wide of the points that were chosen, many of those
-/// they come from.
-TEST(NoiseEstimateIfExact, AsksTheCrowdWhereThePointsAreTooFarApart) {
-  for (const std::uint64_t seed : {18U, 19U, 20U}) {
-    auto crowd = test::positions_of(test::sphere_points(0.5, 80000, 0.0, seed));
-    for (auto& point : crowd) {
-      point *= 1.0 + 0.01 * std::max(0.0, 1.0 - std::abs(std::atan2(point.y(), point.x())) / 0.03);
-    }
-    const auto if_of_crowd = [](const Points& all) {
-      Points chosen;
-      for (std::size_t i = 0; i < all.size(); i += 20) chosen.push_back(all[i]);
-      EXPECT_FALSE(if_exact(chosen));
-      return estimate_if_exact(PointIndex(chosen), ring_of(chosen),
-                               [&] { return PointIndex(all); });
-    };
-    EXPECT_TRUE(if_of_crowd(crowd)) << seed;
-    test::RandomNumbers random(seed);
-    for (auto& point : crowd) point *= 1.0 + 0.001 * random.normal();
-    EXPECT_FALSE(if_of_crowd(crowd)) << seed;
-  }
-}
-
 /// Waves of twice the height wander by four times as much.
 TEST(NoiseEstimateIfExact, FindsHigherWavesRougher) {
   const auto disc = test::disc_points(Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 4000, 0.0, 16);
