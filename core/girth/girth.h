@@ -94,7 +94,7 @@ struct Girth {
 ///
 /// Points in two layers all round (core/girth/skin_layers.h), as of a skin and a sock, are named in
 /// a warning, and the interval reaches both. Those of cameras with wrong poses hardly ever are, for
-/// they lie apart as the cosine of the direction, and where views overlap only: of 574 girths of
+/// they lie apart as the cosine of the direction, and where views overlap only: of 573 girths of
 /// which each view was up to 1 mm off 68 % held, and where two overlap a contact length may follow
 /// one layer and the other by turns. Points that lead away from the section though no skin through
 /// them was found (core/girth/unfollowed_skin.h), as of a part too thin for them or of what touches

@@ -12,8 +12,8 @@ namespace instep {
 struct SectionEvidence {
   std::size_t along = 0;   ///< points near the contour and the plane
   std::size_t beside = 0;  ///< points as near to the plane, but on no skin that runs to it
-  /// Along the contour to each of those along it that lies so near in space as to show that a
-  /// camera saw the skin there, in order.
+  /// Along the contour to each of those that lies so near to it in space that the skin there is no
+  /// guess, in order.
   std::vector<double> ways;
   double gap = 0.0;       ///< longest stretch of the contour without one of these
   double seen_gap = 0.0;  ///< longest stretch without one that a camera saw
@@ -22,7 +22,7 @@ struct SectionEvidence {
 /// Points further from the contour or the plane than this are no evidence for it. In the unit.
 double evidence_reach(const PlaneBand& band);
 
-/// Points within `near` of the plane and of the contour count.
+/// Points within `near` of the plane and of the contour count. O(points of the band).
 SectionEvidence evidence_for(const PlaneBand& band, const ContourIndex& contour, double near);
 
 /// Whether a point may be of the skin that is cut in the contour: within `near` of it, or further
