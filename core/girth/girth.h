@@ -95,11 +95,16 @@ struct Girth {
 /// Points in two layers all round (core/girth/skin_layers.h), as of a skin and a sock, are named in
 /// a warning, and the interval reaches both. Those of cameras with wrong poses hardly ever are, for
 /// they lie apart as the cosine of the direction, and where views overlap only: of 573 girths of
-/// which each view was up to 1 mm off 68 % held, and where two overlap a contact length may follow
-/// one layer and the other by turns. Points that lead away from the section though no skin through
-/// them was found (core/girth/unfollowed_skin.h), as of a part too thin for them or of what touches
-/// the body, are named too, and the interval reaches round them. A clump of some strays beside the
-/// skin may pass for a part of it.
+/// which each view was up to 1 mm off 68 % held. Points that lead away from the section though no
+/// skin through them was found (core/girth/unfollowed_skin.h), as of a part too thin for them or of
+/// what touches the body, are named too, and the interval reaches round them.
+///
+/// A section that turns to and fro within a few points (core/girth/contour_zigzags.h), as where it
+/// goes through a clump of strays that reaches the skin, or from one view to another one that does
+/// not fit it, is named, and looked at again without the points that lie off the skin of most. If
+/// there are some, and the section is the surer without them, they are left out; else the interval
+/// reaches straight across. If there are none, it is the skin that turns, or folds or ribs too fine
+/// for the points.
 ///
 /// Intervals also know that noise may lie along normals or along a camera's rays, and that a noisy
 /// cloud's edge beside the plane bends the skin (doubt_of_direction(), doubt_of_edge()).

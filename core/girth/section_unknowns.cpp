@@ -24,6 +24,8 @@ constexpr double kFoldInSigmas = 12.0;
 constexpr double kLeastFolds = 0.15;
 /// Two sides of a thin part that noise makes so thick, each, tell nothing of where they meet.
 constexpr double kTipInSigmas = 4.0;
+/// Skin that points show turns to and fro over more than so many grains.
+constexpr double kZigzagInGrains = 8.0;
 
 double folds_by_noise(const PlaneBand& band, const Contour& section) {
   // Folds are no finer than the grain.
@@ -36,7 +38,8 @@ double folds_by_noise(const PlaneBand& band, const Contour& section) {
 }  // namespace
 
 SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                            const BlendedSurface& surface, const SectionEvidence& evidence) {
+                            const BlendedSurface& surface, const SectionEvidence& evidence,
+                            const Contour& measured) {
   const SectionLoop& section = loops.front();
   const ContourCourse course(section.contour);
   const double near = evidence_reach(band);
@@ -46,6 +49,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
       bends_in_space(course, surface, band.spacing + kTipInSigmas * band.sigma),
       layers_near_plane(band, surface, near),
       {},
+      zigzags_of(ContourCourse(measured), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
       doubt_of_edge(band, section.index)};
   // What lies off the one layer is the other one, which counts already.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/girth/contour_zigzags.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_loops.h"
@@ -21,14 +22,18 @@ struct SectionUnknowns {
   UnseenBends in_space;       ///< at the tips of thin parts
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
+  /// May be the skin's, or made by strays beside it: no part of the intervals, as long as nothing
+  /// speaks for these.
+  Zigzags zigzags;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length
   double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())
 };
 
-/// `loops`: all that the plane cuts, the section first, for which `evidence` is. O(m log m) for the
-/// m points of the band.
+/// `loops`: all that the plane cuts, the section first, for which `evidence` is. `measured`: the
+/// line whose lengths are told, if another one. O(m log m) for the m points of the band.
 SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                            const BlendedSurface& surface, const SectionEvidence& evidence);
+                            const BlendedSurface& surface, const SectionEvidence& evidence,
+                            const Contour& measured);
 
 /// Widens the intervals by them, and where noise was not what was told.
 void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section);

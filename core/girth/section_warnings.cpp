@@ -43,6 +43,15 @@ std::string warning_of(const UnfollowedSkin& skin, double unit_mm) {
          "; take it away, or scan from nearer";
 }
 
+std::string warning_of_zigzags(double way_mm) {
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.0f mm", way_mm);
+  return "over " + std::string(figure) +
+         " the section turns to and fro more than its points can tell: strays beside the skin, "
+         "views that do not fit each other, or ribs too fine; see to what lies there and to the "
+         "cameras' poses, or scan from nearer";
+}
+
 bool is_most_of(double doubt, const MeasuredSection& section) {
   return doubt > kMostOfDoubt * section.stretched_u95;
 }
@@ -93,6 +102,9 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
     warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) warnings.push_back(warning_of(*layers, band.unit_mm));
+  if (unknowns.zigzags.way > 0.0 && unknowns.folds == 0.0) {
+    warnings.push_back(warning_of_zigzags(band.unit_mm * unknowns.zigzags.way));
+  }
   warn_if(unknowns.folds > 0.0,
           "the section is folded, by noise or by ribs too fine for it: the contact length is "
           "uncertain; scan again, with more or better frames");
@@ -117,6 +129,12 @@ tl::unexpected<Error> too_few_or_noisy() {
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane are too few or too noisy to tell the girth",
               "scan again, with more or better frames");
+}
+
+tl::unexpected<Error> strays_in_section() {
+  return fail(ErrorCode::kInsufficientData,
+              "points beside the skin make the section at the tape plane turn to and fro",
+              "take away what shines or moves before the cameras, and scan again");
 }
 
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,

@@ -39,6 +39,13 @@ constexpr double kMostUnexplained = 0.67;
 /// mm off all do.
 constexpr double kManyWithStrays = 0.4;
 
+/// Against the way along zigzags: without points beside the skin they and the length differ by
+/// more.
+constexpr double kSameZigzags = 1e-3;
+constexpr const char* kStraysLeftOutWarning =
+    "points beside the skin, through which the section would turn to and fro, were left out: take "
+    "away what shines or moves before the cameras";
+
 /// Two readings of one section whose intervals do not even meet: one of them is wrong.
 bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
   return std::abs(one.contact - other.contact) > one.contact_u95 + other.contact_u95 ||
@@ -132,16 +139,18 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
                         "scan the body all round"));
   }
   auto section = measured(slabs, band, loops, surface, evidence);
-  const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence);
+  const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence, section.contour);
   widen(band, unknowns, section);
-  if (!(section.stretched_u95 <= kMostDoubt * length)) {
-    return refused(band, contour, too_doubtful(unknowns, section));
-  }
-  if (!(section.contact_u95 <= kMostFolded * length)) {
-    return refused(band, contour, too_few_or_noisy());
-  }
-
   ToldGirth told;
+  if (!(section.stretched_u95 <= kMostDoubt * length)) {
+    told = refused(band, contour, too_doubtful(unknowns, section));
+  } else if (!(section.contact_u95 <= kMostFolded * length)) {
+    told = refused(band, contour, too_few_or_noisy());
+  }
+  told.zigzags = {band.unit_mm * unknowns.zigzags.way, band.unit_mm * unknowns.zigzags.contact,
+                  band.unit_mm * unknowns.zigzags.stretched};
+  if (told.refusal) return told;
+
   told.girth = girth_of(band, section, evidence);
   told.girth.points = slabs.cloud().size();
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
@@ -168,6 +177,39 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
 
 bool is_surer(const ToldGirth& one, const ToldGirth& other) {
   return one.of_few != other.of_few ? other.of_few : one.doubt() < other.doubt();
+}
+
+/// Whether it is so nearly the same without some points that none of these was on the zigzags.
+bool are_same(const ToldGirth& one, const Result<ToldGirth>& other) {
+  return other && std::abs(one.zigzags.way - other->zigzags.way) < kSameZigzags * one.zigzags.way &&
+         one.refusal.has_value() == other->refusal.has_value() &&
+         (one.refusal || std::abs(one.girth.contact_mm - other->girth.contact_mm) <
+                             kSameZigzags * one.zigzags.way);
+}
+
+/// Where zigzags are made by strays, all of what they add may be too much.
+void widen_by_zigzags(ToldGirth& told) {
+  if (told.refusal) return;
+  Girth& girth = told.girth;
+  *girth.contact_u95_mm += told.zigzags.contact;
+  *girth.stretched_u95_mm += told.zigzags.stretched;
+  if (*girth.stretched_u95_mm > kMostDoubt * girth.contact_mm ||
+      *girth.contact_u95_mm > kMostFolded * girth.contact_mm) {
+    told.refusal = strays_in_section().value();
+  }
+}
+
+/// Of a section that zigzags, without the points beside its skin, if there are any and it is the
+/// surer one then. The same where the skin is what turns to and fro: there none lie beside it.
+ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOptions& options) {
+  auto cleaned = girth_at(slabs, options, true);
+  if (are_same(told, cleaned)) return told;
+  widen_by_zigzags(told);
+  if (!cleaned) return told;
+  widen_by_zigzags(*cleaned);
+  if (cleaned->refusal || (!told.refusal && !is_surer(*cleaned, told))) return told;
+  cleaned->girth.warnings.emplace_back(kStraysLeftOutWarning);
+  return std::move(*cleaned);
 }
 
 }  // namespace
@@ -200,6 +242,9 @@ Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
   if (strays_near_skin) {
     auto cleaned = girth_at(slabs, options, strays_near_skin);
     if (is_told(cleaned) && !cleaned->of_few) told = std::move(cleaned);
+    widen_by_zigzags(*told);
+  } else if (told && told->zigzags.way > 0.0) {
+    told = girth_without_zigzags(std::move(*told), slabs, options);
   }
   // The nearest points of a line that noise makes thick all lie on a sheet across the skin, and
   // seem exact.

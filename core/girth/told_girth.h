@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/geometry/point_cloud.h"
+#include "core/girth/contour_zigzags.h"
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
 #include "core/result.h"
@@ -16,6 +17,7 @@ struct ToldGirth {
   std::optional<Error> refusal;
   bool of_few = false;            ///< most of the points near the plane lie on no loop
   bool strays_near_skin = false;  ///< many of its patches left some out
+  Zigzags zigzags;                ///< mm
   bool is_bridged = false;        ///< over a stretch without seen points
   bool has_layers = false;        ///< of skin, or of skin and sock
   /// Of the points near the plane more than a fiftieth lies on no loop, or leads away from one.
