@@ -1,5 +1,6 @@
 #include "core/surface/height_base.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,14 @@ constexpr double kLeastBent = 1e-3;
 constexpr double kSteepest = 0.25;
 
 }  // namespace
+
+Eigen::Matrix3d axes_over(const Eigen::Vector3d& outward) {
+  Eigen::Matrix3d axes;
+  axes.row(0) = outward.unitOrthogonal();
+  axes.row(1) = outward.cross(axes.row(0));
+  axes.row(2) = outward;
+  return axes;
+}
 
 HeightBase::HeightBase(const Eigen::Matrix3d& axes, const Eigen::Vector3d& centre, double radius)
     : axes_(axes), centre_(centre), radius_(radius) {}

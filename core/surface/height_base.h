@@ -4,6 +4,10 @@
 
 namespace instep {
 
+/// Axes of a plane whose own directions do not matter: rows are two of these and `outward`, a unit
+/// vector over it.
+Eigen::Matrix3d axes_over(const Eigen::Vector3d& outward);
+
 /// What the points of a small piece of surface are heights over: a piece of plane, or of a cylinder
 /// that is bent round the body as the surface is. Over a plane the flanks of a bent piece seem
 /// nearer to each other than they are, and rise without bending: what fits a surface to such

@@ -112,11 +112,6 @@ std::optional<Quadratic> determined_quadratic(const HeightSamples& samples) {
 }
 
 CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend) {
-  const auto trend_at = [&](const Eigen::Vector2d& place) {
-    const double x = place.x();
-    const double y = place.y();
-    return trend[0] + x * (trend[1] + x * trend[3] + y * trend[4]) + y * (trend[2] + y * trend[5]);
-  };
   std::array<Cell, kCellsAcross * kCellsAcross> cells;
   CellAverages averages;
   averages.cells.resize(static_cast<std::size_t>(samples.size()));
@@ -127,7 +122,7 @@ CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend)
     const double weight = 1.0 / std::max(samples.variances[i], kLeastVariance);
     cell.weight += weight;
     cell.place += weight * samples.places.col(i);
-    cell.height += weight * (samples.heights[i] - trend_at(samples.places.col(i)));
+    cell.height += weight * (samples.heights[i] - height_of(trend, samples.places.col(i)));
     averages.cells[static_cast<std::size_t>(i)] = static_cast<Eigen::Index>(at);
     averages.shares[i] = weight;
   }

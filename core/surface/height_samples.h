@@ -33,6 +33,13 @@ using Quadratic = Eigen::Matrix<double, 6, 1>;
 /// Of those, and of xxx, xxy, xyy, yyy.
 using Polynomial = Eigen::Matrix<double, 10, 1>;
 
+/// Over the base, at a place on it.
+inline double height_of(const Quadratic& c, const Eigen::Vector2d& place) {
+  const double x = place.x();
+  const double y = place.y();
+  return c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]);
+}
+
 /// The first `terms` (3, 6 or 10) of those monomials, one place a row.
 Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms);
 

@@ -1,19 +1,6 @@
 #include "core/surface/quadratic_sheet.h"
 
-#include <Eigen/Geometry>
-
 namespace instep {
-namespace {
-
-Eigen::Matrix3d axes_over(const Eigen::Vector3d& outward) {
-  Eigen::Matrix3d axes;
-  axes.row(0) = outward.unitOrthogonal();
-  axes.row(1) = outward.cross(axes.row(0));
-  axes.row(2) = outward;
-  return axes;
-}
-
-}  // namespace
 
 QuadraticSheet::QuadraticSheet(const std::vector<OrientedPoint>& points,
                                const Eigen::Vector3d& outward, const Eigen::Vector3d& centre,
@@ -25,11 +12,10 @@ FieldValue QuadraticSheet::at(const Eigen::Vector3d& position) const {
   const auto spot = base_.see(position);
   const double x = spot.place.x();
   const double y = spot.place.y();
-  const double height =
-      terms_[0] + x * (terms_[1] + x * terms_[3] + y * terms_[4]) + y * (terms_[2] + y * terms_[5]);
   const Eigen::Vector2d slope(terms_[1] + 2.0 * x * terms_[3] + y * terms_[4],
                               terms_[2] + x * terms_[4] + 2.0 * y * terms_[5]);
-  return {base_.radius() * (spot.height - height), base_.gradient(slope, spot)};
+  return {base_.radius() * (spot.height - height_of(terms_, spot.place)),
+          base_.gradient(slope, spot)};
 }
 
 }  // namespace instep

@@ -1,9 +1,10 @@
 #include "core/surface/quintic_patch.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+
+#include "core/surface/height_base.h"
 
 namespace instep {
 namespace {
@@ -111,9 +112,7 @@ std::optional<QuinticPatch> QuinticPatch::fit(const std::vector<OrientedPoint>& 
   QuinticPatch patch;
   patch.centre_ = centre;
   patch.radius_ = radius;
-  patch.axes_.row(0) = outward.unitOrthogonal();
-  patch.axes_.row(1) = outward.cross(patch.axes_.row(0));
-  patch.axes_.row(2) = outward;
+  patch.axes_ = axes_over(outward);
   // In whole groups: what fills up the last one counts for nothing but in the number.
   Eigen::ArrayX3d local = Eigen::ArrayX3d::Zero((count + kGroup - 1) / kGroup * kGroup, 3);
   for (Eigen::Index i = 0; i < count; ++i) {
