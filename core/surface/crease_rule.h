@@ -30,4 +30,13 @@ inline constexpr CreaseRule kClearCrease = {
 inline constexpr CreaseRule kNoisyCrease = {
     .least_turn = 0.9, .widest_gap = 1.4, .least_gain = 8.0, .plain_turn = 0.0};
 
+/// What two sheets turn is told by planes, then by quadratics, and at last by the patches that the
+/// rules above are for. Each is so much more work than the one before that it is done only where
+/// that one turns so much (radians). Planes turn as sheets do that bend neither towards the crease
+/// nor away from it, so no less is asked of them.
+inline constexpr double kLeastTurnOfPlanes = kClearCrease.least_turn;
+inline constexpr double kLeastTurnOfToldPlanes = kToldCrease.least_turn;
+/// Nearly as the patches do, for which a little is left.
+inline constexpr double kLeastTurnOfQuadratics = 0.55;
+
 }  // namespace instep

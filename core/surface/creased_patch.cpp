@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/surface/crease_rule.h"
 #include "core/surface/quadratic_sheet.h"
 #include "core/surface/sheet_rows.h"
 #include "core/surface/two_sheets.h"
@@ -15,9 +16,6 @@
 namespace instep {
 namespace {
 
-/// Sheets of which the quadratics turn less (radians) are not worth a closer look: these turn
-/// nearly as the sheets do, at a fraction of the work.
-constexpr double kLeastTurnOfQuadratics = 0.55;
 /// Of more than twice as many points so many are asked first whether they turn at all.
 constexpr std::size_t kEnoughPoints = 160;
 /// A point of one sheet that lies this part of the radius under the other one, beyond what noise

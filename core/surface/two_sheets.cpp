@@ -7,15 +7,13 @@
 
 #include "core/geometry/moments.h"
 #include "core/picked.h"
+#include "core/surface/crease_rule.h"
 #include "core/surface/quadratic_sheet.h"
 
 namespace instep {
 namespace {
 
 constexpr std::size_t kFewestOnASheet = 6;
-/// Sheets whose planes turn less (radians) are not worth a closer look.
-constexpr double kLeastTurn = 0.6;
-constexpr double kLeastToldTurn = 0.4;
 constexpr int kRounds = 6;
 
 using Sides = std::vector<std::uint8_t>;
@@ -138,7 +136,7 @@ std::optional<TwoSheets> TwoSheets::by_told_normals(const std::vector<OrientedPo
       plane.middle /= static_cast<double>(plane.count);
       plane.normal.normalize();
     }
-    if (sheets.turn() < kLeastToldTurn) return std::nullopt;
+    if (sheets.turn() < kLeastTurnOfToldPlanes) return std::nullopt;
     const Sides before = sheets.sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
       sheets.sides[i] = (second.normal - first.normal).dot(points[i].normal) > 0.0;
@@ -159,7 +157,7 @@ std::optional<TwoSheets> TwoSheets::by_planes(const std::vector<OrientedPoint>& 
     sheets.planes = planes_of(points, sheets.sides);
     const auto& [first, second] = sheets.planes;
     if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
-    if (sheets.turn() < kLeastTurn) return std::nullopt;
+    if (sheets.turn() < kLeastTurnOfPlanes) return std::nullopt;
     sheets.convex = is_convex(sheets.planes);
     Sides sides =
         bounding_sides(points, sheets.convex, [&](std::size_t side, const Eigen::Vector3d& place) {

@@ -34,12 +34,12 @@ struct TwoSheets {
   std::array<std::vector<OrientedPoint>, 2> parted(const std::vector<OrientedPoint>& points) const;
 
   /// By the sheet that faces as their told normals do. Nothing if one has fewer than six, or if
-  /// they turn by less than 0.4 radians. O(points).
+  /// they turn by less than kLeastTurnOfToldPlanes (crease_rule.h). O(points).
   static std::optional<TwoSheets> by_told_normals(const std::vector<OrientedPoint>& points);
 
   /// By the plane that bounds the body where they are. Nothing if one has fewer than six, or as
-  /// soon as the planes turn by less than 0.6 radians, as those of a smooth bend do from the first.
-  /// O(points).
+  /// soon as the planes turn by less than kLeastTurnOfPlanes, as those of a smooth bend do from the
+  /// first. O(points).
   static std::optional<TwoSheets> by_planes(const std::vector<OrientedPoint>& points);
 
   /// Anew, by the quadratic that bounds the body where they are: the planes of sheets that bend
