@@ -161,7 +161,8 @@ std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& p
     if (!(axes.eigenvalues()(1) > settings.least_extent_mm * settings.least_extent_mm)) {
       return std::nullopt;
     }
-    reach = std::clamp(3.0 * 1.4826 * median_distance(*plane, layer_points, reach), 0.3, kReachMm);
+    reach = std::clamp(3.0 * kSigmaInMedians * median_distance(*plane, layer_points, reach), 0.3,
+                       kReachMm);
   }
   const bool supported =
       static_cast<double>(layer.count) >= settings.least_share * static_cast<double>(sample.size());

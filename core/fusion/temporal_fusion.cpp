@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/median.h"
+
 namespace instep {
 namespace {
 
@@ -11,7 +13,6 @@ constexpr int kBlock = 8;                 // pixels a side of a block that is wa
 constexpr double kDeepestBlockMm = 40.0;  // a block with more depth in it lies on a silhouette
 constexpr double kMovingShare = 0.01;     // of the blocks has to move for it to count
 constexpr double kModelFrames = 2.0;      // the sensor model weighs as much as so many frames
-constexpr double kSigmaOfDeviation = 1.4826;
 
 /// The values that a pixel showed, ascending.
 struct Samples {
@@ -238,7 +239,7 @@ Result<FusedDepth> TemporalFusion::result() const {
     if (samples.count < needed) continue;
     const double depth = samples.values[samples.count / 2] * unit_mm_;
     const double model = settings_.noise.axial_sigma_mm(depth) / unit_mm_;
-    const double scatter = std::max(kSigmaOfDeviation * median_deviation(samples), 0.5 * model);
+    const double scatter = std::max(kSigmaInMedians * median_deviation(samples), 0.5 * model);
     const Estimate estimate = gated_mean(samples, std::max(1.0, settings_.gate * scatter));
     if (estimate.kept < needed) continue;
     fused.depth_mm[pixel] = static_cast<float>(estimate.mean * unit_mm_);

@@ -19,7 +19,6 @@ constexpr double kTexture = 0.05;
 /// the variance of their mean.
 constexpr double kCoefficients = 6.0;
 constexpr double kAgainstMean = 4.0;
-constexpr double kSigmasInMedian = 1.4826;
 
 }  // namespace
 
@@ -61,7 +60,7 @@ std::optional<BlockSkin> BlockSkin::through(const std::vector<Eigen::Vector3d>& 
   std::vector<double> off;
   for (const auto& seen : patch) off.push_back(skin.distance(seen));
   skin.points_ = static_cast<double>(patch.size());
-  skin.scatter_ = kSigmasInMedian * median(std::move(off)) *
+  skin.scatter_ = kSigmaInMedians * median(std::move(off)) *
                   std::sqrt(skin.points_ / (skin.points_ - kCoefficients));
   return skin;
 }

@@ -5,9 +5,6 @@
 namespace instep {
 namespace {
 
-/// Stands for no distance at all where it is divided by.
-constexpr double kLeastSquared = 1e-300;
-
 /// Of squared distances, by `factor`.
 template <class Squares, class Factor, class Values>
 void set_kernel(HeightKernel kernel, const Squares& squared, const Factor& factor,

@@ -9,6 +9,9 @@ namespace instep {
 /// definite of order 2, 3 and 4: a plane, a quadratic or a cubic polynomial has to go with them.
 enum class HeightKernel { kCubic, kQuintic, kSeptic };
 
+/// Stands for the square of no distance at all where it is divided by.
+inline constexpr double kLeastSquared = 1e-300;
+
 /// Terms of the polynomial without which the kernel's system is not positive definite: 3, 6 or 10.
 Eigen::Index fewest_terms(HeightKernel kernel);
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/surface/kriging_limits.h"
+
 namespace instep {
 namespace {
 
-/// Terms of the polynomial that the points determine less than this are left out.
-constexpr double kLeastDetermined = 1e-3;
 /// No sample outweighs the least certain one by more, or a certain one would leave the others no
 /// say in how rough the surface is.
 constexpr double kLargestScale = 1e3;

@@ -7,6 +7,7 @@
 
 #include "core/geometry/point_spacing.h"
 #include "core/surface/kriging_likelihood.h"
+#include "core/surface/kriging_limits.h"
 
 namespace instep {
 namespace {
@@ -15,8 +16,6 @@ namespace {
 constexpr std::size_t kFewestForQuadratic = 9;
 /// And fewer than this are left over beside creases, or tell too little of how the base is bent.
 constexpr std::size_t kFewestForBend = 24;
-/// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
-constexpr double kLeastSmoothing = 1e-10;
 /// Standard deviation of the logarithm of the roughness round its likely value.
 constexpr double kRoughnessSpread = 4.0;
 /// The roughnesses that are tried, against the likely one.
@@ -53,8 +52,6 @@ constexpr double kHarmlesslyOff = 0.01;
 constexpr double kExactSlopes = 1e-6;
 constexpr double kWildSlopes = 1e6;
 constexpr double kSlopeStep = 10.0;
-/// Stands for no distance at all where it is divided by.
-constexpr double kLeastSquared = 1e-300;
 /// Variance of exact heights below which a surface counts as even.
 constexpr double kEven = 1e-10;
 

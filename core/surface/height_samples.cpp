@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/surface/kriging_limits.h"
+
 namespace instep {
 namespace {
 
@@ -103,9 +105,8 @@ Quadratic least_squares(const HeightSamples& samples) {
 }
 
 std::optional<Quadratic> determined_quadratic(const HeightSamples& samples) {
-  constexpr double kHardly = 1e-3;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(kHardly);
+  qr.setThreshold(kLeastDetermined);
   qr.compute(monomials(samples.places, Quadratic::RowsAtCompileTime));
   if (qr.rank() < Quadratic::RowsAtCompileTime) return std::nullopt;
   return qr.solve(samples.heights).eval();

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/surface/kriging_limits.h"
+
 namespace instep {
 namespace {
 
 constexpr Eigen::Index kTerms = HermitePatch::Polynomial::RowsAtCompileTime;
-/// Terms of the polynomial that the points determine less than this are left out: on a flat patch
-/// nothing tells the square of the height.
-constexpr double kLeastDetermined = 1e-3;
 
 /// Standard deviation granted to the unit slope along a normal: the field of a curved or creased
 /// surface cannot have it everywhere.
@@ -20,8 +19,6 @@ constexpr double kSlopeDeviation = 0.05;
 /// values whose slopes were free would be met by a field that vanishes.
 constexpr double kMostSlopeSmoothing = 0.1;
 constexpr double kSlopeToValueSmoothing = 10.0;
-/// Least smoothing, against a unit kernel: keeps the system solvable where points nearly coincide.
-constexpr double kLeastSmoothing = 1e-10;
 
 /// The kernel r^3 between all data: values first, then slopes along the normals. Only the lower
 /// triangle is set.

@@ -42,7 +42,6 @@ constexpr double kMostAlong = 20.0;
 /// In standard deviations: from there on a point counts less, and not at all.
 constexpr double kFarOff = 2.5;
 constexpr double kStray = 6.0;
-constexpr double kSigmaOfMedian = 1.4826;
 
 /// From the power of none on.
 template <int kCount>
@@ -297,7 +296,7 @@ RibbonSpline::Evidence RibbonSpline::without_strays(Evidence evidence,
     off.push_back(std::abs(point.height - height(point.way, point.off).value) *
                   std::sqrt(point.certainty));
   }
-  const double sigma = kSigmaOfMedian * median(off);
+  const double sigma = kSigmaInMedians * median(off);
   // Few points count less: what they no longer count is taken from what all say.
   std::vector<RibbonPoint> less;
   for (std::size_t i = 0; i < points.size(); ++i) {
