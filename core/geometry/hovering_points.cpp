@@ -54,8 +54,7 @@ bool is_on_sheet(const PointIndex& far_apart, const Eigen::Vector3d& place, doub
   if (own_spacing(far_apart, place) > kBesideDenser * own) return false;
   Moments moments;
   for (const auto& one : beside) moments.add(far_apart.points()[one.index] - place);
-  const Eigen::Vector3d spreads = moments.axes().eigenvalues();
-  return spreads[0] < kFlat * kFlat * spreads[1];
+  return are_flat(moments.axes(), kFlat * kFlat);
 }
 
 }  // namespace

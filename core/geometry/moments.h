@@ -5,6 +5,21 @@
 
 namespace instep {
 
+/// The directions in which points spread, from the least to the most, and how far: sums of squares.
+using SpreadAxes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+
+/// Whether points spread across their plane by less than `part` of what they do across their
+/// longest line on it, as skin does and a heap does not. By sums of squares.
+inline bool are_flat(const SpreadAxes& axes, double part) {
+  return axes.eigenvalues()[0] < part * axes.eigenvalues()[1];
+}
+
+/// Whether they spread across that line by less than `part` of what they do along it: which way
+/// their plane faces they do not tell. By sums of squares.
+inline bool are_on_a_line(const SpreadAxes& axes, double part) {
+  return axes.eigenvalues()[1] < part * axes.eigenvalues()[2];
+}
+
 /// Sums over points round some origin, from which their middle and their flattest direction follow.
 /// The origin lies among the points, or digits are lost.
 struct Moments {
@@ -29,12 +44,11 @@ struct Moments {
 
   Eigen::Vector3d middle() const { return sum / count; }
 
-  /// The directions in which the points spread, from the least to the most, and how far: the sums
-  /// of squares. At least one point.
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes() const {
+  /// At least one point.
+  SpreadAxes axes() const {
     Moments round_middle = *this;
     round_middle.add_products(-sum / count, sum);
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+    SpreadAxes axes;
     // In closed form: a millionth of a radian is far more than enough.
     axes.computeDirect(round_middle.squares);
     return axes;

@@ -37,8 +37,7 @@ bool is_of_skin(const Eigen::Vector3d& point, const PointIndex& index, const Pil
   if (static_cast<double>(company.size()) < kLonely * usual) return false;
   Moments moments;
   for (const auto& near : company) moments.add((index.points()[near.index] - point) / level.side);
-  const auto axes = moments.axes();
-  return axes.eigenvalues()[0] < kFlat * axes.eigenvalues()[1];
+  return are_flat(moments.axes(), kFlat);
 }
 
 }  // namespace

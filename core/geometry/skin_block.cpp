@@ -47,7 +47,7 @@ BlockView::BlockView(const std::vector<Eigen::Vector3d>& points, const CellBlock
   middle_ = moments.middle();
   const auto axes = moments.axes();
   axes_ << axes.eigenvectors().rightCols<2>(), axes.eigenvectors().col(0);
-  is_flat_ = axes.eigenvalues()[0] < kFlat * axes.eigenvalues()[1];
+  is_flat_ = are_flat(axes, kFlat);
 }
 
 std::optional<BlockSkin> BlockSkin::through(const std::vector<Eigen::Vector3d>& points,

@@ -44,7 +44,7 @@ std::optional<OppositeWalls::Wall> wall_of(const Points& points, const Sides& si
   }
   if (moments.count < static_cast<double>(kFewestOnAWall)) return std::nullopt;
   const auto axes = moments.axes();
-  if (axes.eigenvalues()[1] < kThinLine * axes.eigenvalues()[2]) return std::nullopt;
+  if (are_on_a_line(axes, kThinLine)) return std::nullopt;
   return OppositeWalls::Wall{points.front() + moments.middle(), axes.eigenvectors().col(0)};
 }
 

@@ -1,6 +1,5 @@
 #include "core/surface/surface_facets.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -37,15 +36,10 @@ constexpr double kOffWall = 0.5;
 /// Cosines that differ by less do so by rounding, as those to the two walls of a plate.
 constexpr double kRounding = 1e-9;
 
-bool is_line(const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>& axes) {
-  return axes.eigenvalues()[1] < kThinLine * axes.eigenvalues()[2];
-}
-
 /// Of points round a place, more and more while they all lie on one line.
 Eigen::Vector3d normal_across_lines(const PointIndex& index, const Eigen::Vector3d& place,
-                                    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes,
-                                    double side) {
-  for (double radius = kFirstRound * side; is_line(axes) && radius < kWidestRound;
+                                    SpreadAxes axes, double side) {
+  for (double radius = kFirstRound * side; are_on_a_line(axes, kThinLine) && radius < kWidestRound;
        radius *= kWidening) {
     Moments round;
     for (const auto& near : index.around(place, radius)) {
