@@ -176,6 +176,13 @@ std::optional<Fit> fit_to(const HeightSamples& samples, std::size_t points, bool
   return fit && std::isfinite(fit->misfit) ? std::move(fit) : std::nullopt;
 }
 
+/// From what r^3 gives to what the kernel does.
+template <class Group>
+void raise_to(HeightKernel kernel, const Group& squared, Group& of_cubic) {
+  if (kernel == HeightKernel::kQuintic) of_cubic *= -squared;
+  if (kernel == HeightKernel::kSeptic) of_cubic *= squared.square();
+}
+
 }  // namespace
 
 std::optional<HeightPatch> HeightPatch::fit(const std::vector<OrientedPoint>& points,
@@ -287,8 +294,7 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
     const Group across = y - y_.segment<kGroup>(i);
     const Group squared = along.square() + across.square();
     Group weighted = weights_.segment<kGroup>(i) * squared.sqrt();
-    if (kernel == HeightKernel::kQuintic) weighted *= -squared;
-    if (kernel == HeightKernel::kSeptic) weighted *= squared.square();
+    raise_to(kernel, squared, weighted);
     kernels += weighted * squared;
     slopes_x += weighted * along;
     slopes_y += weighted * across;
@@ -305,7 +311,8 @@ FieldValue HeightPatch::at(const Eigen::Vector3d& position) const {
 
 /// The kernels of the samples' slopes: the derivatives of those of their heights.
 void HeightPatch::add_slopes(double x, double y, Rise& rise) const {
-  const double power = power_of(kriging_->kernel());
+  const HeightKernel kernel = kriging_->kernel();
+  const double power = power_of(kernel);
   for (Eigen::Index i = 0; i < x_.size(); i += kGroup) {
     const Group along = x - x_.segment<kGroup>(i);
     const Group across = y - y_.segment<kGroup>(i);
@@ -314,8 +321,7 @@ void HeightPatch::add_slopes(double x, double y, Rise& rise) const {
     const auto weights_across = across_weights_.segment<kGroup>(i);
     const Group weighted = weights_along * along + weights_across * across;
     Group bend = power / squared.sqrt();
-    if (kriging_->kernel() == HeightKernel::kQuintic) bend *= -squared;
-    if (kriging_->kernel() == HeightKernel::kSeptic) bend *= squared.square();
+    raise_to(kernel, squared, bend);
     const Group slope = bend * squared;
     bend *= (power - 2.0) * weighted;
     rise.height -= (slope * weighted).sum();
