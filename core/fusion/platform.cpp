@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/stride.h"
 
 namespace instep {
 namespace {
@@ -26,7 +27,7 @@ struct Candidate {
 
 std::vector<Eigen::Vector3d> even_sample(const std::vector<Eigen::Vector3d>& points,
                                          std::size_t most) {
-  const std::size_t stride = std::max<std::size_t>(1, (points.size() + most - 1) / most);
+  const std::size_t stride = stride_to_at_most(most, points.size());
   std::vector<Eigen::Vector3d> sample;
   for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
   return sample;

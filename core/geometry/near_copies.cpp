@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/geometry/voxel_grid.h"
+#include "core/stride.h"
 
 namespace instep {
 
@@ -32,7 +33,7 @@ std::vector<bool> near_copies(const std::vector<Eigen::Vector3d>& points, double
 double share_of_near_copies(const PointIndex& index, double apart, std::size_t sample) {
   const std::size_t count = index.points().size();
   if (count < 2 || sample == 0) return 0.0;
-  const std::size_t stride = std::max<std::size_t>(1, count / sample);
+  const std::size_t stride = stride_to_at_least(sample, count);
   double asked = 0.0;
   double found = 0.0;
   for (std::size_t i = 0; i < count; i += stride) {

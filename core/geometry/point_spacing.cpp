@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/stride.h"
 
 namespace instep {
 namespace {
@@ -16,7 +17,7 @@ double median_over(const PointIndex& index, std::size_t sample, const Measure& m
   const auto& points = index.points();
   if (points.size() < 2 || sample == 0) return 0.0;
   std::vector<double> measures;
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / sample);
+  const std::size_t stride = stride_to_at_least(sample, points.size());
   for (std::size_t i = 0; i < points.size(); i += stride) measures.push_back(measure(points[i]));
   return median(std::move(measures));
 }

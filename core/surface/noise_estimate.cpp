@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/stride.h"
 #include "core/surface/local_mean.h"
 #include "core/surface/neighbourhood.h"
 #include "core/surface/tangent_view.h"
@@ -33,7 +34,7 @@ constexpr double kLeastVariance = 1e-24;
 
 /// The places that are asked, if all are.
 std::vector<std::size_t> chosen_of(const std::vector<std::size_t>& places) {
-  const std::size_t stride = std::max<std::size_t>(1, places.size() / kNeighbourhoods);
+  const std::size_t stride = stride_to_at_least(kNeighbourhoods, places.size());
   std::vector<std::size_t> chosen;
   for (std::size_t i = stride / 2; i < places.size(); i += stride) chosen.push_back(places[i]);
   return chosen;

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/stride.h"
+
 namespace instep {
 namespace {
 
@@ -122,10 +124,6 @@ void hear(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index, 
   if (lonely) witness.lonely += 1.0;
 }
 
-std::size_t stride_for(std::size_t sample, std::size_t count) {
-  return (count + sample - 1) / sample;
-}
-
 /// Whether normals of neighbours face opposite ways, though the chord between them runs along the
 /// skin.
 bool is_turned_over(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index,
@@ -140,7 +138,8 @@ bool some_are_turned_over(const std::vector<Eigen::Vector3d>& normals, const Poi
   const std::size_t count = normals.size();
   double pairs = 0.0;
   double turned_over = 0.0;
-  for (std::size_t i = 0; i < count; i += stride_for(kLargeSample, count)) {
+  const std::size_t stride = stride_to_at_most(kLargeSample, count);
+  for (std::size_t i = 0; i < count; i += stride) {
     for (const auto& near : index.nearest(index.points()[i], kNeighbours)) {
       if (near.index == i) continue;
       pairs += 1.0;
@@ -175,7 +174,7 @@ std::optional<Eigen::Vector3d> righted(const std::vector<Eigen::Vector3d>& norma
 
 NormalTrust trust_in(const std::vector<Eigen::Vector3d>& normals, const PointIndex& index) {
   const auto& points = index.points();
-  const std::size_t stride = stride_for(kSample, points.size());
+  const std::size_t stride = stride_to_at_most(kSample, points.size());
   Witness witness;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double lengths = 0.0;

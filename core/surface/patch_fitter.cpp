@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/picked.h"
+#include "core/stride.h"
 #include "core/surface/crease_rule.h"
 #include "core/surface/point_lines.h"
 #include "core/surface/stray_free_sheet.h"
@@ -154,7 +155,7 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   const bool wider = surroundings.nearest.size() > most;
   const auto nearest = wider ? surroundings.nearest : points_.index().nearest(place, most);
   // Of many, an even sample by their distance.
-  const std::size_t stride = (nearest.size() + most - 1) / most;
+  const std::size_t stride = stride_to_at_most(most, nearest.size());
   std::vector<std::size_t> members;
   for (std::size_t i = 0; i < nearest.size(); i += stride) members.push_back(nearest[i].index);
   points_.drop_twins(members, surroundings.spacing);

@@ -9,6 +9,7 @@
 #include "core/geometry/point_spacing.h"
 #include "core/median.h"
 #include "core/picked.h"
+#include "core/stride.h"
 
 namespace instep {
 namespace {
@@ -70,7 +71,7 @@ PatchPoints::PatchPoints(std::vector<OrientedPoint> points, PointIndex index,
 /// Whether the nearest points lie closer together on lines than from line to line.
 bool PatchPoints::are_strung(const Surroundings& surroundings) const {
   const auto& nearest = surroundings.nearest;
-  const std::size_t stride = std::max<std::size_t>(1, nearest.size() / rule_.points);
+  const std::size_t stride = stride_to_at_least(rule_.points, nearest.size());
   double sum = 0.0;
   double count = 0.0;
   for (std::size_t i = 0; i < nearest.size(); i += stride) {
