@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/geometry/distinct_points.h"
+#include "core/geometry/near_copies.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/spanning_tree.h"
@@ -16,8 +17,10 @@ namespace {
 
 /// Distance of off-surface points, against the shortest edge of the spanning tree.
 constexpr double kOffSurface = 0.1;
-/// Points that are nearer to each other, against the spacing, are one.
-constexpr double kDuplicate = 1e-3;
+/// Points that are nearer to each other, against the spacing, are one: a pair that nearly coincides
+/// would set the shortest edge, and with it the distance of off-surface points, to nothing, and no
+/// solver separates the two then.
+constexpr double kCopy = 1e-3;
 /// What the preparation takes of the whole.
 constexpr double kPrepared = 0.3;
 
@@ -38,8 +41,13 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   report(0.0);
   std::vector<Eigen::Vector3d> distinct;
   for (const std::size_t i : distinct_points(input)) distinct.push_back(input[i]);
+  if (distinct.size() < 2) return no_surface();
   const double spacing = median_nearest_distance(PointIndex(distinct));
-  auto points = without_near_duplicates(distinct, kDuplicate * spacing);
+  const auto copies = near_copies(distinct, kCopy * spacing);
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    if (!copies[i]) points.push_back(distinct[i]);
+  }
   if (2 * points.size() < options.fewest) return no_surface();
   const auto tree = minimum_spanning_tree(points);
   report(0.5 * kPrepared);

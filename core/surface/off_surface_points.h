@@ -19,10 +19,4 @@ struct SignedSamples {
 SignedSamples with_off_surface_points(const std::vector<Eigen::Vector3d>& points,
                                       const std::vector<Eigen::Vector3d>& normals, double distance);
 
-/// The points without those that lie within `distance` of an earlier one that was kept, in the same
-/// order. A pair that nearly coincides would set the shortest edge of the spanning tree, and with
-/// it the distance of off-surface points, to nothing: then no solver separates the two. O(n log n).
-std::vector<Eigen::Vector3d> without_near_duplicates(const std::vector<Eigen::Vector3d>& points,
-                                                     double distance);
-
 }  // namespace instep
