@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/stride.h"
+
 namespace instep {
 namespace {
 
@@ -25,7 +27,7 @@ constexpr double kFurthestLayer = 0.08;
 constexpr double kNearestLayers = 0.002;
 constexpr double kScatterOfLayers = 3e-4;
 constexpr double kLayersMore = 1.1;
-/// So many points tell of layers, or fewer than twice as many.
+/// So many points at most are asked, an even part of more.
 constexpr std::size_t kMostHeights = 800;
 
 /// Into the first `count` and the rest.
@@ -81,7 +83,7 @@ std::optional<SkinLayers> layers_near_plane(const PlaneBand& band, const Blended
                                             double near) {
   if (band.shown_sigma < kScatterOfLayers) return std::nullopt;
   std::vector<double> heights;
-  const std::size_t stride = (band.points.size() + kMostHeights - 1) / kMostHeights;
+  const std::size_t stride = stride_to_at_most(kMostHeights, band.points.size());
   for (std::size_t i = 0; i < band.points.size(); i += stride) {
     const Eigen::Vector3d& position = band.points[i].position;
     if (std::abs(position.z()) > near) continue;

@@ -59,7 +59,7 @@ struct CellAverages {
 };
 
 /// What is left of the heights over `trend`, averaged over square cells, weighted by certainty: at
-/// most 64 averages, however many came. As the trend is taken out first, a cell's average is not
+/// most 49 averages, however many came. As the trend is taken out first, a cell's average is not
 /// bent by the curvature of the surface across it.
 CellAverages averaged_rest(const HeightSamples& samples, const Quadratic& trend);
 
