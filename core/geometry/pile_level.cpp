@@ -82,7 +82,7 @@ bool has_pile(const std::vector<Eigen::Vector3d>& points, const PileLevel& level
   std::vector<std::size_t> crowded;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
     const std::size_t count = grid.members(cell).size();
-    if (level.is_pile(count)) return true;
+    if (static_cast<double>(count) > kPile * level.usual) return true;
     if (level.is_crowded(count)) crowded.push_back(cell);
   }
   return have_other_noise(crowded, points, grid, level);
@@ -103,10 +103,6 @@ bool is_mostly_flat(const std::vector<Eigen::Vector3d>& points, const PileLevel&
 }
 
 }  // namespace
-
-bool PileLevel::is_pile(std::size_t points_of_cell) const {
-  return static_cast<double>(points_of_cell) > kPile * usual;
-}
 
 bool PileLevel::is_crowded(std::size_t points_of_cell) const {
   return static_cast<double>(points_of_cell) > kCrowded * usual;

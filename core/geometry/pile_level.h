@@ -21,9 +21,7 @@ struct PileLevel {
   double usual = 0.0;   ///< points of a piece of skin as large as a cell's face, one or more
   double shadow = 0.0;  ///< how far before and behind piles what strays is of them
 
-  /// Whether a cell holds so many times what is usual that it is a pile, whatever the others are.
-  bool is_pile(std::size_t points_of_cell) const;
-  /// Whether it holds so many that it may be of one.
+  /// Whether a cell holds so many times what is usual that it may be of a pile.
   bool is_crowded(std::size_t points_of_cell) const;
   /// Whether the cells of a block are of a pile, or touch one.
   bool is_beside_pile(const CellBlock& block) const;

@@ -14,8 +14,8 @@
 #include "core/geometry/stray_points.h"
 #include "core/girth/section_probe.h"
 #include "core/median.h"
+#include "core/surface/cell_normals.h"
 #include "core/surface/normal_trust.h"
-#include "core/surface/surface_normals.h"
 
 namespace instep {
 namespace {

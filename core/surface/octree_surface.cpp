@@ -63,7 +63,6 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   report(kPrepared);
 
   OctreeSurface surface(std::move(points), std::move(octree));
-  surface.shortest_edge_ = shortest;
   surface.longest_edge_ = tree.back().length;
   std::size_t solved = 0;
   for (const auto& members : groups) {

@@ -46,8 +46,7 @@ class OctreeSurface {
   /// The points that were kept, through which the surface goes.
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
-  /// Edges of their minimum spanning tree.
-  double shortest_edge() const { return shortest_edge_; }
+  /// Of their minimum spanning tree.
   double longest_edge() const { return longest_edge_; }
 
   /// The leaf in which a place lies, if it has a surface. Empty cubes have none.
@@ -67,7 +66,6 @@ class OctreeSurface {
       : points_(std::move(points)), octree_(std::move(octree)) {}
 
   std::vector<Eigen::Vector3d> points_;
-  double shortest_edge_ = 0.0;
   double longest_edge_ = 0.0;
   Octree octree_;
   std::vector<std::optional<TriharmonicRbf>> fields_;  ///< one a leaf

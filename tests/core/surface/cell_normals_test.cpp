@@ -1,4 +1,4 @@
-#include "core/surface/surface_normals.h"
+#include "core/surface/cell_normals.h"
 
 #include <gtest/gtest.h>
 
