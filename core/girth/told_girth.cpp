@@ -122,8 +122,7 @@ Result<ToldGirth> girth_without_loops(const PlaneBand& band, const PointCloud& c
     auto told = girth_without_normals(cloud, plane, options);
     if (is_told(told)) return told;
   }
-  return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
-              "scan the body all round, or move the plane");
+  return does_not_close(band);
 }
 
 /// Of the first of the loops, if so much is known of it.
