@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,9 +17,13 @@ namespace {
 constexpr double kSameBody = 1.2;
 /// The doubt of a body alone against that of all together, which is blind to what they share.
 constexpr double kAboutAsSure = 1.5;
-constexpr const char* kAloneWarning =
-    "the body was measured alone, without what lies beside it: strays, a wall, a floor or another "
-    "body; take it away, or scan from elsewhere";
+
+std::string alone_warning(std::size_t own_points, std::size_t points) {
+  return "the body was measured alone, by " + std::to_string(own_points) + " of the " +
+         std::to_string(points) +
+         " points, without what lies beside it: strays, a wall, a floor or another body; take it "
+         "away, or scan from elsewhere";
+}
 
 /// The girths of bodies alone: of that whose section is largest, taken apart in the way that leaves
 /// the least doubt. Between a body and what is still joined to it a surface may go astray.
@@ -97,8 +102,8 @@ std::optional<ToldGirth> girth_of_one_body(const PointCloud& cloud, const TapePl
   look_at_bodies_apart(cloud, plane, alone);
   auto told = std::move(alone).best();
   if (!told) return told;
+  told->girth.warnings.push_back(alone_warning(told->girth.points, cloud.size()));
   told->girth.points = cloud.size();
-  told->girth.warnings.emplace_back(kAloneWarning);
   return told;
 }
 
