@@ -13,6 +13,7 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
 #include "core/girth/plane_slab.h"
+#include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
 
 namespace instep {
@@ -61,8 +62,7 @@ Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane&
       return Neighbourhood{std::move(slab), spacing, tape_round(cloud, plane, kAbout * size)};
     }
   }
-  return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
-              "give control points on the body, or a denser cloud");
+  return too_few_near_plane();
 }
 
 /// Half-width of the band in which enough points lie.
@@ -120,10 +120,7 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   const auto about = neighbourhood_of(cloud, plane);
   if (!about) return tl::make_unexpected(about.error());
-  if (!is_cut(about->slab.places)) {
-    return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
-                "give control points that cut the body");
-  }
+  if (!is_cut(about->slab.places)) return only_touched();
   const double half_width = half_width_of_band(*about);
   const PlaneSlab band = within(about->slab, half_width);
   Girth girth;

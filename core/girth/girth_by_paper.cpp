@@ -11,6 +11,7 @@
 #include "core/geometry/principal_frame.h"
 #include "core/girth/girth.h"
 #include "core/girth/plane_slab.h"
+#include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
 #include "core/median.h"
 #include "core/surface/octree_surface.h"
@@ -80,15 +81,11 @@ Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& pla
     if (slab.places.size() < kFewestPoints) continue;
     const double wanted = kBandInSpacings * usual_spacing(PointIndex(slab.places), kSpacingPlaces);
     if (!(half_width >= wanted && wanted > 0.0)) continue;
-    if (!is_cut(slab.places)) {
-      return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
-                  "give control points that cut the body");
-    }
+    if (!is_cut(slab.places)) return only_touched();
     return PartialCloud{slab_of(cloud, plane, wanted), wanted,
                         tape_round(cloud, plane, kAbout * size)};
   }
-  return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
-              "give control points on the body, or a denser cloud");
+  return too_few_near_plane();
 }
 
 /// Unit normal of the straight line through points in the plane, by total least squares (step 5).

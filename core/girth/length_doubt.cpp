@@ -20,7 +20,6 @@ constexpr double kUnseenUnderNoise = 1.1;
 /// How many of the unseen waves there are, by the middle of scanned feet and lasts, where all the
 /// bending of exact points is at their own scale.
 constexpr double kLikelyWaves = 1.6;
-constexpr double kDeviations = 1.96;
 /// A surface through points wanders no further between them, against the radius of a patch, however
 /// rough a crease within it seems.
 constexpr double kWidestWandering = 0.06;

@@ -12,6 +12,7 @@
 #include "core/geometry/off_skin_points.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/stray_points.h"
+#include "core/girth/refusals.h"
 #include "core/girth/section_probe.h"
 #include "core/median.h"
 #include "core/surface/cell_normals.h"
@@ -333,10 +334,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, bool strays_near_skin) {
   if (!made) made = whole(slabs, *found, strays_near_skin);
   if (!made) return no_surface();
   auto& [band, noise] = *made;
-  if (!is_cut(band.index.points())) {
-    return fail(ErrorCode::kInvalidInput, "the tape plane only touches the body",
-                "give control points that cut the body");
-  }
+  if (!is_cut(band.index.points())) return only_touched();
   if (!band.shares.empty()) band.usual_share = median(band.shares);
   band.stray_share += slabs.stray_share();
   band.sigma = noise.sigma;

@@ -10,6 +10,7 @@
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/scan_lines.h"
+#include "core/girth/refusals.h"
 #include "core/girth/section_box.h"
 
 namespace instep {
@@ -86,11 +87,6 @@ std::optional<SectionProbe> probe_of(SlabSource& slabs, double half_width, doubl
 
 }  // namespace
 
-tl::unexpected<Error> no_surface() {
-  return fail(ErrorCode::kInsufficientData, "the points near the tape plane form no surface",
-              "give control points that cut the body, or scan again");
-}
-
 PlaneSlab SectionProbe::slab(SlabSource& slabs, double half_width) const {
   PlaneSlab slab = slabs.slab(half_width * unit_mm);
   // In whole steps, which are the same numbers whichever unit the cloud is told in.
@@ -121,8 +117,7 @@ Result<SectionProbe> probe_section(SlabSource& slabs) {
     return probe_of(slabs, several_lines, step).value_or(*found);
   }
   if (found_some) return no_surface();
-  return fail(ErrorCode::kInvalidInput, "too few points lie near the tape plane",
-              "give control points on the body, or a denser cloud");
+  return too_few_near_plane();
 }
 
 bool thin_thick_lines(SlabSource& slabs) {

@@ -41,7 +41,4 @@ Result<SectionProbe> probe_section(SlabSource& slabs);
 /// the m points near the plane.
 bool thin_thick_lines(SlabSource& slabs);
 
-/// That the points near the plane form no surface.
-tl::unexpected<Error> no_surface();
-
 }  // namespace instep

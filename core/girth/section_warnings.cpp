@@ -7,15 +7,12 @@
 
 #include "core/girth/loop_choice.h"
 #include "core/girth/section_gaps.h"
-#include "core/girth/unseen_side.h"
 
 namespace instep {
 namespace {
 
 /// Noise beyond what depth cameras have, against the section.
 constexpr double kNotableNoise = 0.012;
-/// A side (radians) on which no point lies, from the middle of them all, that keeps a section open.
-constexpr double kNotableSide = 0.5;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
 /// Of points that lead away from a section.
@@ -126,20 +123,6 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
               doubt > kNotableDoubt * loops.front().contour.length(),
           reason_of_doubt(unknowns, section));
   return warnings;
-}
-
-tl::unexpected<Error> does_not_close(const PlaneBand& band) {
-  const std::string what = "the section at the tape plane does not close";
-  const UnseenSide side = widest_unseen_side(band);
-  if (side.angle < kNotableSide) {
-    return fail(ErrorCode::kInsufficientData, what + ", though there are points all round it",
-                "take away strays, a floor or what else touches the body, or scan from nearer");
-  }
-  char figure[32];
-  std::snprintf(figure, sizeof figure, "%.0f mm", band.unit_mm * side.across);
-  return fail(ErrorCode::kInsufficientData,
-              what + ": there are no points over some " + figure + " of it",
-              "scan the body from there too, or move the plane");
 }
 
 tl::unexpected<Error> too_few_or_noisy() {

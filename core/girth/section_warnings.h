@@ -24,9 +24,6 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
                                      const SectionUnknowns& unknowns,
                                      const MeasuredSection& section);
 
-/// Instead of a girth of points round which no loop closes.
-tl::unexpected<Error> does_not_close(const PlaneBand& band);
-
 /// Instead of a girth that is too uncertain to be told.
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns, const MeasuredSection& section);
 

@@ -39,7 +39,6 @@ constexpr double kSharpestTurn = 0.15;
 /// that noise may bend; of 1,555 others those of 1,373.
 constexpr std::size_t kManyPoints = 3000;
 
-constexpr double kDeviations = 1.96;
 constexpr double kLeast = 1e-4;
 
 double half_width_of(const PlaneBand& band) {

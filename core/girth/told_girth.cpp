@@ -9,6 +9,7 @@
 #include "core/girth/contour.h"
 #include "core/girth/length_doubt.h"
 #include "core/girth/plane_band.h"
+#include "core/girth/refusals.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
 #include "core/girth/section_loops.h"
