@@ -28,6 +28,11 @@ std::size_t cell_at(const Eigen::Vector2d& place) {
   return step(place.x()) * kCellsAcross + step(place.y());
 }
 
+/// Weight, against that of all samples, of being flat: what samples on one line or two leave open
+/// rounding would tell else. With none, 20 of 960 girths of prisms and other bodies, all of them by
+/// points in rows, differ between processors by up to 13 mm.
+constexpr double kFlatness = 1e-9;
+
 }  // namespace
 
 HeightSamples samples_over(const std::vector<OrientedPoint>& points, const HeightBase& base) {
@@ -101,7 +106,14 @@ Quadratic least_squares(const HeightSamples& samples) {
     for (Eigen::Index j = 0; j <= i; ++j) normal(i, j) = values.col(i).dot(values.col(j));
     data[i] = values.col(i).dot(samples.heights);
   }
-  return normal.ldlt().solve(data);  // reads the lower triangle
+  const double flat = kFlatness * static_cast<double>(samples.size());
+  // Bends as their matrix has them, so that the axes do not matter.
+  const Quadratic flatness = flat * (Quadratic() << 0.0, 1.0, 1.0, 1.0, 0.5, 1.0).finished();
+  normal.diagonal() += flatness;
+  const auto factors = normal.ldlt();  // reads the lower triangle
+  const Quadratic quadratic = factors.solve(data);
+  // Gives back what that took of the terms that the samples do tell.
+  return quadratic + factors.solve(flatness.cwiseProduct(quadratic));
 }
 
 std::optional<Quadratic> determined_quadratic(const HeightSamples& samples) {

@@ -46,7 +46,8 @@ Eigen::MatrixXd monomials(const Eigen::Matrix2Xd& places, Eigen::Index terms);
 /// Their slopes along x at all places, then along y.
 Eigen::MatrixXd monomial_slopes(const Eigen::Matrix2Xd& places, Eigen::Index terms);
 
-/// The quadratic that fits best. At least six samples.
+/// The quadratic that fits best; of many that do, as of samples on one or two lines, that which is
+/// least steep and bends least, whichever way the axes lie. At least six samples.
 Quadratic least_squares(const HeightSamples& samples);
 /// Nothing if the samples hardly determine it, such as those on a line or two. Any number.
 std::optional<Quadratic> determined_quadratic(const HeightSamples& samples);

@@ -10,8 +10,8 @@
 namespace instep {
 
 /// The quadratic that fits points best, as heights over the plane that faces outwards: a
-/// HeightPatch in the rough, at a fraction of its cost. One of many if the points determine none,
-/// as those on a line.
+/// HeightPatch in the rough, at a fraction of its cost. The flattest of many if the points
+/// determine none, as those on one line or two.
 class QuadraticSheet {
  public:
   /// At least six points. `outward`: a unit vector. O(points).

@@ -206,5 +206,33 @@ TEST(HeightSamples, NothingIsLeftOverAQuadraticSurface) {
   EXPECT_GT(averaged_rest(samples, Quadratic::Zero()).samples.heights.norm(), 0.5);
 }
 
+/// A dozen in two rows `apart`, turned by an angle, on a tilted plane but for rounding.
+HeightSamples samples_in_rows(double apart, double angle, double rounding) {
+  HeightSamples samples = random_samples(12, 1);
+  const Eigen::Rotation2Dd turn(angle);
+  test::RandomNumbers random(2);
+  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    const double along = 0.1 * static_cast<double>(i % 6) - 0.25;
+    const double across = (i < 6 ? -0.5 : 0.5) * apart;
+    samples.places.col(i) = turn * Eigen::Vector2d(along, across);
+    samples.heights[i] = 0.2 + 0.3 * along + 0.4 * across + rounding * random.normal();
+  }
+  return samples;
+}
+
+/// What lies between two rows, or beside one, no sample tells: rounding must not.
+TEST(LeastSquares, AreFlatWhereRowsLeaveItOpen) {
+  for (const double angle : {0.0, 0.3, 0.8, 1.5707963267948966, 2.0}) {
+    const Eigen::Rotation2Dd turn(angle);
+    for (const double rounding : {0.0, 1e-16, 1e-13}) {
+      const auto between = least_squares(samples_in_rows(0.6, angle, rounding));
+      EXPECT_NEAR(quadratic_at(between, turn * Eigen::Vector2d(0.0, 0.0)), 0.2, 1e-6) << angle;
+      EXPECT_NEAR(quadratic_at(between, turn * Eigen::Vector2d(0.1, 0.9)), 0.59, 1e-6) << angle;
+      const auto beside = least_squares(samples_in_rows(0.0, angle, rounding));
+      EXPECT_NEAR(quadratic_at(beside, turn * Eigen::Vector2d(0.2, 0.7)), 0.26, 1e-6) << angle;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace instep
