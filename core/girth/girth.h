@@ -102,9 +102,10 @@ struct Girth {
 /// A section that turns to and fro within a few points (core/girth/contour_zigzags.h), as where it
 /// goes through a clump of strays that reaches the skin, or from one view to another one that does
 /// not fit it, is named, and looked at again without the points that lie off the skin of most. If
-/// there are some, and the section is the surer without them, they are left out; else the interval
-/// reaches straight across. If there are none, it is the skin that turns, or folds or ribs too fine
-/// for the points.
+/// it is the same, the skin is what turns, or folds or ribs too fine for the points. Else its
+/// interval reaches straight across, or the points are left out, with a warning, where it is surer
+/// so; the interval reaches what other points beside it say it may have lost. A fin or a rib only a
+/// few points wide may be cut short with those that are left out.
 ///
 /// Intervals also know that noise may lie along normals or along a camera's rays, and that a noisy
 /// cloud's edge beside the plane bends the skin (doubt_of_direction(), doubt_of_edge()).

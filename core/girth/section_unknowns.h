@@ -22,8 +22,8 @@ struct SectionUnknowns {
   UnseenBends in_space;       ///< at the tips of thin parts
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
-  /// May be the skin's, or made by strays beside it: no part of the intervals, as long as nothing
-  /// speaks for these.
+  /// The skin's, or made by strays beside it. They do not widen intervals here: which of the two it
+  /// is a section without some points tells.
   Zigzags zigzags;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length
   double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())

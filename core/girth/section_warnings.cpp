@@ -131,10 +131,10 @@ tl::unexpected<Error> too_few_or_noisy() {
               "scan again, with more or better frames");
 }
 
-tl::unexpected<Error> strays_in_section() {
+tl::unexpected<Error> too_many_zigzags() {
   return fail(ErrorCode::kInsufficientData,
-              "points beside the skin make the section at the tape plane turn to and fro",
-              "take away what shines or moves before the cameras, and scan again");
+              "the section at the tape plane turns to and fro more than its points can tell",
+              "see to what shines, moves or touches the body there, or scan from nearer");
 }
 
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,

@@ -40,12 +40,14 @@ constexpr double kMostUnexplained = 0.67;
 /// mm off all do.
 constexpr double kManyWithStrays = 0.4;
 
-/// Against the way along zigzags: without points beside the skin they and the length differ by
-/// more.
-constexpr double kSameZigzags = 1e-3;
+/// Of what zigzags add: lengths that differ by less without some points are the same. Sharp edges
+/// lose some too.
+constexpr double kSameLength = 0.03;
+/// A section that leaves so many more points beside it may have lost a part that they are of.
+constexpr std::size_t kFewestOfAPart = 8;
 constexpr const char* kStraysLeftOutWarning =
-    "points beside the skin, through which the section would turn to and fro, were left out: take "
-    "away what shines or moves before the cameras";
+    "points through which the section would turn to and fro were left out: see to what shines, "
+    "moves or touches the body there";
 
 /// Two readings of one section whose intervals do not even meet: one of them is wrong.
 bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
@@ -109,6 +111,7 @@ Result<ToldGirth> girth_without_normals(PointCloud cloud, const TapePlane& plane
   cloud.normals.clear();
   auto told = girth_of_all(cloud, plane, options);
   if (told) {
+    told->zigzags = {};  // that was looked at
     told->girth.warnings.emplace_back(
         "the section closes only without the normals that came with the points, which were not "
         "used: have them made anew, or leave them out of the file");
@@ -124,6 +127,15 @@ Result<ToldGirth> girth_without_loops(const PlaneBand& band, const PointCloud& c
     if (is_told(told)) return told;
   }
   return does_not_close(band);
+}
+
+/// In millimetres.
+void note_unsure_parts(const PlaneBand& band, const SectionUnknowns& unknowns, ToldGirth& told) {
+  told.zigzags = {band.unit_mm * unknowns.zigzags.way,
+                  band.unit_mm * std::max(unknowns.zigzags.contact - unknowns.folds, 0.0),
+                  band.unit_mm * unknowns.zigzags.stretched};
+  told.skin = {unknowns.skin.points, band.unit_mm * unknowns.skin.off,
+               band.unit_mm * unknowns.skin.contact, band.unit_mm * unknowns.skin.stretched};
 }
 
 /// Of the first of the loops, if so much is known of it.
@@ -147,8 +159,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   } else if (!(section.contact_u95 <= kMostFolded * length)) {
     told = refused(band, contour, too_few_or_noisy());
   }
-  told.zigzags = {band.unit_mm * unknowns.zigzags.way, band.unit_mm * unknowns.zigzags.contact,
-                  band.unit_mm * unknowns.zigzags.stretched};
+  note_unsure_parts(band, unknowns, told);
   if (told.refusal) return told;
 
   told.girth = girth_of(band, section, evidence);
@@ -179,36 +190,57 @@ bool is_surer(const ToldGirth& one, const ToldGirth& other) {
   return one.of_few != other.of_few ? other.of_few : one.doubt() < other.doubt();
 }
 
-/// Whether it is so nearly the same without some points that none of these was on the zigzags.
-bool are_same(const ToldGirth& one, const Result<ToldGirth>& other) {
-  return other && std::abs(one.zigzags.way - other->zigzags.way) < kSameZigzags * one.zigzags.way &&
-         one.refusal.has_value() == other->refusal.has_value() &&
-         (one.refusal || std::abs(one.girth.contact_mm - other->girth.contact_mm) <
-                             kSameZigzags * one.zigzags.way);
+/// Whether a section that zigzags has about the same lengths without some points: then the skin is
+/// what turns to and fro.
+bool are_same(const ToldGirth& zigzagging, const ToldGirth& other) {
+  const double same = kSameLength * zigzagging.zigzags.contact;
+  return !zigzagging.refusal &&
+         std::abs(zigzagging.girth.contact_mm - other.girth.contact_mm) < same &&
+         std::abs(zigzagging.girth.stretched_mm - other.girth.stretched_mm) < same;
 }
 
-/// Where zigzags are made by strays, all of what they add may be too much.
-void widen_by_zigzags(ToldGirth& told) {
-  if (told.refusal) return;
+/// Refuses one that too little is known of then.
+void widen(double contact, double stretched, ToldGirth& told) {
+  if (told.refusal || !(contact > 0.0 || stretched > 0.0)) return;
   Girth& girth = told.girth;
-  *girth.contact_u95_mm += told.zigzags.contact;
-  *girth.stretched_u95_mm += told.zigzags.stretched;
-  if (*girth.stretched_u95_mm > kMostDoubt * girth.contact_mm ||
-      *girth.contact_u95_mm > kMostFolded * girth.contact_mm) {
-    told.refusal = strays_in_section().value();
+  *girth.contact_u95_mm += contact;
+  *girth.stretched_u95_mm += stretched;
+  if (*girth.stretched_u95_mm <= kMostDoubt * girth.contact_mm &&
+      *girth.contact_u95_mm <= kMostFolded * girth.contact_mm) {
+    return;
   }
+  Girth course;
+  course.contour = std::move(girth.contour);
+  girth = std::move(course);
+  told.refusal = too_many_zigzags().value();
 }
 
-/// Of a section that zigzags, without the points beside its skin, if there are any and it is the
-/// surer one then. The same where the skin is what turns to and fro: there none lie beside it.
+/// By all that zigzags add, where they may be made by strays.
+void widen_by_zigzags(ToldGirth& told) {
+  widen(told.zigzags.contact, told.zigzags.stretched, told);
+}
+
+/// By what it may have lost with some points: a part of the body that others of them are of still,
+/// or skin that led away from it before.
+void widen_by_lost_parts(const ToldGirth& before, ToldGirth& told) {
+  if (!before.refusal && told.skin.points > before.skin.points + kFewestOfAPart) {
+    widen(std::abs(before.girth.contact_mm - told.girth.contact_mm),
+          std::abs(before.girth.stretched_mm - told.girth.stretched_mm), told);
+  }
+  widen(std::max(before.skin.contact - told.skin.contact, 0.0),
+        std::max(before.skin.stretched - told.skin.stretched, 0.0), told);
+}
+
+/// Of a section that zigzags, without the points off its skin where it is the surer one then.
+/// Nothing speaks for strays where no section is told without these, or the same one.
 ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOptions& options) {
   auto cleaned = girth_at(slabs, options, true);
-  if (are_same(told, cleaned)) return told;
-  widen_by_zigzags(told);
-  if (!cleaned) return told;
+  if (!is_told(cleaned) || are_same(told, *cleaned)) return told;
+  widen_by_lost_parts(told, *cleaned);
   widen_by_zigzags(*cleaned);
+  widen_by_zigzags(told);
   if (cleaned->refusal || (!told.refusal && !is_surer(*cleaned, told))) return told;
-  cleaned->girth.warnings.emplace_back(kStraysLeftOutWarning);
+  if (!(cleaned->zigzags.way > 0.0)) cleaned->girth.warnings.emplace_back(kStraysLeftOutWarning);
   return std::move(*cleaned);
 }
 
@@ -223,8 +255,8 @@ double ToldGirth::area() const {
 }
 
 bool ToldGirth::is_plain() const {
-  return !refusal && !of_few && !is_bridged && !has_layers && !has_others_beside &&
-         *girth.stretched_u95_mm <= kNotableDoubt * girth.stretched_mm &&
+  return !refusal && !(zigzags.way > 0.0) && !of_few && !is_bridged && !has_layers &&
+         !has_others_beside && *girth.stretched_u95_mm <= kNotableDoubt * girth.stretched_mm &&
          *girth.contact_u95_mm <= kNotableDoubt * girth.contact_mm;
 }
 
@@ -250,6 +282,7 @@ Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
   // seem exact.
   if ((!told || told->is_doubtful()) && thin_thick_lines(slabs)) {
     auto thinned = girth_at(slabs, options, strays_near_skin);
+    if (thinned) widen_by_zigzags(*thinned);
     if (is_told(thinned) && (!is_told(told) || is_surer(*thinned, *told)))
       told = std::move(thinned);
   }

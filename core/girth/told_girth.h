@@ -6,6 +6,7 @@
 #include "core/girth/contour_zigzags.h"
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
+#include "core/girth/unfollowed_skin.h"
 #include "core/result.h"
 
 namespace instep {
@@ -17,7 +18,8 @@ struct ToldGirth {
   std::optional<Error> refusal;
   bool of_few = false;            ///< most of the points near the plane lie on no loop
   bool strays_near_skin = false;  ///< many of its patches left some out
-  Zigzags zigzags;                ///< mm
+  Zigzags zigzags;                ///< mm; of the contact length without what folds add
+  UnfollowedSkin skin;            ///< mm
   bool is_bridged = false;        ///< over a stretch without seen points
   bool has_layers = false;        ///< of skin, or of skin and sock
   /// Of the points near the plane more than a fiftieth lies on no loop, or leads away from one.

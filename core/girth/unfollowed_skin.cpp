@@ -125,11 +125,11 @@ double extent_of(const std::vector<Beside>& chained) {
 
 UnfollowedSkin unfollowed_skin(const PlaneBand& band, const std::vector<SectionLoop>& loops) {
   auto beside = off_the_section(band, loops);
-  if (beside.size() < kFewest) return {};
+  UnfollowedSkin skin{.points = beside.size()};
+  if (beside.size() < kFewest) return skin;
   beside = close_to_plane(std::move(beside), band.grain);
   const PointIndex index = index_of(beside);
 
-  UnfollowedSkin skin;
   double widest_reach = 0.0;
   const auto& section = loops.front().contour.points;
   std::vector<Eigen::Vector2d> with_skin = section;

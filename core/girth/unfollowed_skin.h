@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/girth/plane_band.h"
@@ -11,6 +12,7 @@ namespace instep {
 /// is thin against the points' distances and was cut off at its root: how much longer the section
 /// may be with it, at most. In the band's unit; nothing where all is followed.
 struct UnfollowedSkin {
+  std::size_t points = 0;  ///< of the band that lie off the section, be they skin or strays
   double off = 0.0;        ///< how far its points lie from the section
   double contact = 0.0;    ///< along all of it and back again
   double stretched = 0.0;  ///< of a tape round it as well

@@ -1,7 +1,9 @@
 // Girths of clouds of which one point in twenty is none of the skin's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
@@ -110,12 +112,27 @@ TEST(GirthAmidStrays, LeavesOutThoseThatCrowdOnOneSide) {
   }
 }
 
+/// How many halves of an interval lie between a length and the truth.
+double misses_by(const Girth& girth, double truth) {
+  return std::max(std::abs(girth.contact_mm - truth) / *girth.contact_u95_mm,
+                  std::abs(girth.stretched_mm - truth) / *girth.stretched_u95_mm);
+}
+
+bool warns(const Girth& girth, const std::string& of) {
+  return std::any_of(girth.warnings.begin(), girth.warnings.end(), [&](const std::string& warning) {
+    return warning.find(of) != std::string::npos;
+  });
+}
+
 /// Twenty in a clump that reaches the skin hold each other company, and the surface goes through
-/// them as it goes through skin: of 80 girths 7 were off by more than two intervals without a word.
-TEST(GirthAmidStrays, SaysWhereAClumpMakesTheSectionZigzag) {
+/// them as it goes through skin: of 80 girths 65 held, and 7 were off by more than two intervals
+/// without a word.
+TEST(GirthAmidStrays, LeavesOutAClumpThatTheSectionWouldGoThrough) {
   const double truth = test::true_girth(test::elliptic_cylinder(40, 40), oblique_plane());
   int told = 0;
+  int held = 0;
   int silent = 0;
+  int left_out = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     PointCloud cloud = cylinder(4000, 0.2, seed);
     test::RandomNumbers random(1000 + seed);
@@ -129,12 +146,15 @@ TEST(GirthAmidStrays, SaysWhereAClumpMakesTheSectionZigzag) {
     const auto girth = girth_by_rbf(cloud, oblique_plane());
     if (!girth) continue;
     ++told;
-    const bool off = std::abs(girth->contact_mm - truth) > 2.0 * *girth->contact_u95_mm ||
-                     std::abs(girth->stretched_mm - truth) > 2.0 * *girth->stretched_u95_mm;
-    if (off && girth->warnings.empty()) ++silent;
+    const double misses = misses_by(*girth, truth);
+    held += misses <= 1.0;
+    silent += misses > 2.0 && girth->warnings.empty();
+    left_out += warns(*girth, "were left out");
   }
-  EXPECT_GE(told, 72);
+  EXPECT_GE(told, 78);
+  EXPECT_GE(held, 74);
   EXPECT_EQ(silent, 0);
+  EXPECT_GT(left_out, 10);
 }
 
 }  // namespace
