@@ -14,7 +14,7 @@ namespace {
 
 /// What is turned to and fro, beyond what is left of it at the end of the way (radians). Of 8,097
 /// girths of drawn bodies, lasts and feet 20 turn more; of 298 of feet and lasts with some 16
-/// strays in a clump beside the skin 27 were off by more than two intervals without a word, and 26
+/// strays in a clump beside the skin 27 were off by more than two intervals without a word, and all
 /// of these do.
 constexpr double kMostToAndFro = 2.8;
 
