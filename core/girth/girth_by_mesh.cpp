@@ -9,6 +9,7 @@
 #include "core/girth/loop_choice.h"
 #include "core/girth/mesh_section.h"
 #include "core/girth/plane_band.h"
+#include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
 #include "core/surface/grown_mesh.h"
 
@@ -52,26 +53,23 @@ TapePlane plane_of_band() {
   return TapePlane::through({0, 0, 0}, {1, 0, 0}, {0, 1, 0}).value();
 }
 
-tl::unexpected<Error> no_surface() {
+tl::unexpected<Error> no_mesh() {
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane form no surface that a mesh could follow",
               "scan again, or use the rbf method");
 }
 
 /// The lines in which the plane cuts the mesh, with its holes bridged as far as is allowed.
-Result<std::vector<SectionLine>> section_of(const TriangleMesh& mesh) {
+Result<std::vector<SectionLine>> section_of(const TriangleMesh& mesh, const PlaneBand& band) {
   std::vector<Eigen::Vector2d> crossings;
   const auto pieces = cut(mesh, plane_of_band(), 0.0);
   for (const auto& piece : pieces) {
     crossings.insert(crossings.end(), piece.points.begin(), piece.points.end());
   }
-  if (pieces.empty() || pieces.size() > kMostPieces) return no_surface();
+  if (pieces.empty() || pieces.size() > kMostPieces) return no_mesh();
   const double tape = perimeter(convex_hull(std::move(crossings)));
   auto lines = cut(mesh, plane_of_band(), kWidestBridge * tape);
-  if (!lines.front().closed) {
-    return fail(ErrorCode::kInsufficientData, "the section at the tape plane does not close",
-                "scan the body all round, or move the plane");
-  }
+  if (!lines.front().closed) return does_not_close(band);
   return lines;
 }
 
@@ -109,7 +107,7 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   const auto band = band_at(slabs);
   if (!band) return tl::make_unexpected(band.error());
   const MeshedBand meshed = mesh_of(*band);
-  auto lines = section_of(meshed.mesh);
+  auto lines = section_of(meshed.mesh, *band);
   if (!lines) return tl::make_unexpected(lines.error());
 
   Girth girth;
@@ -126,7 +124,7 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   }
   girth.contour = choose_loop(std::move(loops), girth.warnings);
   const auto hull = convex_hull(girth.contour);
-  if (!is_ring(hull)) return no_surface();
+  if (!is_ring(hull)) return no_mesh();
   girth.contact_mm = perimeter(girth.contour);
   girth.stretched_mm = perimeter(hull);
   girth.points = cloud.size();

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/girth/section_evidence.h"
 #include "core/girth/unseen_side.h"
 
 namespace instep {
@@ -31,7 +32,8 @@ tl::unexpected<Error> no_surface() {
 tl::unexpected<Error> does_not_close(const PlaneBand& band) {
   const std::string what = "the section at the tape plane does not close";
   const UnseenSide side = widest_unseen_side(band);
-  if (side.angle < kNotableSide) {
+  // From the middle of a thin body neighbours beside it lie at far different angles.
+  if (side.angle < kNotableSide || side.across < evidence_reach(band)) {
     return fail(ErrorCode::kInsufficientData, what + ", though there are points all round it",
                 "take away strays, a floor or what else touches the body, or scan from nearer");
   }

@@ -24,8 +24,8 @@ constexpr double kFoldInSigmas = 12.0;
 constexpr double kLeastFolds = 0.15;
 /// Two sides of a thin part that noise makes so thick, each, tell nothing of where they meet.
 constexpr double kTipInSigmas = 4.0;
-/// Zigzags are looked for within so many grains: the 27 clumps of strays that chose
-/// kMostToAndFro stand out from other sections within sixteen as well, within four one does not.
+/// Zigzags are looked for within so many grains. All 27 clumps of strays that kMostToAndFro is set
+/// by turn to and fro there more than 99.7 % of other sections, within four grains 26 do.
 constexpr double kZigzagInGrains = 8.0;
 
 double folds_by_noise(const PlaneBand& band, const Contour& section) {

@@ -41,7 +41,7 @@ constexpr double kMostUnexplained = 0.67;
 constexpr double kManyWithStrays = 0.4;
 
 /// Of what zigzags add: lengths that differ by less without some points are the same. Sharp edges
-/// lose some too.
+/// lose some too. Set by eye, as the next is, over some clumps of strays and some ribs and fins.
 constexpr double kSameLength = 0.03;
 /// A section that leaves so many more points beside it may have lost a part that they are of.
 constexpr std::size_t kFewestOfAPart = 8;

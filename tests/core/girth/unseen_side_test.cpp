@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/girth/girth.h"
+#include "core/girth/refusals.h"
 #include "tests/support/cylinder_tape.h"
 #include "tests/support/empty_band.h"
 
@@ -74,6 +75,28 @@ TEST(UnseenSide, IsToldOfASectionThatDoesNotClose) {
   ASSERT_FALSE(girth);
   EXPECT_NE(girth.error().line().find("no points over some 5"), std::string::npos)
       << girth.error().line();
+}
+
+std::string refusal_of(const PlaneBand& band) {
+  return does_not_close(band).value().line();
+}
+
+TEST(UnseenSide, IsNotToldWherePointsLieAllRound) {
+  PlaneBand band = band_of_grain(0.01);
+  add_arc(0, 359, 0.0, band);
+  EXPECT_NE(refusal_of(band).find("points all round"), std::string::npos) << refusal_of(band);
+}
+
+/// Two neighbours beside its middle are more than half a right angle apart, as seen from there.
+TEST(UnseenSide, IsNotToldOfTheEndsOfAThinBody) {
+  PlaneBand band = band_of_grain(0.02);
+  for (int i = -10; i <= 10; ++i) {
+    for (const double side : {-0.01, 0.01}) {
+      band.points.push_back({{0.02 * i, side, 0.0}, {0.0, side < 0.0 ? -1.0 : 1.0, 0.0}, 0.0});
+    }
+  }
+  EXPECT_GT(widest_unseen_side(band).angle, 0.5);
+  EXPECT_NE(refusal_of(band).find("points all round"), std::string::npos) << refusal_of(band);
 }
 
 }  // namespace
