@@ -26,7 +26,7 @@ struct StationSettings {
   /// z of the standing surface in the station frame, -1000 to 1000. Nothing = as the cameras say.
   std::optional<double> platform_height_mm;
   double point_spacing_mm = 1.0;  ///< of the fused cloud, 0.2 to 10
-  bool refine_views = false;      ///< align the views to each other: for nominal camera poses
+  bool refine_views = true;       ///< fit the views to each other; else the poses are trusted
   std::optional<Side> side;       ///< forced side; nothing = told from the shape
 };
 

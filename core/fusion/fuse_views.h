@@ -36,7 +36,9 @@ struct View {
 struct FusionSettings {
   double point_spacing_mm = 1.0;
   std::optional<double> platform_height_mm;  ///< z of the standing surface, station frame
-  bool refine_views = false;                 ///< align the views to each other: nominal poses
+  /// Fit the views to each other; else the given poses are trusted, with a warning if they are
+  /// wrong.
+  bool refine_views = true;
   bool close_soles = true;
   double foot_ceiling_mm = 150.0;  ///< points higher above the platform are leg and are cut
   /// Points further from the station's origin, in plan and in height, are background.
@@ -68,8 +70,10 @@ struct FusionDiagnostics {
   bool platform_found = false;
   double platform_scatter_mm = 0.0;
   double platform_tilt_deg = 0.0;
-  double registration_before_mm = 0.0;  ///< median distance between the views; 0 if not refined
-  double registration_after_mm = 0.0;
+  double registration_before_mm = 0.0;  ///< median distance between the views by the given poses
+  double registration_after_mm = 0.0;   ///< the same by those that were used
+  double unexplained_mm = 0.0;  ///< of the distances between the views, by the noise of points
+  double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
   std::vector<std::size_t> points;           ///< of each foot, platform points not counted
   std::vector<double> coverage;              ///< of each foot: share of directions round it seen
   std::vector<std::size_t> platform_points;  ///< put under each foot

@@ -24,13 +24,13 @@ constexpr const char* kExamples =
 under "pair". Examples:
   instep replay visit --format text
   instep replay visit --out results --side left
-  instep replay visit --poses trust        (the cameras are calibrated))";
+  instep replay visit --poses trust        (the given ones are better than the views can tell))";
 
 struct ReplayCommand {
   std::string recording;
   std::string out;
   std::string side = "auto";
-  std::string poses = "auto";
+  std::string poses = "refine";
   std::string format;
 };
 
@@ -83,7 +83,7 @@ Result<void> run(const ReplayCommand& command) {
   settings.sizes = station->sizes;
   settings.measures = station->measures;
   settings.side = side_from_string(command.side);
-  settings.refine_views = command.poses == "auto" ? !capture->simulated : command.poses == "refine";
+  settings.refine_views = command.poses == "refine";
   ProgressLine line;
   const auto records =
       measure_capture(*capture, settings, [&](std::string_view stage, double done) {
@@ -120,9 +120,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   replay
       ->add_option("--poses", command->poses,
-                   "trust the cameras' poses, or refine them by fitting the views to each other; "
-                   "auto: refine what was not simulated")
-      ->check(CLI::IsMember({"auto", "trust", "refine"}))
+                   "refine the cameras' poses by fitting the views to each other, or trust them")
+      ->check(CLI::IsMember({"refine", "trust"}))
       ->capture_default_str();
   replay->add_option("--format", command->format, "json (if stdout is no terminal) or text")
       ->check(CLI::IsMember({"json", "text"}));

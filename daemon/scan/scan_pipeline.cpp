@@ -146,6 +146,8 @@ void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& q
   quality["platform_tilt_deg"] = figures.platform_tilt_deg;
   quality["registration_before_mm"] = figures.registration_before_mm;
   quality["registration_after_mm"] = figures.registration_after_mm;
+  quality["unexplained_mm"] = figures.unexplained_mm;
+  quality["poses_off_mm"] = figures.poses_off_mm;
 }
 
 }  // namespace

@@ -149,14 +149,42 @@ TEST(FuseViews, RefinesNominalPoses) {
     off.translation() = shifts[i];
     views[i].geometry.station_from_camera = off * views[i].geometry.station_from_camera;
   }
-  auto settings = at_zero();
-  settings.refine_views = true;
-  const auto scene = fuse_views(views, settings);
+  const auto scene = fuse_views(views, at_zero());
   ASSERT_TRUE(scene) << scene.error().line();
   EXPECT_EQ(scene->feet.size(), 2U);
   EXPECT_EQ(scene->diagnostics.views_used, 4U);
   EXPECT_LT(scene->diagnostics.registration_after_mm, 0.5);
   EXPECT_GT(scene->diagnostics.registration_before_mm, 2.0);
+}
+
+std::string warnings_of(const std::vector<View>& views, bool refine) {
+  auto settings = at_zero();
+  settings.refine_views = refine;
+  const auto scene = fuse_views(views, settings);
+  EXPECT_TRUE(scene) << scene.error().line();
+  return scene ? joined(scene->warnings) : "";
+}
+
+TEST(FuseViews, SaysWhichTrustedPosesAreWrong) {
+  auto views = good_views();
+  EXPECT_EQ(warnings_of(views, false).find("given poses"), std::string::npos);
+  EXPECT_EQ(warnings_of({views[0]}, false).find("given poses"), std::string::npos);
+  views[1].geometry.station_from_camera.translation() += Vector3d(0.5, 1.0, 0.0);
+  EXPECT_NE(warnings_of(views, false).find("camera1 sees the skin"), std::string::npos);
+  EXPECT_EQ(warnings_of(views, true).find("given poses"), std::string::npos);
+}
+
+TEST(FuseViews, SaysWhatNoPoseExplains) {
+  EXPECT_EQ(warnings_of(good_views(), true).find("lenses or depths"), std::string::npos);
+  auto views = good_views();
+  auto& depth = views[1].depth;
+  for (int y = 0; y < depth.height; ++y) {  // bent, as by a wrong lens
+    for (int x = 0; x < depth.width; ++x) {
+      auto& millimetres = depth.depth_mm[static_cast<std::size_t>(y * depth.width + x)];
+      if (millimetres > 0.0F) millimetres += static_cast<float>(5.0 * std::sin(0.04 * x));
+    }
+  }
+  EXPECT_NE(warnings_of(views, true).find("lenses or depths"), std::string::npos);
 }
 
 TEST(FuseViews, NamesACameraThatSawNothing) {
@@ -220,9 +248,9 @@ TEST(FuseViews, BearsDepthThatIsAbsurd) {
     auto views = good_views();
     for (auto& view : views) view.depth.depth_mm.assign(view.depth.depth_mm.size(), depth);
     EXPECT_FALSE(fuse_views(views, at_zero())) << depth;
-    auto settings = at_zero();
-    settings.refine_views = true;
-    EXPECT_FALSE(fuse_views(views, settings)) << depth;
+    auto trusting = at_zero();
+    trusting.refine_views = false;
+    EXPECT_FALSE(fuse_views(views, trusting)) << depth;
   }
   auto views = good_views();
   for (std::size_t i = 0; i < views[1].depth.depth_mm.size(); i += 3) {

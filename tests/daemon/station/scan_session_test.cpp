@@ -56,7 +56,6 @@ class CancelledScan : public testing::Test {
     tools.cameras = cameras_;
     tools.capture.frames_per_camera = 2;
     tools.capture.warmup_frames = 0;
-    tools.pipeline.refine_views = true;
     tools.platform_height_mm = 0.0;
     tools.store =
         std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path() / "scans");
@@ -64,7 +63,8 @@ class CancelledScan : public testing::Test {
     tools.measure = [&](const Capture& capture, const PipelineSettings& settings,
                         const ScanProgress& told) {
       const auto before = progress.steps();
-      auto records = measure_capture(capture, settings, [&](std::string_view stage, double done) {
+      if (!first_) first_ = capture;
+      auto records = measure_capture(*first_, settings, [&](std::string_view stage, double done) {
         ++run.steps_of_stage[std::string(stage)];
         if (++run.steps == cancel_at) cancelled = true;
         return told(stage, done);
@@ -82,6 +82,8 @@ class CancelledScan : public testing::Test {
 
  private:
   std::shared_ptr<CameraSet> cameras_;
+  /// All runs measure the same frames: how often the fit of the views steps depends on their noise.
+  std::optional<Capture> first_;
 };
 
 TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
@@ -90,8 +92,8 @@ TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
   EXPECT_EQ(whole.files, 4U);  // result.json, cloud.ply, sections.svg, report.svg
   EXPECT_EQ(whole.progress, whole.steps);
   EXPECT_EQ(whole.steps_of_stage.at("fuse frames"), 1U + 3 * 2);
-  // Three cameras twice, 40 iterations at least, the stages between, one foot.
-  EXPECT_GE(whole.steps_of_stage.at("fuse views"), 1U + 2 * 3 + 40 + 3 + 1);
+  // Three cameras twice, four rounds of fitting them at least, the stages between, one foot.
+  EXPECT_GE(whole.steps_of_stage.at("fuse views"), 1U + 2 * 3 + 4 + 3 + 1);
   EXPECT_EQ(whole.steps_of_stage.at("girths"), 1U + 18);     // one for each measure
   EXPECT_EQ(whole.told_stages, 1 + std::size(kStages) + 2);  // capture, ..., store, done
 }
