@@ -123,9 +123,12 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (foot.cloud.size() < kFewestPoints) {
     return too_few(foot.cloud.size());
   }
-  const StandingBody body = standing_body(foot.cloud.positions);
-  foot.cloud = foot.cloud.subset(body.points);
-  if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
+  StandingBody body;
+  if (!options.is_foot_alone) {
+    body = standing_body(foot.cloud.positions);
+    foot.cloud = foot.cloud.subset(body.points);
+    if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
+  }
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool is_doubtful = !found || !found->has_seen_toes();

@@ -25,6 +25,7 @@ constexpr double kFootLikeLengthMm = 120.0;  // a piece as long as this may be a
 constexpr double kOutlineMarginMm = 6.0;     // a small piece may lie so far outside the outline
 constexpr double kSplitBandMm = 8.0;         // width of the strip that is searched for a waist
 constexpr double kLeastSplitShare = 0.25;    // of a piece on the smaller side of a split
+constexpr double kNotableShare = 0.05;       // of the larger foot's surface, of a part left out
 
 /// Connected cells, each standing for the points in it.
 struct Piece {
@@ -209,20 +210,48 @@ bool inside_outline(const std::vector<Vector2d>& hull, const Vector2d& point) {
   return true;
 }
 
-/// Gives the small pieces to the foot whose outline they lie in.
-void adopt(std::vector<Piece>& feet, const std::vector<Piece>& small) {
+/// Gives the small pieces to the foot whose outline they lie in. What is left of them.
+std::vector<Piece> adopt(std::vector<Piece>& feet, std::vector<Piece> small) {
   std::vector<std::vector<Vector2d>> hulls;
   for (const auto& foot : feet) hulls.push_back(foot.hull());
-  for (const auto& piece : small) {
+  std::erase_if(small, [&](const Piece& piece) {
     Vector2d middle = Vector2d::Zero();
     for (const auto& cell : piece.cells) middle += cell.head<2>();
     middle /= static_cast<double>(piece.cells.size());
     for (std::size_t i = 0; i < feet.size(); ++i) {
       if (!inside_outline(hulls[i], middle)) continue;
       feet[i].points.insert(feet[i].points.end(), piece.points.begin(), piece.points.end());
+      return true;
+    }
+    return false;
+  });
+  return small;
+}
+
+/// Whether it comes down to where a foot stands.
+bool stands(const Piece& piece, double standing_height_mm, const SeparationSettings& settings) {
+  return piece.lowest_mm < standing_height_mm + settings.stands_below_mm;
+}
+
+/// What stands beside a foot and could be a part of it, a heel without the arch before it.
+std::vector<std::string> named_parts(const std::vector<Piece>& feet,
+                                     const std::vector<Piece>& left_out, double standing_height_mm,
+                                     const SeparationSettings& settings) {
+  std::vector<std::string> warnings;
+  for (const auto& piece : left_out) {
+    const bool notable = static_cast<double>(piece.cells.size()) >=
+                         kNotableShare * static_cast<double>(feet.front().cells.size());
+    if (!notable || !stands(piece, standing_height_mm, settings)) continue;
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      if (!may_join(feet[i], piece, settings)) continue;
+      const auto gap_mm = std::lround(gap_between(feet[i], piece));
+      warnings.push_back(
+          "what stands some " + std::to_string(gap_mm) + " mm from foot " + std::to_string(i + 1) +
+          " was left out: if it is a part of it, turn a camera to what lies between");
       break;
     }
   }
+  return warnings;
 }
 
 }  // namespace
@@ -249,23 +278,28 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
 
   std::vector<Piece> feet;
   for (auto& piece : large) {
-    const bool stands = piece.lowest_mm < standing_height_mm + settings.stands_below_mm;
     const bool long_enough = enclosing_rectangle(piece.hull()).length >= settings.least_length_mm;
     const bool fair =
         feet.empty() || static_cast<double>(piece.cells.size()) >=
                             settings.least_share * static_cast<double>(feet.front().cells.size());
-    if (stands && long_enough && fair) {
+    if (stands(piece, standing_height_mm, settings) && long_enough && fair) {
       feet.push_back(std::move(piece));
     } else {
       small.push_back(std::move(piece));
     }
   }
-  if (feet.size() > 2) {
+  const bool are_many = feet.size() > 2;
+  if (are_many) feet.resize(2);
+  if (feet.empty()) {
+    separated.strays = positions.size();
+    return separated;
+  }
+  const auto left_out = adopt(feet, std::move(small));
+  separated.warnings = named_parts(feet, left_out, standing_height_mm, settings);
+  if (are_many) {
     separated.warnings.push_back(
         "more than two foot-like things stand on the platform; the two largest are taken");
-    feet.resize(2);
   }
-  adopt(feet, small);
   std::size_t kept = 0;
   for (auto& foot : feet) {
     if (!fits_a_foot(foot, settings)) {

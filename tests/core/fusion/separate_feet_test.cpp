@@ -74,6 +74,22 @@ TEST(SeparateFeet, TakesOneFootForOneFootEvenInPieces) {
   EXPECT_EQ(separated.feet[0].size(), pieces.size());
 }
 
+TEST(SeparateFeet, NamesAHeelThatNoCameraJoinsToTheFoot) {
+  std::vector<Vector3d> whole;
+  add_foot(whole, 0, 0, 260, 100);
+  std::vector<Vector3d> parts;
+  for (const auto& point : whole) {
+    if (point.x() > 0.0 || point.x() < -70.0) parts.push_back(point);
+  }
+  const auto separated = separate_feet(parts, 0.0);
+  ASSERT_EQ(separated.feet.size(), 1U);
+  EXPECT_GT(separated.strays, 1000U);
+  ASSERT_EQ(separated.warnings.size(), 1U);
+  EXPECT_NE(separated.warnings[0].find("mm from foot 1 was left out"), std::string::npos)
+      << separated.warnings[0];
+  EXPECT_TRUE(separate_feet(whole, 0.0).warnings.empty());
+}
+
 TEST(SeparateFeet, DropsLegBackgroundAndFloor) {
   std::vector<Vector3d> points;
   add_foot(points, 0, 0, 255, 98);

@@ -120,6 +120,23 @@ TEST(SimulatedFoot, ThatMovedIsSpokenOfOnce) {
   EXPECT_EQ(spoken, 1);
 }
 
+/// Nobody sees a stretch of its sides: it comes in two parts, and is one foot all the same.
+TEST(SimulatedFoot, IsMeasuredWholeByACameraBeforeAndOneBehindIt) {
+  SimulationSettings settings;
+  settings.seed = 2;
+  settings.cameras = 2;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  ASSERT_TRUE(station) << station.error().line();
+  const auto truth = station->truth();
+  ASSERT_TRUE(truth) << truth.error().line();
+  const auto records = measure_capture(capture_of(*station), {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  const Measure* length = records->front().measures.find("foot_length");
+  ASSERT_NE(length, nullptr);
+  EXPECT_NEAR(length->value_mm, truth->front().measures.at("foot_length"), 1.0);
+}
+
 TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
   SimulationSettings simulation;
   simulation.seed = 5;
