@@ -40,7 +40,7 @@ Result<FootScan> with_side(FootScan foot, const PointCloud& cloud, Side side,
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
                                          const AlignmentOptions& options) {
   AlignmentOptions each = options;
-  each.is_foot_alone = true;  // what stands apart is told where the feet are told from each other
+  each.is_one_foot = true;
   if (clouds.size() > 1) each.side.reset();
   std::vector<FootScan> feet;
   for (const auto& cloud : clouds) {

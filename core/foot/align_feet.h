@@ -9,8 +9,9 @@
 
 namespace instep {
 
-/// Aligns the feet that stand on a platform together (one or two clouds in one frame), each as
-/// align_foot() does, and returns the left one first.
+/// Aligns the feet that stand on a platform together (one or two clouds in one frame, told from
+/// each other and from what else stands there), each as align_foot() does, and returns the left one
+/// first.
 ///
 /// Two feet that point roughly the same way are told left from right by where they stand, which is
 /// surer than the shape of either; where the shape clearly says otherwise (crossed feet) that is a

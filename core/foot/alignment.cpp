@@ -123,12 +123,9 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (foot.cloud.size() < kFewestPoints) {
     return too_few(foot.cloud.size());
   }
-  StandingBody body;
-  if (!options.is_foot_alone) {
-    body = standing_body(foot.cloud.positions);
-    foot.cloud = foot.cloud.subset(body.points);
-    if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
-  }
+  const StandingBody body = standing_body(foot.cloud.positions, options.is_one_foot);
+  foot.cloud = foot.cloud.subset(body.points);
+  if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool is_doubtful = !found || !found->has_seen_toes();
@@ -137,6 +134,11 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
     const auto upright = plane_below(foot.cloud.positions, Eigen::Vector3d::UnitZ());
     auto last = aligned(foot, upright, options);
     if (last && is_shoe_last(*last)) found = std::move(last);
+  }
+  if (found && body.parts > 1) {
+    found->warnings.push_back(
+        "the foot comes in " + std::to_string(body.parts) +
+        " parts: no camera saw what joins them, and what lies between is guessed; turn one to it");
   }
   if (found && body.next_share > kLargePieceShare) {
     found->warnings.push_back("the cloud holds more than one body: the largest is measured, " +

@@ -17,8 +17,9 @@ struct AlignmentOptions {
   std::optional<StandingPlane> standing_plane;
   /// Which way is up, where only that is known: the floor is then under the lowest points.
   std::optional<Eigen::Vector3d> up;
-  /// The cloud is one foot and nothing else, in parts if no camera saw what joins them.
-  bool is_foot_alone = false;
+  /// The cloud was told from other things: large parts of it that lie apart are of one foot, of
+  /// which no camera saw what joins them.
+  bool is_one_foot = false;
   /// The definitions that the foot is measured by, its axis among them.
   MeasuringRules rules;
 };
@@ -31,11 +32,11 @@ struct AlignmentOptions {
 /// not show gives way to it, with a warning. The landmarks `pternion`, `acropodion` and `toe2_tip`
 /// are set; the others are find_landmarks()'s business.
 ///
-/// Strays and what stands apart are left out, unless the foot is said to be alone. A sole that was
-/// not seen is closed on the floor (close_open_sole()), with a warning. A leg above the foot, an
-/// open sole and a cut at any height above the instep are fine. Fails with kInsufficientData under
-/// 200 points and with kInvalidInput, saying why, for what is no whole foot. A mirrored cloud gives
-/// the mirrored result. O(n log n).
+/// Strays and what stands apart are left out; of large parts of one foot a warning tells. A sole
+/// that was not seen is closed on the floor (close_open_sole()), with a warning. A leg above the
+/// foot, an open sole and a cut at any height above the instep are fine. Fails with
+/// kInsufficientData under 200 points and with kInvalidInput, saying why, for what is no whole
+/// foot. A mirrored cloud gives the mirrored result. O(n log n).
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
 
 /// Finds floor, axis and ends again on a foot that stands in its own frame already, as after points

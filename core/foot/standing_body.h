@@ -11,11 +11,14 @@ struct StandingBody {
   std::vector<std::size_t> points;  ///< indices, ascending
   double apart_share = 0.0;         ///< of all points, left out
   double next_share = 0.0;          ///< the largest piece left out, over the largest piece of all
+  std::size_t parts = 1;            ///< large pieces in `points`
 };
 
 /// Parts the points into pieces that touch, within twice their spacing or 8 mm, whichever is more.
 /// The largest piece is the body, with those pieces that lie within its box: a scan with unseen
-/// strips comes in pieces. Strays and the remains of another foot are left out. O(n log n).
-StandingBody standing_body(const std::vector<Eigen::Vector3d>& points);
+/// strips comes in pieces. Strays and the remains of another foot are left out; but where the
+/// points are known to be of one foot, a piece of at least a quarter of the largest one is a part
+/// of it: a heel with its leg, or a forefoot, but nothing small that stands there. O(n log n).
+StandingBody standing_body(const std::vector<Eigen::Vector3d>& points, bool is_one_foot);
 
 }  // namespace instep

@@ -27,23 +27,26 @@ struct RegistrationSettings {
 
 enum class ViewFit {
   kFits,
-  kAlone,  ///< shares no surface with the others: nothing to check or refine its pose by
+  kSlides,  ///< shares only surface along which it could slide, such as the platform
+  kAlone,   ///< shares no surface with the others: nothing to check or refine its pose by
   kDoesNotFit,
 };
 
 struct RegisteredView {
   RigidTransform correction = RigidTransform::Identity();  ///< new station from given station
   ViewFit fit = ViewFit::kAlone;
+  double moved_mm = 0.0;     ///< how far that moves a point of a foot, at most
   double overlap = 0.0;      ///< share of its queries with a match
   double residual_mm = 0.0;  ///< median distance to the matched surfaces, after
-  /// Of the distances to them by the given poses, what the correction took away, root mean square:
-  /// the error of the given poses across the skin, without the noise of the points.
+  /// Of the distances to them by the given poses, what the correction took away where it
+  /// shows: the error of the given poses across the skin, without the noise of the points.
   double taken_away_mm = 0.0;
 };
 
 struct Registration {
   std::vector<RegisteredView> views;
-  double residual_before_mm = 0.0;  ///< median over all matches of the given poses
+  /// Median over all matches, up to twice last_reach_mm apart, by the given poses and after.
+  double residual_before_mm = 0.0;
   double residual_after_mm = 0.0;
   /// What the noise of the points does not explain of the distances, one sigma: errors of the
   /// poses, lenses and depths.

@@ -83,7 +83,7 @@ Result<void> run(const ReplayCommand& command) {
   settings.sizes = station->sizes;
   settings.measures = station->measures;
   settings.side = side_from_string(command.side);
-  settings.refine_views = command.poses == "refine";
+  settings.refine_views = command.poses != "trust";
   ProgressLine line;
   const auto records =
       measure_capture(*capture, settings, [&](std::string_view stage, double done) {
@@ -120,8 +120,9 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   replay
       ->add_option("--poses", command->poses,
-                   "refine the cameras' poses by fitting the views to each other, or trust them")
-      ->check(CLI::IsMember({"refine", "trust"}))
+                   "refine the cameras' poses by fitting the views to each other, or trust them; "
+                   "auto is refine")
+      ->check(CLI::IsMember({"refine", "trust", "auto"}))
       ->capture_default_str();
   replay->add_option("--format", command->format, "json (if stdout is no terminal) or text")
       ->check(CLI::IsMember({"json", "text"}));

@@ -150,6 +150,14 @@ void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& q
   quality["poses_off_mm"] = figures.poses_off_mm;
 }
 
+/// What is no foot may be one that cameras see in wrong places: what they were warned of is told.
+Error with_what_was_noticed(Error error, const std::vector<std::string>& warnings) {
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
+    error.advice += (i == 0 ? "; what was noticed before: " : "; ") + warnings[i];
+  }
+  return error;
+}
+
 }  // namespace
 
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
@@ -176,7 +184,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   alignment.rules = settings.measures;
   alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
   auto feet = align_feet(scene->feet, alignment);
-  if (!feet) return tl::make_unexpected(feet.error());
+  if (!feet) return tl::make_unexpected(with_what_was_noticed(feet.error(), warnings));
 
   std::vector<ScanRecord> records;
   for (auto& aligned : *feet) {

@@ -72,6 +72,7 @@ int main() {
   std::printf("%-44s %8.1f ms\n", "ray tables, once a camera", milliseconds_since(start) / 4.0);
   FusionSettings settings;
   settings.platform_height_mm = 0.0;
+  settings.refine_views = false;
   time_fusion("views to feet, calibrated", views, settings);
   time_fusion("views to feet, calibrated, again", views, settings);
   settings.refine_views = true;

@@ -22,7 +22,7 @@ constexpr int kFrames = 15;
 constexpr double kDegreesAMillimetre = 0.1;
 
 struct Wishes {
-  int feet = 12;
+  int feet = 16;
   int cameras = 4;
   bool bad_sensor = false;
 };

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/foot/alignment.h"
 #include "core/foot/open_sole.h"
 #include "tests/support/foot_body.h"
@@ -17,11 +20,33 @@ TEST(StandingBody, LeavesOutWhatStandsApart) {
   auto points = foot.positions;
   for (int i = 0; i < 400; ++i) points.emplace_back(100.0 + i % 20, 200.0 + i / 20, 5.0);
   points.emplace_back(-60.0, 0.0, 30.0);
-  const auto body = standing_body(points);
+  const auto body = standing_body(points, false);
   EXPECT_EQ(body.points.size(), foot.size());
   EXPECT_GT(body.apart_share, 0.0);
   EXPECT_NEAR(body.next_share, 400.0 / static_cast<double>(foot.size()), 1e-9);
-  EXPECT_TRUE(standing_body({}).points.empty());
+  EXPECT_TRUE(standing_body({}, false).points.empty());
+}
+
+/// A strip that no camera saw parts the heel from the forefoot; a roll of tape stands behind it.
+TEST(StandingBody, OfOneFootHoldsItsPartsButNothingSmall) {
+  const auto foot = FootBody{}.points();
+  double first = 1e9;
+  double last = -1e9;
+  for (const auto& point : foot.positions) {
+    first = std::min(first, point.x());
+    last = std::max(last, point.x());
+  }
+  const double middle = first + 0.4 * (last - first);
+  std::vector<Vector3d> points;
+  for (const auto& point : foot.positions) {
+    if (std::abs(point.x() - middle) > 15.0) points.push_back(point);
+  }
+  const std::size_t of_foot = points.size();
+  for (int i = 0; i < 400; ++i) points.emplace_back(first - 40.0 + i % 20, i / 20, 5.0);
+  const auto parts = standing_body(points, true);
+  EXPECT_EQ(parts.parts, 2U);
+  EXPECT_EQ(parts.points.size(), of_foot);
+  EXPECT_LT(standing_body(points, false).points.size(), of_foot);
 }
 
 TEST(StandingBody, OfAFootBesideAnotherOnesRemainsIsMeasuredWithAWarning) {

@@ -27,9 +27,7 @@ class FuseViewsOfARealCamera : public testing::Test {
       ASSERT_TRUE(depth) << depth.error().line();
       views.push_back({recorded.cameras[i], *depth, nullptr});
     }
-    FusionSettings settings;
-    settings.refine_views = true;
-    auto fused = fuse_views(views, settings);
+    auto fused = fuse_views(views);
     ASSERT_TRUE(fused) << fused.error().line();
     scene = *std::move(fused);
   }

@@ -165,13 +165,26 @@ std::string warnings_of(const std::vector<View>& views, bool refine) {
   return scene ? joined(scene->warnings) : "";
 }
 
-TEST(FuseViews, SaysWhichTrustedPosesAreWrong) {
+TEST(FuseViews, SaysThatPosesAreWrong) {
   auto views = good_views();
-  EXPECT_EQ(warnings_of(views, false).find("given poses"), std::string::npos);
-  EXPECT_EQ(warnings_of({views[0]}, false).find("given poses"), std::string::npos);
+  for (const bool refine : {false, true}) {
+    EXPECT_EQ(warnings_of(views, refine).find("given poses"), std::string::npos);
+    EXPECT_EQ(warnings_of({views[0]}, refine).find("pose"), std::string::npos);
+  }
   views[1].geometry.station_from_camera.translation() += Vector3d(0.5, 1.0, 0.0);
-  EXPECT_NE(warnings_of(views, false).find("camera1 sees the skin"), std::string::npos);
+  EXPECT_NE(warnings_of(views, false).find("camera1 before others"), std::string::npos);
   EXPECT_EQ(warnings_of(views, true).find("given poses"), std::string::npos);
+  views[1].geometry.station_from_camera.translation() += Vector3d(0.0, 10.0, 0.0);
+  EXPECT_NE(warnings_of(views, true).find("they were refined"), std::string::npos);
+}
+
+/// Two cameras on opposite sides see one platform, and no skin that both see.
+TEST(FuseViews, SaysThatAViewCouldSlide) {
+  const std::vector<View> opposite = {good_views()[0], good_views()[2]};
+  for (const bool refine : {false, true}) {
+    EXPECT_NE(warnings_of(opposite, refine).find("could slide along"), std::string::npos);
+    EXPECT_EQ(warnings_of(good_views(), refine).find("could slide along"), std::string::npos);
+  }
 }
 
 TEST(FuseViews, SaysWhatNoPoseExplains) {

@@ -101,8 +101,41 @@ TEST(RegisterViews, LeavesGoodPosesAlone) {
   const auto registration = register_views(seen_by(small_ring(4), 1.0e-6)).value();
   for (const auto& view : registration.views) {
     EXPECT_EQ(view.fit, ViewFit::kFits);
-    EXPECT_LT(view.correction.translation().norm(), 0.5);
+    EXPECT_LT(view.correction.translation().norm(), 0.05);
+    EXPECT_LT(view.taken_away_mm, 0.02);
   }
+}
+
+/// Most of what the views share is the platform, along which the view slid: it lies still at once.
+TEST(RegisterViews, BringsBackAViewThatSlidAlongThePlatform) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  for (const double slid_mm : {5.0, 20.0}) {
+    RigidTransform slide = RigidTransform::Identity();
+    slide.translation() = Vector3d(0, slid_mm, 0);
+    auto slid = clouds;
+    slid[1] = transformed(slide, clouds[1]);
+    const auto registration = register_views(slid).value();
+    std::vector<RigidTransform> refined;
+    for (std::size_t i = 0; i < slid.size(); ++i) {
+      EXPECT_EQ(registration.views[i].fit, ViewFit::kFits);
+      refined.push_back(registration.views[i].correction);
+      if (i == 1) refined.back() = refined.back() * slide;
+    }
+    EXPECT_LT(disagreement(refined), 0.8) << slid_mm;
+    EXPECT_GT(registration.views[1].taken_away_mm, 0.1 * slid_mm);
+  }
+}
+
+TEST(RegisterViews, TellsPosesFromNoise) {
+  const auto clouds = seen_by(small_ring(4), 1.0e-6);
+  const auto right = register_views(clouds).value();
+  std::mt19937_64 random(1);
+  std::vector<PointCloud> moved;
+  for (const auto& cloud : clouds) moved.push_back(transformed(disturbance(random, 5, 1.0), cloud));
+  const auto wrong = register_views(moved).value();
+  EXPECT_LT(right.unexplained_before_mm, 0.2);
+  EXPECT_GT(wrong.unexplained_before_mm, 0.5);
+  EXPECT_NEAR(wrong.unexplained_after_mm, right.unexplained_after_mm, 0.05);
 }
 
 TEST(RegisterViews, LeavesOutAViewThatDoesNotFit) {
@@ -117,6 +150,17 @@ TEST(RegisterViews, LeavesOutAViewThatDoesNotFit) {
     EXPECT_EQ(registration.views[i].fit, ViewFit::kFits);
     EXPECT_LT(registration.views[i].correction.translation().norm(), 1.5);
   }
+}
+
+/// A bent view spoils what its neighbours seem to be: they are judged again without it.
+TEST(RegisterViews, LeavesOutNoViewForAnothersSake) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  for (auto& point : clouds[2].positions) {
+    point.z() += 25.0 * std::sin(0.05 * point.x()) + 20.0 * std::sin(0.06 * point.y());
+  }
+  const auto registration = register_views(clouds).value();
+  EXPECT_EQ(registration.views[2].fit, ViewFit::kDoesNotFit);
+  for (const std::size_t i : {0U, 1U, 3U}) EXPECT_EQ(registration.views[i].fit, ViewFit::kFits);
 }
 
 TEST(RegisterViews, RefusesToMoveAViewBeyondTheLimit) {

@@ -48,13 +48,21 @@ void expect_true_measures(const MeasureSet& measures, const std::map<std::string
   }
 }
 
-/// Each camera is said to stand 2 mm and a fifth of a degree from where it stands.
-void misplace_cameras(Capture& capture) {
+bool is_said(const std::string& words, const std::vector<std::string>& warnings) {
+  return std::any_of(warnings.begin(), warnings.end(), [&words](const auto& warning) {
+    return warning.find(words) != std::string::npos;
+  });
+}
+
+/// Each camera is said to stand so far from where it stands, and turned by a tenth of a degree a
+/// millimetre.
+void misplace_cameras(double shift_mm, Capture& capture) {
   Eigen::Vector3d direction = Eigen::Vector3d(2.0, 1.0, 1.0).normalized();
   for (auto& camera : capture.cameras) {
     RigidTransform off = RigidTransform::Identity();
-    off.linear() = Eigen::AngleAxisd(std::numbers::pi / 900.0, direction).toRotationMatrix();
-    off.translation() = 2.0 * direction;
+    off.linear() =
+        Eigen::AngleAxisd(shift_mm * std::numbers::pi / 1800.0, direction).toRotationMatrix();
+    off.translation() = shift_mm * direction;
     camera.geometry.station_from_camera = off * camera.geometry.station_from_camera;
     direction = Eigen::Vector3d(-direction.y(), direction.z(), direction.x());
   }
@@ -88,19 +96,32 @@ TEST(SimulatedFoot, IsMeasuredWithinAMillimetreByCamerasThatStandElsewhere) {
   const auto truth = station->truth();
   ASSERT_TRUE(truth) << truth.error().line();
   Capture capture = capture_of(*station);
-  misplace_cameras(capture);
+  misplace_cameras(2.0, capture);
   const auto records = measure_capture(capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   expect_true_measures(records->front().measures, truth->front().measures);
+  EXPECT_TRUE(is_said("they were refined", records->front().warnings));
+}
 
+TEST(SimulatedFoot, IsNotMeasuredByWrongPosesWithoutAWord) {
+  SimulationSettings settings;
+  settings.seed = 5;
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  ASSERT_TRUE(station) << station.error().line();
   PipelineSettings trusting;
   trusting.refine_views = false;
-  const auto trusted = measure_capture(capture, trusting, {});
-  if (!trusted) return;  // the platform may be taken for skin, of no foot's size
-  const auto& warnings = trusted->front().warnings;
-  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const auto& warning) {
-    return warning.find("given poses") != std::string::npos;
-  }));
+  Capture capture = capture_of(*station);
+  misplace_cameras(0.3, capture);
+  const auto measured = measure_capture(capture, trusting, {});
+  ASSERT_TRUE(measured) << measured.error().line();
+  EXPECT_TRUE(is_said("let them be refined", measured->front().warnings));
+  // The platform, seen twice, is then taken for skin: no foot is that long.
+  misplace_cameras(4.0, capture);
+  const auto refused = measure_capture(capture, trusting, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().line().find("let them be refined"), std::string::npos)
+      << refused.error().line();
 }
 
 /// Two cameras see it, each by more than a millimetre.
@@ -135,6 +156,7 @@ TEST(SimulatedFoot, IsMeasuredWholeByACameraBeforeAndOneBehindIt) {
   const Measure* length = records->front().measures.find("foot_length");
   ASSERT_NE(length, nullptr);
   EXPECT_NEAR(length->value_mm, truth->front().measures.at("foot_length"), 1.0);
+  EXPECT_TRUE(is_said("comes in 2 parts", records->front().foot.warnings));
 }
 
 TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
