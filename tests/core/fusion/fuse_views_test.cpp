@@ -171,7 +171,7 @@ TEST(FuseViews, SaysThatPosesAreWrong) {
     EXPECT_EQ(warnings_of(views, refine).find("given poses"), std::string::npos);
     EXPECT_EQ(warnings_of({views[0]}, refine).find("pose"), std::string::npos);
   }
-  views[1].geometry.station_from_camera.translation() += Vector3d(0.5, 1.0, 0.0);
+  views[1].geometry.station_from_camera.translation() += Vector3d(0.15, 0.35, 0.0);
   EXPECT_NE(warnings_of(views, false).find("camera1 before others"), std::string::npos);
   EXPECT_EQ(warnings_of(views, true).find("given poses"), std::string::npos);
   views[1].geometry.station_from_camera.translation() += Vector3d(0.0, 10.0, 0.0);
