@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "daemon/scan/scan_pipeline.h"
 #include "sim/simulated_station.h"
@@ -26,6 +27,21 @@ Capture capture_of(SimulatedStation& station) {
     }
   }
   return capture;
+}
+
+/// What one press of the pedal brings, and what is true of it.
+struct Scan {
+  Capture capture;
+  std::vector<SubjectTruth> truth;
+};
+
+std::optional<Scan> scan_of(SimulationSettings settings) {
+  settings.pacing = Pacing::kAsFastAsPossible;
+  auto station = build_station(settings);
+  if (!station) return std::nullopt;
+  auto truth = station->truth();
+  if (!truth) return std::nullopt;
+  return Scan{capture_of(*station), *std::move(truth)};
 }
 
 struct Person {
@@ -76,42 +92,35 @@ TEST_P(SimulatedFeet, AreMeasuredWithinAMillimetre) {
   SimulationSettings settings;
   settings.seed = GetParam().seed;
   settings.side = GetParam().side;
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  ASSERT_TRUE(station) << station.error().line();
-  const auto truth = station->truth();
-  ASSERT_TRUE(truth) << truth.error().line();
-  const auto records = measure_capture(capture_of(*station), {}, {});
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   ASSERT_EQ(records->size(), 1U);
-  expect_true_measures(records->front().measures, truth->front().measures);
+  expect_true_measures(records->front().measures, scan->truth.front().measures);
 }
 
 TEST(SimulatedFoot, IsMeasuredWithinAMillimetreByCamerasThatStandElsewhere) {
   SimulationSettings settings;
   settings.seed = 5;
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  ASSERT_TRUE(station) << station.error().line();
-  const auto truth = station->truth();
-  ASSERT_TRUE(truth) << truth.error().line();
-  Capture capture = capture_of(*station);
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  Capture& capture = scan->capture;
   misplace_cameras(2.0, capture);
   const auto records = measure_capture(capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
-  expect_true_measures(records->front().measures, truth->front().measures);
+  expect_true_measures(records->front().measures, scan->truth.front().measures);
   EXPECT_TRUE(is_said("they were refined", records->front().warnings));
 }
 
 TEST(SimulatedFoot, IsNotMeasuredByWrongPosesWithoutAWord) {
   SimulationSettings settings;
   settings.seed = 5;
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  ASSERT_TRUE(station) << station.error().line();
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
   PipelineSettings trusting;
   trusting.refine_views = false;
-  Capture capture = capture_of(*station);
+  Capture& capture = scan->capture;
   misplace_cameras(0.3, capture);
   const auto measured = measure_capture(capture, trusting, {});
   ASSERT_TRUE(measured) << measured.error().line();
@@ -146,16 +155,13 @@ TEST(SimulatedFoot, IsMeasuredWholeByACameraBeforeAndOneBehindIt) {
   SimulationSettings settings;
   settings.seed = 2;
   settings.cameras = 2;
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  ASSERT_TRUE(station) << station.error().line();
-  const auto truth = station->truth();
-  ASSERT_TRUE(truth) << truth.error().line();
-  const auto records = measure_capture(capture_of(*station), {}, {});
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   const Measure* length = records->front().measures.find("foot_length");
   ASSERT_NE(length, nullptr);
-  EXPECT_NEAR(length->value_mm, truth->front().measures.at("foot_length"), 1.0);
+  EXPECT_NEAR(length->value_mm, scan->truth.front().measures.at("foot_length"), 1.0);
   EXPECT_TRUE(is_said("comes in 2 parts", records->front().foot.warnings));
 }
 
@@ -183,17 +189,14 @@ TEST(SimulatedPair, IsPutSideBySideAndLedByTheLongerFoot) {
   SimulationSettings settings;
   settings.seed = 3;
   settings.subject = Subject::kFeet;
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  ASSERT_TRUE(station) << station.error().line();
-  const auto truth = station->truth();
-  ASSERT_TRUE(truth) << truth.error().line();
-  ASSERT_EQ(truth->size(), 2U);
-  const double true_left = truth->front().measures.at("foot_length");
-  const double true_right = truth->back().measures.at("foot_length");
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  ASSERT_EQ(scan->truth.size(), 2U);
+  const double true_left = scan->truth.front().measures.at("foot_length");
+  const double true_right = scan->truth.back().measures.at("foot_length");
   ASSERT_GT(true_left, true_right + 1.0);
 
-  const auto records = measure_capture(capture_of(*station), {}, {});
+  const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   ASSERT_EQ(records->size(), 2U);
   for (const auto& record : *records) {
@@ -210,10 +213,9 @@ TEST(SimulatedPair, IsPutSideBySideAndLedByTheLongerFoot) {
 
 TEST(SimulatedPair, IsNoneForASingleFoot) {
   SimulationSettings settings;
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  ASSERT_TRUE(station) << station.error().line();
-  const auto records = measure_capture(capture_of(*station), {}, {});
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   ASSERT_EQ(records->size(), 1U);
   EXPECT_FALSE(records->front().pair);
