@@ -136,8 +136,10 @@ void warn_of_unproven_poses(const Registration& registration, const std::vector<
         break;
       case ViewFit::kAlone:
         if (views.size() < 2) break;
-        scene.warnings.push_back(camera +
-                                 " shares no surface with the others; its pose is not checked");
+        scene.warnings.push_back(
+            camera +
+            " shares no surface with the others: its pose is not checked, and no "
+            "interval knows of it; let another camera see the skin between");
     }
   }
 }

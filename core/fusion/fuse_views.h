@@ -72,7 +72,8 @@ struct FusionDiagnostics {
   double platform_tilt_deg = 0.0;
   double registration_before_mm = 0.0;  ///< median distance between the views by the given poses
   double registration_after_mm = 0.0;   ///< the same by those that were used
-  double unexplained_mm = 0.0;  ///< of the distances between the views, by the noise of points
+  /// Of the distances between the views, what the noise of the points does not explain, one sigma.
+  double unexplained_mm = 0.0;
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
   std::vector<std::size_t> points;           ///< of each foot, platform points not counted
   std::vector<double> coverage;              ///< of each foot: share of directions round it seen
