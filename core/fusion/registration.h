@@ -67,7 +67,7 @@ struct Registration {
 /// they are, the views agree and the body between them has a wrong size.
 ///
 /// Clouds are given in the station frame and need normals, sigma and view directions; one without
-/// is kAlone. Deterministic. Costs some 130 ms for 4 views of good poses; each iteration is a piece
+/// is kAlone. Deterministic. Costs some 150 ms for 4 views of good poses; each iteration is a piece
 /// of the work for `go_on`. Fails with kCancelled alone.
 Result<Registration> register_views(const std::vector<PointCloud>& views,
                                     const RegistrationSettings& settings = {},
