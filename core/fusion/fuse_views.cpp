@@ -126,7 +126,8 @@ void warn_of_unproven_poses(const Registration& registration, const std::vector<
         break;
       case ViewFit::kDoesNotFit:
         scene.warnings.push_back(camera + " does not agree with the others" +
-                                 (are_refined ? " and was left out" : ""));
+                                 (are_refined ? " and was left out" : "") +
+                                 ": see to its pose and its lens, and that nothing is before it");
         break;
       case ViewFit::kSlides:
         scene.warnings.push_back(camera +
@@ -151,6 +152,7 @@ void warn_of_wrong_poses(const Registration& registration, const std::vector<Wor
   std::size_t furthest = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto& view = registration.views[i];
+    if (view.fit == ViewFit::kDoesNotFit) continue;  // which is said of it
     off_mm = std::max(off_mm, view.taken_away_mm);
     if (view.moved_mm > registration.views[furthest].moved_mm) furthest = i;
   }

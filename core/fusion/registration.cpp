@@ -25,7 +25,7 @@ constexpr double kStillMm = 0.01;
 constexpr std::size_t kCoarseStride = 4;
 constexpr std::size_t kFineStride = 1;
 constexpr int kLastSteps = 4;  // at most, each time that more is known of the poses
-/// Where the views lie as still as this at one reach, the next one is half of it.
+/// Where the views lie as still as this at one reach, the next one is half of it. Set by eye.
 constexpr double kSettledMm = 0.3;
 constexpr double kLeastPoseMm = 1e-3;
 /// Least eigenvalue of the mean of n n^T over the matches of a view that cannot slide: over two
@@ -65,6 +65,24 @@ void add_prior(const MovingView& view, const RegistrationSettings& settings, Eig
   }
 }
 
+/// Turns and shifts each view about its centroid. How far that moves a point of a foot, at most.
+double move(std::vector<MovingView>& views, const Eigen::VectorXd& turns_and_shifts) {
+  double furthest_mm = 0.0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const Vector3d turn = turns_and_shifts.segment<3>(static_cast<Eigen::Index>(6 * i));
+    const Vector3d shift = turns_and_shifts.segment<3>(static_cast<Eigen::Index>(6 * i + 3));
+    const Vector3d centre = corrected_centroid(views[i]);
+    RigidTransform own = RigidTransform::Identity();
+    if (turn.norm() > 0.0) {
+      own.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+    }
+    own.translation() = centre + shift - own.linear() * centre;
+    views[i].correction = own * views[i].correction;
+    furthest_mm = std::max(furthest_mm, shift.norm() + kArmMm * turn.norm());
+  }
+  return furthest_mm;
+}
+
 /// One Gauss-Newton step of all poses. How far it moved a point of a foot, at most.
 double step(std::vector<MovingView>& views, const std::vector<ViewMatch>& matches, double reach,
             const RegistrationSettings& settings) {
@@ -94,21 +112,7 @@ double step(std::vector<MovingView>& views, const std::vector<ViewMatch>& matche
     add_prior(views[i], settings, static_cast<Eigen::Index>(6 * i), matrix, right);
   }
   const Eigen::VectorXd solved = matrix.ldlt().solve(right);
-  if (!solved.allFinite()) return 0.0;
-  double furthest_mm = 0.0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const Vector3d turn = solved.segment<3>(static_cast<Eigen::Index>(6 * i));
-    const Vector3d shift = solved.segment<3>(static_cast<Eigen::Index>(6 * i + 3));
-    const Vector3d centre = corrected_centroid(views[i]);
-    RigidTransform move = RigidTransform::Identity();
-    if (turn.norm() > 0.0) {
-      move.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-    }
-    move.translation() = centre + shift - move.linear() * centre;
-    views[i].correction = move * views[i].correction;
-    furthest_mm = std::max(furthest_mm, shift.norm() + kArmMm * turn.norm());
-  }
-  return furthest_mm;
+  return solved.allFinite() ? move(views, solved) : 0.0;
 }
 
 /// Draws the views together. Poses that are off by much are drawn in slowly, so that no view
@@ -175,17 +179,21 @@ bool can_slide(const std::vector<ViewMatch>& matches) {
   return !(solver.eigenvalues()(0) >= kLeastHold * static_cast<double>(matches.size()));
 }
 
+/// Of its queries, by however many views each.
+double share_matched(const MovingView& view, const std::vector<ViewMatch>& own) {
+  std::vector<bool> is_matched(view.queries.size(), false);
+  for (const auto& match : own) is_matched[match.query] = true;
+  return static_cast<double>(std::count(is_matched.begin(), is_matched.end(), true)) /
+         static_cast<double>(is_matched.size());
+}
+
 RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
                      const std::vector<ViewMatch>& all, const RegistrationSettings& settings) {
   RegisteredView judged;
   const auto& view = views[at];
   if (!view.taking_part) return judged;
   const auto own = matches_of(at, all);
-  std::size_t matched = 0;
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    if (i == 0 || own[i].point != own[i - 1].point) ++matched;
-  }
-  judged.overlap = static_cast<double>(matched) / static_cast<double>(view.queries.size());
+  judged.overlap = share_matched(view, own);
   judged.taken_away_mm = taken_away(views, own);
   judged.residual_mm = median_residual(own);
   judged.correction = view.correction;

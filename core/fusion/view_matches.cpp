@@ -51,8 +51,8 @@ void match_pair(const std::vector<MovingView>& views, std::size_t view, std::siz
     const double variance = std::pow(source.queries.sigma_mm[i], 2) +
                             std::pow(target.targets.sigma_mm[found[0].index], 2) +
                             kLeastSigmaMm * kLeastSigmaMm;
-    matches.push_back({view, other, target.correction * point, target.correction.linear() * middle,
-                       middle.dot(point - partner), variance});
+    matches.push_back({view, other, i, target.correction * point,
+                       target.correction.linear() * middle, middle.dot(point - partner), variance});
   }
 }
 

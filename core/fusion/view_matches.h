@@ -26,6 +26,7 @@ struct MovingView {
 struct ViewMatch {
   std::size_t view;
   std::size_t other;
+  std::size_t query;      ///< of `view`
   Eigen::Vector3d point;  ///< of `view`, corrected
   Eigen::Vector3d normal;
   double distance;  ///< along the normal, mm

@@ -190,7 +190,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   for (auto& aligned : *feet) {
     if (!clock.begin("landmarks", 0.7)) return cancelled();
     auto foot = find_landmarks(std::move(aligned));
-    if (!foot) return tl::make_unexpected(foot.error());
+    if (!foot) return tl::make_unexpected(with_what_was_noticed(foot.error(), warnings));
 
     if (!clock.begin("girths", 0.7)) return cancelled();
     MeasureOptions options;

@@ -13,12 +13,12 @@
 #include "daemon/scan/scan_pipeline.h"
 #include "sim/simulated_station.h"
 #include "tests/support/random_numbers.h"
+#include "tests/support/simulated_capture.h"
 
 namespace {
 
 using namespace instep;
 
-constexpr int kFrames = 15;
 constexpr double kDegreesAMillimetre = 0.1;
 
 struct Wishes {
@@ -52,19 +52,9 @@ std::optional<Scan> scan_of(int seed, const Wishes& wishes) {
   if (!station) return std::nullopt;
   const auto truth = station->truth();
   if (!truth) return std::nullopt;
-  Scan scan;
-  scan.truth = truth->front().measures;
-  scan.capture.platform_height_mm = station->platform_height_mm;
-  for (const auto& camera : station->cameras) {
-    scan.capture.cameras.push_back(camera->description());
-    if (!camera->start()) return std::nullopt;
-    for (int i = 0; i < kFrames; ++i) {
-      auto frame = camera->next_frame(std::chrono::seconds(1));
-      if (!frame) return std::nullopt;
-      scan.capture.frames.push_back(std::move(*frame));
-    }
-  }
-  return scan;
+  auto capture = test::capture_of(*station);
+  if (!capture) return std::nullopt;
+  return Scan{*std::move(capture), truth->front().measures};
 }
 
 void spoil(const Fault& fault, int seed, Capture& capture) {

@@ -12,13 +12,13 @@
 
 #include "daemon/scan/scan_pipeline.h"
 #include "sim/simulated_station.h"
+#include "tests/support/simulated_capture.h"
 
 namespace {
 
 using namespace instep;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kFrames = 15;
 constexpr std::size_t kScans = 5;
 
 Result<Capture> simulated_capture() {
@@ -26,19 +26,7 @@ Result<Capture> simulated_capture() {
   settings.pacing = Pacing::kAsFastAsPossible;
   auto station = build_station(settings);
   if (!station) return tl::make_unexpected(station.error());
-  Capture capture;
-  capture.simulated = true;
-  capture.platform_height_mm = station->platform_height_mm;
-  for (const auto& camera : station->cameras) {
-    capture.cameras.push_back(camera->description());
-    if (auto started = camera->start(); !started) return tl::make_unexpected(started.error());
-    for (int i = 0; i < kFrames; ++i) {
-      auto frame = camera->next_frame(std::chrono::seconds(1));
-      if (!frame) return tl::make_unexpected(frame.error());
-      capture.frames.push_back(std::move(*frame));
-    }
-  }
-  return capture;
+  return test::capture_of(*station);
 }
 
 double median(std::array<double, kScans> values) {

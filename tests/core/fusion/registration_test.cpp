@@ -103,6 +103,8 @@ TEST(RegisterViews, LeavesGoodPosesAlone) {
     EXPECT_EQ(view.fit, ViewFit::kFits);
     EXPECT_LT(view.correction.translation().norm(), 0.05);
     EXPECT_LT(view.taken_away_mm, 0.02);
+    EXPECT_GT(view.overlap, 0.5);
+    EXPECT_LE(view.overlap, 1.0);
   }
 }
 

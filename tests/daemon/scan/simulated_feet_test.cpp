@@ -7,27 +7,10 @@
 
 #include "daemon/scan/scan_pipeline.h"
 #include "sim/simulated_station.h"
+#include "tests/support/simulated_capture.h"
 
 namespace instep {
 namespace {
-
-constexpr int kFrames = 15;
-
-Capture capture_of(SimulatedStation& station) {
-  Capture capture;
-  capture.simulated = true;
-  capture.platform_height_mm = station.platform_height_mm;
-  for (const auto& camera : station.cameras) {
-    capture.cameras.push_back(camera->description());
-    EXPECT_TRUE(camera->start());
-    for (int i = 0; i < kFrames; ++i) {
-      auto frame = camera->next_frame(std::chrono::seconds(1));
-      EXPECT_TRUE(frame);
-      if (frame) capture.frames.push_back(std::move(*frame));
-    }
-  }
-  return capture;
-}
 
 /// What one press of the pedal brings, and what is true of it.
 struct Scan {
@@ -41,7 +24,9 @@ std::optional<Scan> scan_of(SimulationSettings settings) {
   if (!station) return std::nullopt;
   auto truth = station->truth();
   if (!truth) return std::nullopt;
-  return Scan{capture_of(*station), *std::move(truth)};
+  auto capture = test::capture_of(*station);
+  if (!capture) return std::nullopt;
+  return Scan{*std::move(capture), *std::move(truth)};
 }
 
 struct Person {
@@ -138,10 +123,9 @@ TEST(SimulatedFoot, ThatMovedIsSpokenOfOnce) {
   SimulationSettings simulation;
   simulation.seed = 3;
   simulation.noise = NoiseLaw::kPessimistic;
-  simulation.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(simulation);
-  ASSERT_TRUE(station) << station.error().line();
-  const auto records = measure_capture(capture_of(*station), {}, {});
+  auto scan = scan_of(simulation);
+  ASSERT_TRUE(scan);
+  const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   const auto& warnings = records->front().warnings;
   const auto spoken = std::count_if(warnings.begin(), warnings.end(), [](const auto& warning) {
@@ -168,13 +152,12 @@ TEST(SimulatedFoot, IsMeasuredWholeByACameraBeforeAndOneBehindIt) {
 TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
   SimulationSettings simulation;
   simulation.seed = 5;
-  simulation.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(simulation);
-  ASSERT_TRUE(station) << station.error().line();
+  auto scan = scan_of(simulation);
+  ASSERT_TRUE(scan);
   PipelineSettings settings;
   settings.measures.axis = AxisRule::kMedialTangent;
   settings.measures.ball_girth = BallGirthRule::kShortest;
-  Capture capture = capture_of(*station);
+  Capture& capture = scan->capture;
   capture.truth["ball_girth"] = 250.0;
   const auto records = measure_capture(capture, settings, {});
   ASSERT_TRUE(records) << records.error().line();
