@@ -9,9 +9,9 @@
 
 namespace instep {
 
-/// The two parts of a 95 % interval, which add as squares: what the fitted surface leaves open
-/// where the tape or the ruler lies, and what the landmarks leave open about where that is. In the
-/// unit of the measure.
+/// The two parts of a 95 % interval, which add as squares: what the fitted surface, and the errors
+/// that many of its points share, leave open where the tape or the ruler lies, and what the
+/// landmarks leave open about where that is. In the unit of the measure.
 struct DoubtParts {
   double surface = 0.0;
   double landmarks = 0.0;

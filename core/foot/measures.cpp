@@ -12,6 +12,7 @@
 #include "core/foot/measure_definitions.h"
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/rough_tape.h"
+#include "core/foot/shared_doubt.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
 #include "core/fusion/close_sole.h"
@@ -77,7 +78,8 @@ Result<void> check_heel(double breadth_mm, const FootScan& foot) {
               "scan the foot again, from all sides");
 }
 
-Result<Measure> take(const LengthDefinition& definition, const FootScan& foot) {
+Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
+                     const SharedDoubt& shared_doubt) {
   const auto length = definition.length(foot.landmarks);
   if (!length) return tl::unexpected(length.error());
   if (definition.length == heel_breadth) {
@@ -88,6 +90,10 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot) {
   auto u95 = u95_of(definition, foot);
   if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
+  if (u95) {
+    measure.parts = DoubtParts{shared_doubt.of_landmarks(definition.length), *u95};
+    u95 = std::hypot(measure.parts->surface, *u95);
+  }
   if (definition.kind == LengthDefinition::Kind::kAngle) {
     measure.value_mm = std::numeric_limits<double>::quiet_NaN();
     measure.value_deg = *length;
@@ -96,7 +102,6 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot) {
     measure.value_mm = *length;
     measure.u95_mm = u95;
   }
-  if (u95) measure.parts = DoubtParts{0.0, *u95};
   measure.definition = definition.words;
   measure.warnings = doubts(foot, definition.landmarks);
   return measure;
@@ -129,7 +134,7 @@ Result<void> check_share(double girth_mm, const FootScan& foot) {
 }
 
 Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
-                     const MeasureOptions& options) {
+                     const SharedDoubt& shared_doubt, const MeasureOptions& options) {
   const auto plane = definition.tape(foot.landmarks);
   if (!plane) return tl::unexpected(plane.error());
   auto girth = options.girth(foot.cloud, *plane, options.girth_options);
@@ -146,7 +151,8 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   const auto by_landmarks = u95_of(definition, foot);
   if (by_landmarks && girth->stretched_u95_mm) {
     const double surface =
-        std::hypot(*girth->stretched_u95_mm, doubt_of_guessed_skin(foot.cloud, *plane));
+        std::hypot(*girth->stretched_u95_mm, doubt_of_guessed_skin(foot.cloud, *plane),
+                   shared_doubt.of_girth(*girth, *plane));
     measure.parts = DoubtParts{surface, std::hypot(*by_landmarks, definition.own_doubt_mm)};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
@@ -197,8 +203,9 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   }
   MeasureSet set;
   const bool is_last = is_shoe_last(foot);
+  const SharedDoubt shared_doubt(foot);
   for (const auto& definition : length_definitions(foot.rules)) {
-    keep(set, definition.id, is_last, take(definition, foot));
+    keep(set, definition.id, is_last, take(definition, foot, shared_doubt));
     if (!go_on()) return cancelled();
   }
   const auto definitions = girth_definitions(foot);
@@ -206,7 +213,7 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   std::atomic<bool> wanted = true;
   options.workers(definitions.size(), [&](std::size_t i) {
     if (!wanted) return;
-    girths[i] = take(definitions[i], foot, options);
+    girths[i] = take(definitions[i], foot, shared_doubt, options);
     if (!go_on()) wanted = false;
   });
   if (!wanted) return cancelled();

@@ -88,6 +88,7 @@ void close_open_sole(FootScan& foot) {
     if (foot.cloud.positions[i].z() < wall_height) low.push_back(i);
   }
   PointCloud walls = foot.cloud.subset(low);
+  walls.shared_errors_mm.clear();  // what is added has none
   if (walls.size() < kNeighbours) return;
   if (!walls.has_normals()) walls.normals = wall_normals(walls.positions, length_of(foot));
   const std::size_t seen = walls.size();

@@ -7,7 +7,9 @@
 #include <numbers>
 #include <optional>
 
+#include "core/fusion/pose_check.h"
 #include "core/fusion/working_view.h"
+#include "core/in_millimetres.h"
 #include "core/median.h"
 
 namespace instep {
@@ -15,27 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kPoseStride = 2;          // every so many pixels, both ways, for checking poses
-constexpr int kPlatformStride = 3;      // and for finding the platform
+constexpr int kPlatformStride = 3;      // every so many pixels, both ways, for finding the platform
 constexpr double kLowestShare = 0.002;  // of a scene's points below which they are taken for noise
-/// Poses that are off by less across the skin are right: by right poses the fit took 0.04 mm at
-/// most from the distances of a view, in 32 scans of simulated feet, half of them by bad sensors.
-constexpr double kDisagreementMm = 0.1;
-/// With the noise of a bad sensor and poses that are off by half a millimetre, 0.27 at most were
-/// left of 12 simulated feet; of real feet and a hand-held camera 1.2.
-constexpr double kWorthSayingMm = 0.5;
-/// From here on somebody should hear that the poses had to be refined.
-constexpr double kWorthMendingMm = 0.5;
-/// Poses are judged by one of so many of the points that refine them.
-constexpr std::size_t kPartToJudgeBy = 4;
 constexpr int kSectors = 72;
 constexpr double kLeastCoverage = 0.9;
-
-std::string in_millimetres(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f mm", value);
-  return text;
-}
 
 /// Who does the work, and who is told of it.
 struct Work {
@@ -85,114 +70,6 @@ void drop_blind_views(std::vector<WorkingView>& views, const FusionSettings& set
     scene.warnings.push_back("camera " + view.id + " saw nothing near the platform");
     return true;
   });
-}
-
-/// Fits the surfaces of the views to each other. To judge poses that are trusted, a part of the
-/// points will do.
-Result<Registration> fit_to_each_other(const std::vector<WorkingView>& views,
-                                       const FusionSettings& settings, const Work& work) {
-  std::vector<PointCloud> clouds;
-  for (const auto& view : views) {
-    std::vector<std::uint32_t> pixels;
-    visit_pixels(view, kPoseStride, [&](std::size_t pixel, const Vector3d& point) {
-      if (in_region(point, settings)) pixels.push_back(static_cast<std::uint32_t>(pixel));
-    });
-    clouds.push_back(station_cloud(view, pixels, settings.surface));
-  }
-  auto registering = settings.registration;
-  if (!settings.refine_views) registering.queries /= kPartToJudgeBy;
-  return register_views(clouds, registering, work.go_on);
-}
-
-/// Moves the views to where they fit, and drops those that do not.
-void move_to_fit(const Registration& registration, std::vector<WorkingView>& views) {
-  std::vector<WorkingView> fitting;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto& registered = registration.views[i];
-    if (registered.fit == ViewFit::kDoesNotFit) continue;
-    views[i].station_from_camera = registered.correction * views[i].station_from_camera;
-    fitting.push_back(std::move(views[i]));
-  }
-  views = std::move(fitting);
-}
-
-/// Which views do not fit, and which ones' poses nothing proves.
-void warn_of_unproven_poses(const Registration& registration, const std::vector<WorkingView>& views,
-                            bool are_refined, FusedScene& scene) {
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const std::string camera = "camera " + views[i].id;
-    switch (registration.views[i].fit) {
-      case ViewFit::kFits:
-        break;
-      case ViewFit::kDoesNotFit:
-        scene.warnings.push_back(camera + " does not agree with the others" +
-                                 (are_refined ? " and was left out" : "") +
-                                 ": see to its pose and its lens, and that nothing is before it");
-        break;
-      case ViewFit::kSlides:
-        scene.warnings.push_back(camera +
-                                 " shares with the others only what it could slide along, such as "
-                                 "the platform: its pose is not checked, and no interval knows of "
-                                 "it; let another camera see the skin between");
-        break;
-      case ViewFit::kAlone:
-        if (views.size() < 2) break;
-        scene.warnings.push_back(
-            camera +
-            " shares no surface with the others: its pose is not checked, and no "
-            "interval knows of it; let another camera see the skin between");
-    }
-  }
-}
-
-/// One camera that is off makes all others seem so: the one that has to move furthest is named.
-void warn_of_wrong_poses(const Registration& registration, const std::vector<WorkingView>& views,
-                         bool are_refined, FusedScene& scene) {
-  double& off_mm = scene.diagnostics.poses_off_mm;
-  std::size_t furthest = 0;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto& view = registration.views[i];
-    if (view.fit == ViewFit::kDoesNotFit) continue;  // which is said of it
-    off_mm = std::max(off_mm, view.taken_away_mm);
-    if (view.moved_mm > registration.views[furthest].moved_mm) furthest = i;
-  }
-  if (off_mm < (are_refined ? kWorthMendingMm : kDisagreementMm)) return;
-  scene.warnings.push_back(
-      "by the given poses, camera " + views[furthest].id + " before others, the same skin lies " +
-      in_millimetres(off_mm) + " apart in two views: " +
-      (are_refined ? "they were refined; if they should be right, a camera was moved, or its lens "
-                     "or depth is off, of which no interval knows"
-                   : "no interval knows of that; let them be refined (refine_views = true in the "
-                     "settings, --poses refine)"));
-}
-
-/// What no pose explains: the intervals know of the points' noise only.
-void warn_of_the_unexplained(const Registration& registration, FusedScene& scene) {
-  if (registration.unexplained_after_mm < kWorthSayingMm) return;
-  scene.warnings.push_back("what two cameras see of the same skin lies " +
-                           in_millimetres(registration.unexplained_after_mm) +
-                           " apart, however they are fitted to each other, and no interval knows "
-                           "of that: their lenses or depths are off, the foot moved between them, "
-                           "or they are noisier than so few frames tell");
-}
-
-/// Refines the poses, or else says whether they are right.
-Result<void> check_poses(std::vector<WorkingView>& views, const FusionSettings& settings,
-                         const Work& work, FusedScene& scene) {
-  const auto registration = fit_to_each_other(views, settings, work);
-  if (!registration) return tl::make_unexpected(registration.error());
-  const bool are_refined = settings.refine_views;
-  warn_of_unproven_poses(*registration, views, are_refined, scene);
-  warn_of_wrong_poses(*registration, views, are_refined, scene);
-  warn_of_the_unexplained(*registration, scene);
-  auto& figures = scene.diagnostics;
-  figures.registration_before_mm = registration->residual_before_mm;
-  figures.registration_after_mm =
-      are_refined ? registration->residual_after_mm : registration->residual_before_mm;
-  figures.unexplained_mm =
-      are_refined ? registration->unexplained_after_mm : registration->unexplained_before_mm;
-  if (are_refined) move_to_fit(*registration, views);
-  return {};
 }
 
 /// Finds the platform and turns the station until it is level. Without one the lowest points stand
@@ -307,11 +184,23 @@ void estimate_standing_height(const std::vector<ViewedCloud>& feet, FusedScene& 
       "no camera saw the platform; its height is taken from the lowest points of the feet");
 }
 
-void finish_foot(const ViewedCloud& points, const FusionSettings& settings, FusedScene& scene) {
+/// The errors of the views, as they tell on a foot in the middle of the cloud.
+std::vector<ViewErrors> errors_of(const std::vector<WorkingView>& views, const PointCloud& foot) {
+  std::vector<ViewErrors> errors;
+  for (const auto& view : views) errors.push_back({view.errors, view.station_from_camera});
+  Vector3d centre = Vector3d::Zero();
+  for (const auto& point : foot.positions) centre += point;
+  take_common_motion_out(centre / static_cast<double>(foot.size()), errors);
+  return errors;
+}
+
+void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& views,
+                 const FusionSettings& settings, FusedScene& scene) {
   ThinSettings thinning;
   thinning.spacing_mm = settings.point_spacing_mm;
   thinning.pose_sigma_mm = scene.diagnostics.unexplained_mm / std::numbers::sqrt2;  // of each view
-  PointCloud foot = thin(points, thinning);
+  auto [foot, shares] = thin(points, thinning);
+  foot.shared_errors_mm = shared_errors_of(foot, shares, errors_of(views, foot));
   const std::string name = "foot " + std::to_string(scene.feet.size() + 1);
   const double coverage = coverage_of(foot);
   scene.diagnostics.points.push_back(foot.size());
@@ -348,7 +237,7 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
     return fail(ErrorCode::kInsufficientData, "no camera saw anything near the platform",
                 "check that nothing covers the cameras and that they point at the platform");
   }
-  const auto checked = check_poses(working, settings, work, scene);
+  const auto checked = check_poses(settings, workers, go_on, working, scene);
   if (!checked) return tl::make_unexpected(checked.error());
   scene.diagnostics.views_used = working.size();
   find_standing_plane(working, settings, scene);
@@ -365,7 +254,7 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   }
   if (!scene.diagnostics.platform_found) estimate_standing_height(feet, scene);
   for (const auto& foot : feet) {
-    finish_foot(foot, settings, scene);
+    finish_foot(foot, working, settings, scene);
     if (!go_on()) return cancelled();
   }
   return scene;

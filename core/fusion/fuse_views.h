@@ -36,8 +36,8 @@ struct View {
 struct FusionSettings {
   double point_spacing_mm = 1.0;
   std::optional<double> platform_height_mm;  ///< z of the standing surface, station frame
-  /// Fit the views to each other; else the given poses are trusted, with a warning if they are
-  /// wrong.
+  /// Fit the views to each other, their poses and by how much their lenses stretch what they see;
+  /// else both are trusted, with a warning if poses are wrong.
   bool refine_views = true;
   bool close_soles = true;
   double foot_ceiling_mm = 150.0;  ///< points higher above the platform are leg and are cut
@@ -75,6 +75,7 @@ struct FusionDiagnostics {
   /// Of the distances between the views, what the noise of the points does not explain, one sigma.
   double unexplained_mm = 0.0;
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
+  double lenses_off = 0.0;    ///< of the view that was stretched most, by what share
   std::vector<std::size_t> points;           ///< of each foot, platform points not counted
   std::vector<double> coverage;              ///< of each foot: share of directions round it seen
   std::vector<std::size_t> platform_points;  ///< put under each foot
@@ -90,7 +91,8 @@ struct FusedScene {
 };
 
 /// From one depth image a camera to the clouds of the feet, each with normals, sigma, view
-/// directions and origins. Pure computation; the same views give the same bytes. What concerns one
+/// directions, origins and, where the views were refined, the errors that are left of their poses
+/// and lenses (PointCloud::shared_errors_mm). Pure computation; the same views give the same bytes. What concerns one
 /// view alone is a job of its own for `workers`, the rest runs on the calling thread. `go_on` hears
 /// of each view, each iteration of the registration, and each stage.
 ///

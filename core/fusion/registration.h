@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/geometry/point_cloud.h"
+#include "core/fusion/shared_errors.h"
+#include "core/fusion/view_equations.h"
+#include "core/fusion/view_matches.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"
 #include "core/result.h"
@@ -16,9 +18,7 @@ struct RegistrationSettings {
   int iterations = 40;
   std::size_t queries = 4000;   ///< points of a view that look for a match; a quarter at first
   std::size_t targets = 10000;  ///< points of a view that can be matched
-  /// How ill the given poses may be known: holds what the surfaces leave open.
-  double pose_sigma_mm = 15.0;
-  double pose_sigma_deg = 3.0;
+  ExpectedErrors expected;      ///< holds what the surfaces leave open
   double most_shift_mm = 60.0;  ///< a view that wants to go further does not fit
   double most_turn_deg = 12.0;
   double least_overlap = 0.05;    ///< share of a view's queries with a match
@@ -33,13 +33,20 @@ enum class ViewFit {
 };
 
 struct RegisteredView {
-  RigidTransform correction = RigidTransform::Identity();  ///< new station from given station
+  /// New station from given station, after the depths of the view have been multiplied by 1 +
+  /// deeper and what lies across them by 1 + wider.
+  RigidTransform correction = RigidTransform::Identity();
+  double deeper = 0.0;
+  double wider = 0.0;
+  /// What is left unknown of that: turns, shifts and stretches of what the camera sees, as moved
+  /// and stretched, in its frame.
+  std::vector<ErrorField> errors;
   ViewFit fit = ViewFit::kAlone;
   double moved_mm = 0.0;     ///< how far that moves a point of a foot, at most
   double overlap = 0.0;      ///< share of its queries with a match
   double residual_mm = 0.0;  ///< median distance to the matched surfaces, after
-  /// Of the distances to them by the given poses, what the correction took away where it
-  /// shows: the error of the given poses across the skin, without the noise of the points.
+  /// Of the distances to them by the given poses, what the correction of the poses took away where
+  /// it shows: their error across the skin, without the noise of the points.
   double taken_away_mm = 0.0;
 };
 
@@ -49,27 +56,32 @@ struct Registration {
   double residual_before_mm = 0.0;
   double residual_after_mm = 0.0;
   /// What the noise of the points does not explain of the distances, one sigma: errors of the
-  /// poses, lenses and depths.
+  /// poses, lenses and depths before, bent depths and the like after.
   double unexplained_before_mm = 0.0;
   double unexplained_after_mm = 0.0;
 };
 
-/// Moves views against each other until their surfaces agree: all poses at once, each iteration
-/// matching every view with every other and taking one Gauss-Newton step on the point-to-plane
+/// Moves and stretches views against each other until their surfaces agree: all at once, each
+/// iteration matching every view with every other and taking one Gauss-Newton step on the point-to-plane
 /// distances (Chen and Medioni 1992; normals of both sides, Rusinkiewicz 2019), each weighed by its
 /// noise, with Tukey weights whose reach shrinks from first_reach_mm to last_reach_mm. Views whose
 /// result breaks a limit are marked kDoesNotFit, get no correction, and the others are solved again
 /// without them.
 ///
-/// The given poses weigh too, twice over: first as ill known as the settings say, then as the
-/// overlaps have shown them to be. So right poses stay what they are, and wrong ones do not drift
-/// where views hardly overlap. Errors of lenses and depths are not told from those of poses: where
-/// they are, the views agree and the body between them has a wrong size.
+/// The given poses and lenses weigh too, twice over: first as ill known as the settings say, then
+/// as the overlaps have shown them to be (of lenses by a few rounds of Dempster, Laird and Rubin's
+/// EM, 1977). So right ones stay what they are, and wrong ones do not drift where views hardly
+/// overlap. A stretch is counted about the middle of what a view sees, not about its camera: a
+/// wrong distance is a matter of the pose, for poses are found by the same lenses. What is common
+/// to all views, the size of all together, is known by the given lenses alone.
+///
+/// What is left unknown is told with each view: the covariance of the step, in which neighbouring
+/// matches count as far fewer independent ones, turned into independent errors of all views.
 ///
 /// Clouds are given in the station frame and need normals, sigma and view directions; one without
 /// is kAlone. Deterministic. Costs some 150 ms for 4 views of good poses; each iteration is a piece
 /// of the work for `go_on`. Fails with kCancelled alone.
-Result<Registration> register_views(const std::vector<PointCloud>& views,
+Result<Registration> register_views(const std::vector<PosedCloud>& views,
                                     const RegistrationSettings& settings = {},
                                     const GoOn& go_on = always);
 

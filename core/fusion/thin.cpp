@@ -32,9 +32,12 @@ class Thinning {
         settings_(settings),
         grid_(points.cloud.positions, reach(points.cloud.sigma_mm, settings.spacing_mm)) {}
 
-  PointCloud run() {
+  ThinnedCloud run() {
     choose_and_assign();
-    PointCloud thinned;
+    ThinnedCloud thinned;
+    const std::uint16_t last_view = *std::max_element(views_.begin(), views_.end());
+    thinned.shares =
+        Eigen::MatrixXd::Zero(last_view + 1, static_cast<Eigen::Index>(chosen_.size()));
     for (std::size_t i = 0; i < chosen_.size(); ++i) add_mean(i, thinned);
     return thinned;
   }
@@ -86,7 +89,7 @@ class Thinning {
     }
   }
 
-  void add_mean(std::size_t number, PointCloud& thinned) const {
+  void add_mean(std::size_t number, ThinnedCloud& thinned) const {
     const std::size_t chosen = chosen_[number];
     const Vector3d& origin = points_.positions[chosen];
     const Vector3d& chosen_normal = points_.normals[chosen];
@@ -110,11 +113,12 @@ class Thinning {
       mean.variance += weight * variance;
       mean.count += 1.0;
     }
-    const auto [height, sigma] = joined(by_view);
-    thinned.positions.push_back(origin + along / weights + height * chosen_normal);
-    thinned.normals.push_back(normal.normalized());
-    thinned.view_directions.push_back(view.normalized());
-    thinned.sigma_mm.push_back(sigma);
+    const auto [height, sigma] =
+        joined(by_view, thinned.shares.col(static_cast<Eigen::Index>(number)));
+    thinned.cloud.positions.push_back(origin + along / weights + height * chosen_normal);
+    thinned.cloud.normals.push_back(normal.normalized());
+    thinned.cloud.view_directions.push_back(view.normalized());
+    thinned.cloud.sigma_mm.push_back(sigma);
   }
 
   static ViewMean& mean_of(std::vector<std::pair<std::uint16_t, ViewMean>>& by_view,
@@ -125,9 +129,9 @@ class Thinning {
     return by_view.emplace_back(view, ViewMean{}).second;
   }
 
-  /// Mean height of the views and its sigma.
-  std::pair<double, double> joined(
-      const std::vector<std::pair<std::uint16_t, ViewMean>>& by_view) const {
+  /// Mean height of the views and its sigma, and how much each view counts.
+  std::pair<double, double> joined(const std::vector<std::pair<std::uint16_t, ViewMean>>& by_view,
+                                   Eigen::Ref<Eigen::VectorXd> shares) const {
     const double shared = settings_.correlated_share * settings_.correlated_share;
     const double pose = settings_.pose_sigma_mm * settings_.pose_sigma_mm;
     double weights = 0.0;
@@ -138,10 +142,12 @@ class Thinning {
       const double variance = single * ((1.0 - shared) / mean.count + shared) + pose;
       const double view_height = mean.height / mean.weight;
       weights += 1.0 / variance;
+      shares(view) = 1.0 / variance;
       height += view_height / variance;
       squares += view_height * view_height / variance;
     }
     height /= weights;
+    shares /= weights;
     // Views that disagree by more than their sigmas say (Birge's ratio) are trusted less.
     const double freedom = static_cast<double>(by_view.size()) - 1.0;
     const double chi2 = std::max(0.0, squares - height * height * weights);
@@ -166,7 +172,7 @@ ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& in
   return part;
 }
 
-PointCloud thin(const ViewedCloud& points, const ThinSettings& settings) {
+ThinnedCloud thin(const ViewedCloud& points, const ThinSettings& settings) {
   if (points.cloud.empty()) return {};
   return Thinning(points, settings).run();
 }

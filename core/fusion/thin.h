@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,6 +26,11 @@ struct ViewedCloud {
 
 ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& indices);
 
+struct ThinnedCloud {
+  PointCloud cloud;
+  Eigen::MatrixXd shares;  ///< how much each view (row) counts in each point (column); sum 1
+};
+
 /// Fewer points, each standing for the disc of radius `spacing_mm` round it: of the given points
 /// some are chosen that keep this distance on the surface, and each takes the mean of the points
 /// nearest to it. Heights are averaged along the mean of both normals, which follows the curvature
@@ -32,6 +38,6 @@ ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& in
 ///
 /// Sigma is what is left after averaging: within a view the independent part only, then the views
 /// by inverse variance, never less than the views disagree. Deterministic; some 1 us a point.
-PointCloud thin(const ViewedCloud& points, const ThinSettings& settings);
+ThinnedCloud thin(const ViewedCloud& points, const ThinSettings& settings);
 
 }  // namespace instep

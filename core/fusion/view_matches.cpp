@@ -37,9 +37,10 @@ void match_pair(const std::vector<MovingView>& views, std::size_t view, std::siz
                 double reach, std::size_t stride, std::vector<ViewMatch>& matches) {
   const auto& source = views[view];
   const auto& target = views[other];
-  const RigidTransform other_from_view = target.correction.inverse() * source.correction;
+  const Eigen::Affine3d station_from_other = target.correction();
+  const Eigen::Affine3d other_from_view = station_from_other.inverse() * source.correction();
   for (std::size_t i = 0; i < source.queries.size(); i += stride) {
-    const Vector3d normal = other_from_view.linear() * source.queries.normals[i];
+    const Vector3d normal = (other_from_view.linear() * source.queries.normals[i]).normalized();
     if (normal.dot(target.towards_camera) < kLeastViewCosine) continue;
     const Vector3d point = other_from_view * source.queries.positions[i];
     const auto found = target.index->nearest(point, 1);
@@ -51,33 +52,48 @@ void match_pair(const std::vector<MovingView>& views, std::size_t view, std::siz
     const double variance = std::pow(source.queries.sigma_mm[i], 2) +
                             std::pow(target.targets.sigma_mm[found[0].index], 2) +
                             kLeastSigmaMm * kLeastSigmaMm;
-    matches.push_back({view, other, i, target.correction * point,
-                       target.correction.linear() * middle, middle.dot(point - partner), variance});
+    matches.push_back({view, other, i, station_from_other * point,
+                       station_from_other.linear() * middle, middle.dot(point - partner),
+                       variance});
   }
 }
 
-/// What the corrections took away from the distance of a match.
+/// What the corrections of poses took away from the distance of a match.
 double taken_away(const std::vector<MovingView>& views, const ViewMatch& match) {
   const Vector3d foot = match.point - match.distance * match.normal;
-  const Vector3d given = views[match.view].correction.inverse() * match.point -
-                         views[match.other].correction.inverse() * foot;
+  const Vector3d given = views[match.view].pose_correction.inverse() * match.point -
+                         views[match.other].pose_correction.inverse() * foot;
   return match.normal.dot(given) - match.distance;
 }
 
 }  // namespace
 
-std::vector<MovingView> moving_views(const std::vector<PointCloud>& views, std::size_t queries,
+Eigen::Matrix3d MovingView::stretch() const {
+  const Vector3d axis = optical_axis();
+  return (1.0 + wider) * Eigen::Matrix3d::Identity() + (deeper - wider) * axis * axis.transpose();
+}
+
+Eigen::Affine3d MovingView::correction() const {
+  Eigen::Affine3d stretched;
+  stretched.linear() = stretch();
+  stretched.translation() = centroid - stretched.linear() * centroid;
+  return pose_correction * stretched;
+}
+
+std::vector<MovingView> moving_views(const std::vector<PosedCloud>& views, std::size_t queries,
                                      std::size_t targets) {
   std::vector<MovingView> moving(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const bool can_be_matched = !views[i].empty() && views[i].has_normals() &&
-                                views[i].has_sigma() && !views[i].view_directions.empty();
+    const auto& [cloud, station_from_camera] = views[i];
+    const bool can_be_matched = !cloud.empty() && cloud.has_normals() && cloud.has_sigma() &&
+                                !cloud.view_directions.empty();
     if (!can_be_matched) continue;
-    moving[i].queries = even_subset(views[i], queries);
-    moving[i].targets = even_subset(views[i], targets);
+    moving[i].queries = even_subset(cloud, queries);
+    moving[i].targets = even_subset(cloud, targets);
     moving[i].index = std::make_unique<PointIndex>(moving[i].targets.positions);
     moving[i].centroid = mean(moving[i].targets.positions);
     moving[i].towards_camera = mean(moving[i].targets.view_directions).normalized();
+    moving[i].station_from_camera = station_from_camera;
     moving[i].taking_part = true;
   }
   return moving;

@@ -25,7 +25,7 @@ Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings)
     return fail(ErrorCode::kInvalidInput, "the pose of camera " + geometry.id + " is not sound",
                 "calibrate the station");
   }
-  WorkingView working{geometry.id, rays, depth, geometry.station_from_camera};
+  WorkingView working{geometry.id, rays, depth, geometry.station_from_camera, {}};
   if (!working.rays) {
     auto made = Deprojector::create(geometry.intrinsics);
     if (!made) {

@@ -8,6 +8,7 @@
 
 #include "core/fusion/fuse_views.h"
 #include "core/fusion/seen_through.h"
+#include "core/fusion/shared_errors.h"
 #include "core/geometry/rigid_transform.h"
 
 namespace instep {
@@ -18,8 +19,9 @@ struct WorkingView {
   std::shared_ptr<const Deprojector> rays;
   FusedDepth depth;
   RigidTransform station_from_camera;
-  std::size_t pixels = 0;         ///< with data, as it came
-  std::size_t flying_pixels = 0;  ///< dropped
+  std::vector<ErrorField> errors;  ///< that all of it shares, in the camera's frame
+  std::size_t pixels = 0;          ///< with data, as it came
+  std::size_t flying_pixels = 0;   ///< dropped
 
   Eigen::Vector3d in_station(std::size_t pixel) const {
     const Eigen::Vector3f own = rays->ray(pixel) * depth.depth_mm[pixel];

@@ -60,7 +60,10 @@ bool PointCloud::stands_on_platform() const {
 }
 
 bool PointCloud::is_consistent() const {
-  return empty_or_sized(normals, size()) && empty_or_sized(sigma_mm, size()) &&
+  const bool are_errors_sized =
+      std::all_of(shared_errors_mm.begin(), shared_errors_mm.end(),
+                  [this](const auto& error) { return error.size() == size(); });
+  return are_errors_sized && empty_or_sized(normals, size()) && empty_or_sized(sigma_mm, size()) &&
          empty_or_sized(view_directions, size()) && empty_or_sized(origins, size());
 }
 
@@ -73,10 +76,16 @@ void PointCloud::append(const PointCloud& other) {
       origins.push_back(other.was_seen(i) ? PointOrigin::kSeen : other.origins[i]);
     }
   }
+  for (auto& error : shared_errors_mm) error.resize(size() + other.size(), 0.0);
+  for (const auto& error : other.shared_errors_mm) {
+    shared_errors_mm.emplace_back(size(), 0.0);
+    shared_errors_mm.back().insert(shared_errors_mm.back().end(), error.begin(), error.end());
+  }
   append_list(normals, other.normals, was_empty);
   append_list(sigma_mm, other.sigma_mm, was_empty);
   append_list(view_directions, other.view_directions, was_empty);
   positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+  if (normals.empty()) shared_errors_mm.clear();
 }
 
 PointCloud PointCloud::subset(const std::vector<std::size_t>& indices) const {
@@ -86,6 +95,9 @@ PointCloud PointCloud::subset(const std::vector<std::size_t>& indices) const {
   part.sigma_mm = picked(sigma_mm, indices);
   part.view_directions = picked(view_directions, indices);
   part.origins = picked(origins, indices);
+  for (const auto& error : shared_errors_mm) {
+    part.shared_errors_mm.push_back(picked(error, indices));
+  }
   return part;
 }
 

@@ -37,6 +37,11 @@ struct PointCloud {
   /// Empty means that all points were seen.
   std::vector<PointOrigin> origins;
 
+  /// Errors that many points share, such as what is unknown of a camera's pose: one list for each,
+  /// of how far it moves the points along their normals, one sigma. They are independent of each
+  /// other and of the noise that sigma_mm tells of. Only clouds with normals have any.
+  std::vector<std::vector<double>> shared_errors_mm;
+
   std::size_t size() const { return positions.size(); }
   bool empty() const { return positions.empty(); }
   bool has_normals() const { return !normals.empty(); }
@@ -50,7 +55,8 @@ struct PointCloud {
   bool is_consistent() const;
 
   /// Adds the points of `other`. A list that only one of the two knows is dropped, but `origins`,
-  /// whose absence has a meaning.
+  /// whose absence has a meaning, and
+  /// shared errors, which are those of one cloud alone.
   void append(const PointCloud& other);
 
   /// The points at `indices`, in that order, with all that is known of them.

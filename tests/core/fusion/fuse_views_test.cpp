@@ -178,6 +178,30 @@ TEST(FuseViews, SaysThatPosesAreWrong) {
   EXPECT_NE(warnings_of(views, true).find("they were refined"), std::string::npos);
 }
 
+TEST(FuseViews, NamesTheCameraWhoseLensIsOff) {
+  EXPECT_EQ(warnings_of(good_views(), true).find("of its size"), std::string::npos);
+  auto views = good_views();
+  views[2].geometry.intrinsics.fx *= 1.01;
+  views[2].geometry.intrinsics.fy *= 1.01;
+  EXPECT_NE(warnings_of(views, true).find("what camera camera2 sees"), std::string::npos)
+      << warnings_of(views, true);
+}
+
+TEST(FuseViews, TellsTheErrorsThatAreLeftOfPosesAndLenses) {
+  const auto refined = fuse_views(good_views(), at_zero());
+  ASSERT_TRUE(refined);
+  for (const auto& foot : refined->feet) {
+    EXPECT_TRUE(foot.is_consistent());
+    EXPECT_GE(foot.shared_errors_mm.size(), 2U);
+    EXPECT_LE(foot.shared_errors_mm.size(), 32U);
+  }
+  auto trusting = at_zero();
+  trusting.refine_views = false;
+  const auto trusted = fuse_views(good_views(), trusting);
+  ASSERT_TRUE(trusted);
+  for (const auto& foot : trusted->feet) EXPECT_TRUE(foot.shared_errors_mm.empty());
+}
+
 /// Two cameras on opposite sides see one platform, and no skin that both see.
 TEST(FuseViews, SaysThatAViewCouldSlide) {
   const std::vector<View> opposite = {good_views()[0], good_views()[2]};
@@ -188,7 +212,7 @@ TEST(FuseViews, SaysThatAViewCouldSlide) {
 }
 
 TEST(FuseViews, SaysWhatNoPoseExplains) {
-  EXPECT_EQ(warnings_of(good_views(), true).find("lenses or depths"), std::string::npos);
+  EXPECT_EQ(warnings_of(good_views(), true).find("depths are bent"), std::string::npos);
   auto views = good_views();
   auto& depth = views[1].depth;
   for (int y = 0; y < depth.height; ++y) {  // bent, as by a wrong lens
@@ -197,7 +221,7 @@ TEST(FuseViews, SaysWhatNoPoseExplains) {
       if (millimetres > 0.0F) millimetres += static_cast<float>(5.0 * std::sin(0.04 * x));
     }
   }
-  EXPECT_NE(warnings_of(views, true).find("lenses or depths"), std::string::npos);
+  EXPECT_NE(warnings_of(views, true).find("depths are bent"), std::string::npos);
 }
 
 TEST(FuseViews, NamesACameraThatSawNothing) {

@@ -23,8 +23,8 @@ Surfaces two_feet() {
 }
 
 /// What each camera of a ring sees, in the station frame.
-std::vector<PointCloud> seen_by(const std::vector<CameraGeometry>& cameras, double axial_per_mm) {
-  std::vector<PointCloud> clouds;
+std::vector<PosedCloud> seen_by(const std::vector<CameraGeometry>& cameras, double axial_per_mm) {
+  std::vector<PosedCloud> clouds;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     auto depth = *fuse_frames({render(cameras[i], two_feet(), {axial_per_mm, 0, 0}, i + 1, 0.1)});
     drop_flying_pixels(cameras[i].intrinsics, {}, depth);
@@ -32,9 +32,9 @@ std::vector<PointCloud> seen_by(const std::vector<CameraGeometry>& cameras, doub
     for (std::uint32_t p = 0; p < depth.depth_mm.size(); p += 3) {
       if (depth.depth_mm[p] > 0.0F) pixels.push_back(p);
     }
-    clouds.push_back(transformed(
-        cameras[i].station_from_camera,
-        surface_points(*Deprojector::create(cameras[i].intrinsics), depth, pixels, {})));
+    const RigidTransform& pose = cameras[i].station_from_camera;
+    const auto rays = *Deprojector::create(cameras[i].intrinsics);
+    clouds.push_back({transformed(pose, surface_points(rays, depth, pixels, {})), pose});
   }
   return clouds;
 }
@@ -46,6 +46,11 @@ std::vector<CameraGeometry> small_ring(int count) {
                                240, 288);
   }
   return cameras;
+}
+
+/// As seen by a camera that is said to stand elsewhere.
+PosedCloud moved_by(const RigidTransform& transform, const PosedCloud& view) {
+  return {transformed(transform, view.cloud), transform * view.station_from_camera};
 }
 
 /// A turn of `degrees` about the middle of the scene and a shift of `shift_mm`, in some direction.
@@ -78,11 +83,11 @@ TEST(RegisterViews, RecoversPosesThatAreOffByTenMillimetresAndFourDegrees) {
   const auto truth = seen_by(small_ring(4), 1.0e-6);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     std::mt19937_64 random(seed);
-    std::vector<PointCloud> moved;
+    std::vector<PosedCloud> moved;
     std::vector<RigidTransform> given;
     for (const auto& cloud : truth) {
       given.push_back(disturbance(random, 10, 4));
-      moved.push_back(transformed(given.back(), cloud));
+      moved.push_back(moved_by(given.back(), cloud));
     }
     const auto registration = register_views(moved).value();
     std::vector<RigidTransform> refined;
@@ -115,7 +120,7 @@ TEST(RegisterViews, BringsBackAViewThatSlidAlongThePlatform) {
     RigidTransform slide = RigidTransform::Identity();
     slide.translation() = Vector3d(0, slid_mm, 0);
     auto slid = clouds;
-    slid[1] = transformed(slide, clouds[1]);
+    slid[1] = moved_by(slide, clouds[1]);
     const auto registration = register_views(slid).value();
     std::vector<RigidTransform> refined;
     for (std::size_t i = 0; i < slid.size(); ++i) {
@@ -132,17 +137,125 @@ TEST(RegisterViews, TellsPosesFromNoise) {
   const auto clouds = seen_by(small_ring(4), 1.0e-6);
   const auto right = register_views(clouds).value();
   std::mt19937_64 random(1);
-  std::vector<PointCloud> moved;
-  for (const auto& cloud : clouds) moved.push_back(transformed(disturbance(random, 5, 1.0), cloud));
+  std::vector<PosedCloud> moved;
+  for (const auto& cloud : clouds) moved.push_back(moved_by(disturbance(random, 5, 1.0), cloud));
   const auto wrong = register_views(moved).value();
   EXPECT_LT(right.unexplained_before_mm, 0.2);
   EXPECT_GT(wrong.unexplained_before_mm, 0.5);
   EXPECT_NEAR(wrong.unexplained_after_mm, right.unexplained_after_mm, 0.05);
 }
 
+/// As by a lens and a unit of depth that are off: larger by this share than it is.
+PosedCloud larger_by(double share, const PosedCloud& view) {
+  PosedCloud stretched = view;
+  const Vector3d camera = view.station_from_camera.translation();
+  for (auto& point : stretched.cloud.positions) point += share * (point - camera);
+  return stretched;
+}
+
+/// How a point of the scene comes out of a view that was spoilt and registered.
+struct ComesOut {
+  RigidTransform given;  ///< by which its pose is off
+  double share = 0.0;    ///< by which it is too large
+  RigidTransform true_pose;
+  RegisteredView found;
+
+  RigidTransform pose() const { return found.correction * given * true_pose; }
+  Vector3d operator()(const Vector3d& place) const {
+    const Vector3d seen = (1.0 + share) * (true_pose.inverse() * place);
+    const double wide = 1.0 + found.wider;
+    return pose() * Vector3d(wide * seen.x(), wide * seen.y(), (1.0 + found.deeper) * seen.z());
+  }
+  /// How far one of the errors that are told moves it.
+  Vector3d displacement(const Vector3d& place, std::size_t error) const {
+    const RigidTransform camera = pose();
+    return camera.linear() * (found.errors[error] * (camera.inverse() * place).homogeneous());
+  }
+};
+
+std::vector<ComesOut> spoilt_and_registered(const std::vector<PosedCloud>& truth,
+                                            const std::vector<double>& shares, std::uint64_t seed,
+                                            const RegistrationSettings& settings = {}) {
+  std::mt19937_64 random(seed);
+  std::vector<PosedCloud> seen;
+  std::vector<ComesOut> views;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    views.push_back({disturbance(random, 1, 0.2), shares[i], truth[i].station_from_camera, {}});
+    seen.push_back(moved_by(views[i].given, larger_by(shares[i], truth[i])));
+  }
+  const auto registration = register_views(seen, settings).value();
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].found = registration.views[i];
+  return views;
+}
+
+/// By how much the length between two places of the scene is off, each as another view has it.
+struct LengthError {
+  double off_mm = 0.0;
+  double sigma_mm = 0.0;  ///< as told
+};
+
+std::vector<LengthError> length_errors(const std::vector<ComesOut>& views) {
+  std::vector<LengthError> errors;
+  for (const auto& [from, to] : {std::pair(Vector3d(0, 100, 25), Vector3d(0, -100, 25)),
+                                 std::pair(Vector3d(120, 60, 25), Vector3d(-110, -60, 40))}) {
+    const Vector3d along = (to - from).normalized();
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const auto& a = views[i];
+      const auto& b = views[(i + 2) % views.size()];
+      double variance = 0.0;
+      for (std::size_t e = 0; e < a.found.errors.size(); ++e) {
+        variance += std::pow(along.dot(b.displacement(to, e) - a.displacement(from, e)), 2);
+      }
+      errors.push_back({(b(to) - a(from)).norm() - (to - from).norm(), std::sqrt(variance)});
+    }
+  }
+  return errors;
+}
+
+double root_mean_square(const std::vector<LengthError>& errors) {
+  double squares = 0.0;
+  for (const auto& error : errors) squares += error.off_mm * error.off_mm;
+  return std::sqrt(squares / static_cast<double>(errors.size()));
+}
+
+TEST(RegisterViews, FindsLensesThatAreOffAndPosesWithThem) {
+  const auto truth = seen_by(small_ring(4), 1.0e-6);
+  const std::vector<double> shares = {0.006, -0.006, 0.005, -0.005};
+  const auto found = spoilt_and_registered(truth, shares, 3);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    // Less than it is, for it is three times as much as is expected.
+    EXPECT_NEAR(found[i].found.deeper / -shares[i], 0.5, 0.2) << i;
+    EXPECT_NEAR(found[i].found.wider / -shares[i], 0.8, 0.2) << i;
+  }
+  RegistrationSettings exact;
+  exact.expected.lens = 0.0;
+  const auto by_poses_alone = spoilt_and_registered(truth, shares, 3, exact);
+  EXPECT_NEAR(by_poses_alone[0].found.wider, 0.0, 1e-9);
+  EXPECT_LT(root_mean_square(length_errors(found)),
+            0.5 * root_mean_square(length_errors(by_poses_alone)));
+}
+
+TEST(RegisterViews, TellsWhatIsLeftUnknown) {
+  const auto truth = seen_by(small_ring(4), 1.0e-6);
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    std::mt19937_64 random(seed + 100);
+    std::normal_distribution<double> normal(0.0, 2e-3);
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < truth.size(); ++i) shares.push_back(normal(random));
+    for (const auto& error : length_errors(spoilt_and_registered(truth, shares, seed))) {
+      squares += std::pow(error.off_mm / error.sigma_mm, 2);
+      count += 1.0;
+    }
+  }
+  EXPECT_LT(std::sqrt(squares / count), 1.4);
+  EXPECT_GT(std::sqrt(squares / count), 0.3);
+}
+
 TEST(RegisterViews, LeavesOutAViewThatDoesNotFit) {
   auto clouds = seen_by(small_ring(5), 1.0e-6);
-  for (auto& point : clouds[2].positions) {  // bent, as by a wrong lens
+  for (auto& point : clouds[2].cloud.positions) {  // bent, as by a wrong lens
     point.z() += 15.0 * std::sin(0.05 * point.x()) + 10.0 * std::sin(0.06 * point.y());
   }
   const auto registration = register_views(clouds).value();
@@ -157,7 +270,7 @@ TEST(RegisterViews, LeavesOutAViewThatDoesNotFit) {
 /// A bent view spoils what its neighbours seem to be: they are judged again without it.
 TEST(RegisterViews, LeavesOutNoViewForAnothersSake) {
   auto clouds = seen_by(small_ring(4), 1.0e-6);
-  for (auto& point : clouds[2].positions) {
+  for (auto& point : clouds[2].cloud.positions) {
     point.z() += 25.0 * std::sin(0.05 * point.x()) + 25.0 * std::sin(0.06 * point.y());
   }
   RegistrationSettings settings;
@@ -174,7 +287,7 @@ TEST(RegisterViews, RefusesToMoveAViewBeyondTheLimit) {
   auto clouds = seen_by(small_ring(4), 1.0e-6);
   RigidTransform shift = RigidTransform::Identity();
   shift.translation() = Vector3d(0, 0, 18);
-  clouds[1] = transformed(shift, clouds[1]);
+  clouds[1] = moved_by(shift, clouds[1]);
   RegistrationSettings settings;
   settings.most_shift_mm = 6.0;
   const auto registration = register_views(clouds, settings).value();
@@ -185,7 +298,7 @@ TEST(RegisterViews, SaysWhichViewsShareNothing) {
   auto clouds = seen_by(small_ring(4), 1.0e-6);
   RigidTransform away = RigidTransform::Identity();
   away.translation() = Vector3d(3000, 0, 0);
-  clouds[3] = transformed(away, clouds[3]);
+  clouds[3] = moved_by(away, clouds[3]);
   clouds.push_back({});
   const auto registration = register_views(clouds).value();
   EXPECT_EQ(registration.views[3].fit, ViewFit::kAlone);

@@ -57,6 +57,29 @@ TEST(PointCloud, SubsetTakesAllThatIsKnown) {
   EXPECT_EQ(part.sigma_mm[0], 0.2);
 }
 
+TEST(PointCloud, KeepsTheSharedErrorsOfEachPartApart) {
+  PointCloud cloud = two_points();
+  cloud.shared_errors_mm = {{0.5, 0.6}};
+  PointCloud other = two_points();
+  other.shared_errors_mm = {{0.7, 0.8}};
+  cloud.append(other);
+  cloud.append(two_points());
+  ASSERT_TRUE(cloud.is_consistent());
+  const std::vector<std::vector<double>> expected = {{0.5, 0.6, 0, 0, 0, 0},
+                                                     {0, 0, 0.7, 0.8, 0, 0}};
+  EXPECT_EQ(cloud.shared_errors_mm, expected);
+  const PointCloud part = cloud.subset({1, 3});
+  EXPECT_EQ(part.shared_errors_mm, (std::vector<std::vector<double>>{{0.6, 0}, {0, 0.8}}));
+  PointCloud bare;
+  bare.positions = {{7, 8, 9}};
+  cloud.append(bare);
+  EXPECT_TRUE(cloud.shared_errors_mm.empty()) << "along what normals?";
+  EXPECT_TRUE(cloud.is_consistent());
+  cloud = two_points();
+  cloud.shared_errors_mm = {{0.5}};
+  EXPECT_FALSE(cloud.is_consistent());
+}
+
 TEST(PointCloud, TurnsNormalsButDoesNotShiftThem) {
   RigidTransform target_from_source = RigidTransform::Identity();
   target_from_source.translate(Vector3d(10, 0, 0));

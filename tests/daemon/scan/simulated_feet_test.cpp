@@ -98,6 +98,27 @@ TEST(SimulatedFoot, IsMeasuredWithinAMillimetreByCamerasThatStandElsewhere) {
   EXPECT_TRUE(is_said("they were refined", records->front().warnings));
 }
 
+/// The depths and the lens of each camera are off, by shares that its neighbours do not have.
+TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
+  SimulationSettings settings;
+  settings.seed = 5;
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  double share = 0.003;
+  for (auto& camera : scan->capture.cameras) {
+    camera.geometry.intrinsics.fx *= 1.0 - share;
+    camera.geometry.intrinsics.fy *= 1.0 - share;
+    for (auto& frame : scan->capture.frames) {
+      if (frame.camera == camera.geometry.id) frame.depth_unit_mm *= 1.0 + share;
+    }
+    share = share > 0.0 ? -share + 0.001 : -share;
+  }
+  const auto records = measure_capture(scan->capture, {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  expect_true_measures(records->front().measures, scan->truth.front().measures);
+  EXPECT_TRUE(is_said("of its size", records->front().warnings));
+}
+
 TEST(SimulatedFoot, IsNotMeasuredByWrongPosesWithoutAWord) {
   SimulationSettings settings;
   settings.seed = 5;

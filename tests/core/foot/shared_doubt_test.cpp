@@ -1,0 +1,103 @@
+#include "core/foot/shared_doubt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/analytic_shapes.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRadius = 45.0;
+constexpr double kErrorMm = 0.3;
+constexpr double kIn95 = 1.96;
+
+/// An upright post in place of a foot, and a landmark on each side of it.
+FootScan post() {
+  FootScan foot;
+  foot.cloud = test::points_by_area(test::elliptic_cylinder(kRadius, kRadius), 20000, -40, 40, 1);
+  foot.landmarks["front"].position_mm = {kRadius, 0, 0};
+  foot.landmarks["rear"].position_mm = {-kRadius, 0, 0};
+  return foot;
+}
+
+/// Makes the post thicker all round, or shifts it.
+std::vector<double> growth(const PointCloud& cloud) {
+  return std::vector<double>(cloud.size(), kErrorMm);
+}
+
+std::vector<double> shift(const PointCloud& cloud) {
+  std::vector<double> error;
+  for (const auto& normal : cloud.normals) error.push_back(kErrorMm * normal.x());
+  return error;
+}
+
+TapePlane leaning(double degrees) {
+  const double lean = degrees * std::numbers::pi / 180.0;
+  return *TapePlane::through({0, 0, 0}, {0, 50, 0}, {std::cos(lean) * 50, 0, std::sin(lean) * 50});
+}
+
+Girth girth_in(const TapePlane& plane) {
+  Girth girth;
+  girth.contour = test::true_section(test::elliptic_cylinder(kRadius, kRadius), plane, 720);
+  return girth;
+}
+
+Result<double> length(const Landmarks& landmarks) {
+  return landmarks.at("front").position_mm.x() - landmarks.at("rear").position_mm.x();
+}
+
+TEST(SharedDoubt, OfATapeIsThatOfAThickerBody) {
+  FootScan foot = post();
+  foot.cloud.shared_errors_mm = {growth(foot.cloud)};
+  const SharedDoubt doubt(foot);
+  for (const double degrees : {0.0, 20.0, 40.0}) {
+    const auto plane = leaning(degrees);
+    const auto thicker = test::elliptic_cylinder(kRadius + kErrorMm, kRadius + kErrorMm);
+    const double longer = test::true_girth(thicker, plane) -
+                          test::true_girth(test::elliptic_cylinder(kRadius, kRadius), plane);
+    EXPECT_NEAR(doubt.of_girth(girth_in(plane), plane), kIn95 * longer, 0.02 * longer) << degrees;
+  }
+}
+
+TEST(SharedDoubt, KnowsThatAShiftedBodyHasTheSameMeasures) {
+  FootScan foot = post();
+  foot.cloud.shared_errors_mm = {shift(foot.cloud)};
+  const SharedDoubt doubt(foot);
+  EXPECT_LT(doubt.of_girth(girth_in(leaning(0.0)), leaning(0.0)), 0.02 * kErrorMm);
+  EXPECT_LT(doubt.of_landmarks(length), 0.02 * kErrorMm);
+}
+
+TEST(SharedDoubt, OfALengthIsThatOfItsEnds) {
+  FootScan foot = post();
+  foot.cloud.shared_errors_mm = {growth(foot.cloud)};
+  const SharedDoubt doubt(foot);
+  EXPECT_NEAR(doubt.of_landmarks(length), kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
+  const auto none = [](const Landmarks&) -> Result<double> {
+    return fail(ErrorCode::kInsufficientData, "the landmark was not found", "scan again");
+  };
+  EXPECT_EQ(doubt.of_landmarks(none), 0.0);
+}
+
+TEST(SharedDoubt, AddsIndependentErrorsAsSquares) {
+  FootScan foot = post();
+  foot.cloud.shared_errors_mm = {growth(foot.cloud), shift(foot.cloud), growth(foot.cloud)};
+  const SharedDoubt doubt(foot);
+  const double one = kIn95 * 2.0 * std::numbers::pi * kErrorMm;
+  EXPECT_NEAR(doubt.of_girth(girth_in(leaning(0.0)), leaning(0.0)), std::sqrt(2.0) * one,
+              0.01 * one);
+}
+
+TEST(SharedDoubt, OfACloudThatKnowsOfNoneIsNone) {
+  const FootScan foot = post();
+  const SharedDoubt doubt(foot);
+  EXPECT_EQ(doubt.of_girth(girth_in(leaning(0.0)), leaning(0.0)), 0.0);
+  EXPECT_EQ(doubt.of_landmarks(length), 0.0);
+}
+
+}  // namespace
+}  // namespace instep
