@@ -13,9 +13,6 @@ namespace instep {
 namespace {
 
 using Eigen::Vector3d;
-/// Of a view: a turn about its centroid, a shift, and by what shares it grows deeper and wider.
-constexpr Eigen::Index kUnknowns = 8;
-using UnknownsVector = Eigen::Matrix<double, kUnknowns, 1>;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStillMm = 0.01;
@@ -26,7 +23,7 @@ constexpr int kLastSteps = 4;  // at most, each time that more is known of the v
 /// Where the views lie as still as this at one reach, the next one is half of it. Set by eye.
 constexpr double kSettledMm = 0.3;
 constexpr double kLeastPoseMm = 1e-3;
-/// However well the overlaps fit: by so much a good lens is off that was calibrated.
+/// However well or ill the overlaps fit, lenses are not taken for better or worse. Set by eye.
 constexpr double kLeastLens = 5e-4;
 constexpr double kMostLens = 1e-2;
 /// How often what the stretches are likely to be is told anew by what it makes of them.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace instep {
 namespace {
@@ -11,6 +12,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 constexpr double kUntoldShare = 0.01;
+/// By so many of the points, about, the main errors are told from the others.
+constexpr std::size_t kPointsToMixBy = 2000;
 
 /// The part of a field that turns and shifts what lies about `centre`.
 ErrorField rigid_part(const ErrorField& field, const Vector3d& centre) {
@@ -21,27 +24,55 @@ ErrorField rigid_part(const ErrorField& field, const Vector3d& centre) {
   return rigid;
 }
 
-/// How far each error (column) moves each point (row) along its normal.
+/// How far each error (column) moves every `stride`th point (row) along its normal.
 MatrixXd moved_along_normals(const PointCloud& cloud, const MatrixXd& shares,
-                             const std::vector<ViewErrors>& views) {
-  const auto points = static_cast<Eigen::Index>(cloud.size());
+                             const std::vector<ViewErrors>& views, std::size_t stride) {
+  const auto points = static_cast<Eigen::Index>((cloud.size() + stride - 1) / stride);
   const auto errors = static_cast<Eigen::Index>(views.front().fields.size());
   MatrixXd moved = MatrixXd::Zero(points, errors);
-  for (std::size_t v = 0; v < views.size() && static_cast<Eigen::Index>(v) < shares.rows(); ++v) {
+  const auto seeing = std::min(views.size(), static_cast<std::size_t>(shares.rows()));
+  for (std::size_t v = 0; v < seeing; ++v) {
     const RigidTransform camera_from_station = views[v].station_from_camera.inverse();
-    for (Eigen::Index i = 0; i < points; ++i) {
-      const double share = shares(static_cast<Eigen::Index>(v), i);
+    for (std::size_t point = 0; point < cloud.size(); point += stride) {
+      const double share = shares(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(point));
       if (share == 0.0) continue;
-      const auto point = static_cast<std::size_t>(i);
       const Vector3d own = camera_from_station * cloud.positions[point];
       const Vector3d normal = camera_from_station.linear() * cloud.normals[point];
+      const auto row = static_cast<Eigen::Index>(point / stride);
       for (Eigen::Index e = 0; e < errors; ++e) {
         const auto& field = views[v].fields[static_cast<std::size_t>(e)];
-        moved(i, e) += share * normal.dot(field * own.homogeneous());
+        moved(row, e) += share * normal.dot(field * own.homogeneous());
       }
     }
   }
   return moved;
+}
+
+/// Independent errors of one sigma stay so however they are turned into each other: the mixtures
+/// (columns) that move the points most.
+MatrixXd main_mixtures(const MatrixXd& moved) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(moved.transpose() * moved);
+  if (solver.info() != Eigen::Success) return MatrixXd(moved.cols(), 0);
+  const double all = solver.eigenvalues().sum();
+  double untold = all;
+  Eigen::Index count = 0;
+  while (count < moved.cols() && untold > kUntoldShare * all) {
+    untold -= solver.eigenvalues()(moved.cols() - 1 - count);
+    ++count;
+  }
+  return solver.eigenvectors().rightCols(count).rowwise().reverse();
+}
+
+/// The same fields, mixed.
+std::vector<ErrorField> mixed(const std::vector<ErrorField>& fields, const MatrixXd& mixtures) {
+  std::vector<ErrorField> mixed(static_cast<std::size_t>(mixtures.cols()), ErrorField::Zero());
+  for (std::size_t to = 0; to < mixed.size(); ++to) {
+    for (std::size_t from = 0; from < fields.size(); ++from) {
+      mixed[to] +=
+          mixtures(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(to)) * fields[from];
+    }
+  }
+  return mixed;
 }
 
 }  // namespace
@@ -71,19 +102,13 @@ void take_common_motion_out(const Vector3d& centre, std::vector<ViewErrors>& vie
 std::vector<std::vector<double>> shared_errors_of(const PointCloud& cloud, const MatrixXd& shares,
                                                   const std::vector<ViewErrors>& views) {
   if (views.empty() || views.front().fields.empty() || cloud.empty()) return {};
-  const MatrixXd moved = moved_along_normals(cloud, shares, views);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(moved.transpose() * moved);
-  if (solver.info() != Eigen::Success) return {};
-  // Independent errors of one sigma stay so however they are turned into each other.
-  const double all = solver.eigenvalues().sum();
-  double untold = all;
+  const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kPointsToMixBy);
+  const MatrixXd mixtures = main_mixtures(moved_along_normals(cloud, shares, views, stride));
+  std::vector<ViewErrors> few = views;
+  for (auto& view : few) view.fields = mixed(view.fields, mixtures);
   std::vector<std::vector<double>> errors;
-  for (Eigen::Index e = solver.eigenvalues().size() - 1; e >= 0 && untold > kUntoldShare * all;
-       --e) {
-    const Eigen::VectorXd column = moved * solver.eigenvectors().col(e);
-    errors.emplace_back(column.begin(), column.end());
-    untold -= solver.eigenvalues()(e);
-  }
+  const MatrixXd moved = moved_along_normals(cloud, shares, few, 1);
+  for (const auto& column : moved.colwise()) errors.emplace_back(column.begin(), column.end());
   return errors;
 }
 

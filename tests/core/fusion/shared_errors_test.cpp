@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/random_numbers.h"
@@ -74,8 +75,9 @@ TEST(SharedErrors, KnowNothingOfWhatMovesAllViewsAlike) {
   ErrorField growth = ErrorField::Zero();
   growth.leftCols<3>() = 0.01 * Eigen::Matrix3d::Identity();
   growth.col(3) = -0.01 * Vector3d(10, 0, 40);
-  for (const double value : errors_by(growth, growth).at(0))
-    EXPECT_NEAR(std::abs(value), 0.5, 1e-9);
+  const auto grown = errors_by(growth, growth);
+  ASSERT_EQ(grown.size(), 1U);
+  for (const double value : grown[0]) EXPECT_NEAR(std::abs(value), 0.5, 1e-9);
 }
 
 TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
