@@ -26,8 +26,8 @@ struct StationSettings {
   /// z of the standing surface in the station frame, -1000 to 1000. Nothing = as the cameras say.
   std::optional<double> platform_height_mm;
   double point_spacing_mm = 1.0;  ///< of the fused cloud, 0.2 to 10
-  bool refine_views = true;       ///< fit the views to each other; else the poses are trusted
-  std::optional<Side> side;       ///< forced side; nothing = told from the shape
+  bool refine_views = true;  ///< fit the views to each other; else poses and lenses are trusted
+  std::optional<Side> side;  ///< forced side; nothing = told from the shape
 };
 
 struct CaptureSettings {

@@ -9,13 +9,14 @@
 #include <utility>
 
 #include "core/foot/foot_lengths.h"
+#include "core/foot/hidden_skin.h"
 #include "core/foot/measure_definitions.h"
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/rough_tape.h"
 #include "core/foot/shared_doubt.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
-#include "core/fusion/close_sole.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -33,6 +34,8 @@ constexpr double kLeastHeelShare = 0.125;
 constexpr double kUselessShare = 0.125;
 constexpr double kUselessMm = 5.0;
 constexpr double kUselessDegrees = 10.0;
+/// Of what a wall that was not seen leaves open of a girth.
+constexpr double kWorthSayingMm = 1.0;
 
 /// What each redraw of the landmarks gives; nothing where it gives nothing.
 template <typename Taker>
@@ -107,23 +110,6 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   return measure;
 }
 
-/// What a tape may be wrong by for running over skin that was not seen and is taken to go on from
-/// the wall above it (close_sole()): a share of its length there, as drawn feet without soles have
-/// it (tests/bench/feet).
-double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane) {
-  constexpr double kDoubtShare = 0.035;
-  constexpr double kBandMm = 2.0;
-  constexpr double kOverFloorMm = 0.3;
-  const double spacing = SoleSettings{}.spacing_mm;
-  double points = 0.0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const bool is_guessed = !cloud.was_seen(i) && cloud.positions[i].z() > kOverFloorMm &&
-                            std::abs(plane.distance(cloud.positions[i])) < kBandMm;
-    if (is_guessed) points += 1.0;
-  }
-  return kDoubtShare * points * spacing * spacing / (2.0 * kBandMm);
-}
-
 Result<void> check_share(double girth_mm, const FootScan& foot) {
   const auto length = foot_length(foot.landmarks);
   if (!length) return tl::unexpected(length.error());
@@ -146,13 +132,14 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   Measure measure;
   measure.id = definition.id;
   measure.value_mm = girth->stretched_mm;
+  const HiddenWall hidden = hidden_wall(foot.cloud, *plane, *girth);
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
   const auto by_landmarks = u95_of(definition, foot);
   if (by_landmarks && girth->stretched_u95_mm) {
+    const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
     const double surface =
-        std::hypot(*girth->stretched_u95_mm, doubt_of_guessed_skin(foot.cloud, *plane),
-                   shared_doubt.of_girth(*girth, *plane));
+        std::hypot(*girth->stretched_u95_mm, unseen, shared_doubt.of_girth(*girth, *plane));
     measure.parts = DoubtParts{surface, std::hypot(*by_landmarks, definition.own_doubt_mm)};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
@@ -160,6 +147,11 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   measure.definition = definition.words;
   measure.warnings = doubts(foot, definition.landmarks);
   measure.warnings.insert(measure.warnings.end(), girth->warnings.begin(), girth->warnings.end());
+  if (hidden.doubt_mm > kWorthSayingMm) {
+    measure.warnings.push_back(
+        "the wall of the foot was not seen below " + in_millimetres(hidden.height_mm) +
+        " over the floor: scan one foot alone, or with a camera on that side");
+  }
   measure.girth = *std::move(girth);
   return measure;
 }

@@ -5,6 +5,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/girth/length_doubt.h"
+#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -19,7 +20,11 @@ constexpr double kLeastCrosswise = 0.3;
 
 SharedDoubt::SharedDoubt(const FootScan& foot) : foot_(foot) {
   if (foot.cloud.shared_errors_mm.empty() || !foot.cloud.has_normals()) return;
-  index_.emplace(foot.cloud.positions);
+  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
+    if (foot.cloud.was_seen(i)) seen_.push_back(i);
+  }
+  if (seen_.empty()) return;
+  index_.emplace(picked(foot.cloud.positions, seen_));
   moved_.assign(foot.cloud.shared_errors_mm.size(), foot.landmarks);
   for (const auto& [name, landmark] : foot.landmarks) {
     const std::size_t skin = skin_at(landmark.position_mm);
@@ -31,7 +36,7 @@ SharedDoubt::SharedDoubt(const FootScan& foot) : foot_(foot) {
 }
 
 std::size_t SharedDoubt::skin_at(const Vector3d& place) const {
-  return index_->nearest(place, 1).front().index;
+  return seen_[index_->nearest(place, 1).front().index];
 }
 
 double SharedDoubt::of_landmarks(

@@ -26,11 +26,13 @@ class SharedDoubt {
   double of_girth(const Girth& girth, const TapePlane& plane) const;
 
  private:
-  /// The point of the cloud that stands for the skin at a place.
+  /// The seen point of the cloud that stands for the skin at a place: what closes the sole goes on
+  /// from the wall, and errs as that does.
   std::size_t skin_at(const Eigen::Vector3d& place) const;
 
   const FootScan& foot_;
-  std::optional<PointIndex> index_;  ///< only of a cloud with shared errors
+  std::vector<std::size_t> seen_;    ///< points; only of a cloud with shared errors
+  std::optional<PointIndex> index_;  ///< of these
   std::vector<Landmarks> moved_;     ///< the landmarks by each of these
 };
 

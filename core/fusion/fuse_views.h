@@ -75,7 +75,8 @@ struct FusionDiagnostics {
   /// Of the distances between the views, what the noise of the points does not explain, one sigma.
   double unexplained_mm = 0.0;
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
-  double lenses_off = 0.0;    ///< of the view that was stretched most, by what share
+  /// Of the view that was stretched most, by what share; nothing where lenses are trusted.
+  std::optional<double> lenses_off;
   std::vector<std::size_t> points;           ///< of each foot, platform points not counted
   std::vector<double> coverage;              ///< of each foot: share of directions round it seen
   std::vector<std::size_t> platform_points;  ///< put under each foot
@@ -92,9 +93,9 @@ struct FusedScene {
 
 /// From one depth image a camera to the clouds of the feet, each with normals, sigma, view
 /// directions, origins and, where the views were refined, the errors that are left of their poses
-/// and lenses (PointCloud::shared_errors_mm). Pure computation; the same views give the same bytes. What concerns one
-/// view alone is a job of its own for `workers`, the rest runs on the calling thread. `go_on` hears
-/// of each view, each iteration of the registration, and each stage.
+/// and lenses (PointCloud::shared_errors_mm). Pure computation; the same views give the same bytes.
+/// What concerns one view alone is a job of its own for `workers`, the rest runs on the calling
+/// thread. `go_on` hears of each view, each iteration of the registration, and each stage.
 ///
 /// Fails with kInvalidInput where a pose or lens is not sound or there is no view, kCorruptData
 /// where a depth image does not fit its camera, kInsufficientData where no camera saw anything or

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -50,24 +51,39 @@ Result<Registration> fit_to_each_other(const std::vector<WorkingView>& views,
   return register_views(clouds, registering, go_on);
 }
 
-/// Makes depths and what lies across them larger by these shares. Where such a lens would fold the
-/// image, it stays as it is: the errors of the view are larger than what the stretch mends.
-void stretch(double deeper, double wider, WorkingView& view) {
-  CameraIntrinsics lens = view.rays->intrinsics();
-  lens.fx *= (1.0 + deeper) / (1.0 + wider);
-  lens.fy *= (1.0 + deeper) / (1.0 + wider);
-  auto rays = Deprojector::create(lens);
-  if (!rays) return;
+/// The lens by which what lies across is wider by this factor at the same depth: as it does to
+/// every ray, distorted or not.
+CameraIntrinsics widened(CameraIntrinsics lens, double factor) {
+  lens.fx /= factor;
+  lens.fy /= factor;
+  const double powers[] = {2.0, 4.0, 1.0, 1.0, 6.0};  // of k1, k2, p1, p2, k3
+  for (std::size_t i = 0; i < lens.distortion.size(); ++i) {
+    lens.distortion[i] /= std::pow(factor, powers[i]);
+  }
+  return lens;
+}
+
+/// Makes depths and what lies across them larger by these shares. Fails with the lens alone.
+Result<void> stretch(double deeper, double wider, WorkingView& view) {
+  if (deeper == 0.0 && wider == 0.0) return {};
+  const double factor = (1.0 + wider) / (1.0 + deeper);
+  auto rays = Deprojector::create(widened(view.rays->intrinsics(), factor));
+  if (!rays) return tl::make_unexpected(rays.error());
   view.rays = std::make_shared<const Deprojector>(*std::move(rays));
   for (float& depth : view.depth.depth_mm) depth *= static_cast<float>(1.0 + deeper);
+  return {};
 }
 
 /// Stretches and moves the views to where they fit, and drops those that do not.
-void move_to_fit(const Registration& registration, const Workers& workers,
-                 std::vector<WorkingView>& views) {
+Result<void> move_to_fit(const Registration& registration, const Workers& workers,
+                         std::vector<WorkingView>& views) {
+  std::vector<std::optional<Result<void>>> stretched(views.size());
   workers(views.size(), [&](std::size_t i) {
-    stretch(registration.views[i].deeper, registration.views[i].wider, views[i]);
+    stretched[i] = stretch(registration.views[i].deeper, registration.views[i].wider, views[i]);
   });
+  for (const auto& done : stretched) {
+    if (!*done) return tl::make_unexpected(done->error());
+  }
   std::vector<WorkingView> fitting;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto& registered = registration.views[i];
@@ -77,6 +93,7 @@ void move_to_fit(const Registration& registration, const Workers& workers,
     fitting.push_back(std::move(views[i]));
   }
   views = std::move(fitting);
+  return {};
 }
 
 /// Which views do not fit, and which ones' poses nothing proves.
@@ -112,16 +129,16 @@ void warn_of_unproven_poses(const Registration& registration, const std::vector<
 void warn_of_wrong_poses(const Registration& registration, const std::vector<WorkingView>& views,
                          bool are_refined, FusedScene& scene) {
   double& off_mm = scene.diagnostics.poses_off_mm;
-  std::size_t furthest = 0;
+  std::optional<std::size_t> furthest;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto& view = registration.views[i];
     if (view.fit == ViewFit::kDoesNotFit) continue;  // which is said of it
     off_mm = std::max(off_mm, view.taken_away_mm);
-    if (view.moved_mm > registration.views[furthest].moved_mm) furthest = i;
+    if (!furthest || view.moved_mm > registration.views[*furthest].moved_mm) furthest = i;
   }
-  if (off_mm < (are_refined ? kWorthMendingMm : kDisagreementMm)) return;
+  if (!furthest || off_mm < (are_refined ? kWorthMendingMm : kDisagreementMm)) return;
   scene.warnings.push_back(
-      "by the given poses, camera " + views[furthest].id + " before others, the same skin lies " +
+      "by the given poses, camera " + views[*furthest].id + " before others, the same skin lies " +
       in_millimetres(off_mm) + " apart in two views: " +
       (are_refined ? "they were refined; if they should be right, a camera was moved, or its lens "
                      "or depth is off"
@@ -132,7 +149,7 @@ void warn_of_wrong_poses(const Registration& registration, const std::vector<Wor
 /// The camera whose lens or depth seems to be off by most.
 void warn_of_wrong_lenses(const Registration& registration, const std::vector<WorkingView>& views,
                           FusedScene& scene) {
-  double& off = scene.diagnostics.lenses_off;
+  double off = 0.0;
   std::size_t worst = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto& view = registration.views[i];
@@ -141,6 +158,7 @@ void warn_of_wrong_lenses(const Registration& registration, const std::vector<Wo
     off = own;
     worst = i;
   }
+  scene.diagnostics.lenses_off = off;
   if (off < kWorthMendingShare) return;
   char share[32];
   std::snprintf(share, sizeof share, "%.1f %%", 100.0 * off);
@@ -177,8 +195,7 @@ Result<void> check_poses(const FusionSettings& settings, const Workers& workers,
       are_refined ? registration->residual_after_mm : registration->residual_before_mm;
   figures.unexplained_mm =
       are_refined ? registration->unexplained_after_mm : registration->unexplained_before_mm;
-  if (are_refined) move_to_fit(*registration, workers, views);
-  return {};
+  return are_refined ? move_to_fit(*registration, workers, views) : Result<void>{};
 }
 
 }  // namespace instep

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "core/fusion/view_equations.h"
 #include "core/median.h"
@@ -148,6 +149,7 @@ void tell_errors(const std::vector<MovingView>& views, const std::vector<ViewMat
   const Eigen::MatrixXd errors =
       solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].taking_part) continue;
     auto& view = registration.views[i];
     const RigidTransform camera_from_station =
         (view.correction * views[i].station_from_camera).inverse();
@@ -189,13 +191,31 @@ RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
   const double shift = (view.corrected_centroid() - view.centroid).norm();
   const double turn = Eigen::AngleAxisd(view.pose_correction.linear()).angle();
   judged.moved_mm = shift + kArmMm * turn;
-  const bool too_far = shift > settings.most_shift_mm || turn > settings.most_turn_deg * kDegree;
+  const double stretch = std::max(std::abs(view.deeper), std::abs(view.wider));
+  const bool too_far = shift > settings.most_shift_mm || turn > settings.most_turn_deg * kDegree ||
+                       stretch > settings.most_stretch;
   if (too_far || judged.residual_mm > settings.most_residual_mm) {
     judged.fit = ViewFit::kDoesNotFit;
   } else if (judged.overlap >= settings.least_overlap) {
     judged.fit = can_slide(own) ? ViewFit::kSlides : ViewFit::kFits;
   }
   return judged;
+}
+
+/// Of the views that take part and should not, the one that fits worst; one that is alone but for
+/// some matches only where all others fit.
+std::optional<std::size_t> worst_of(const Registration& registration,
+                                    const std::vector<MovingView>& views) {
+  std::optional<std::size_t> worst;
+  std::optional<std::size_t> alone;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const auto& view = registration.views[i];
+    if (!views[i].taking_part) continue;
+    if (view.fit == ViewFit::kAlone && view.overlap > 0.0) alone = i;
+    if (view.fit != ViewFit::kDoesNotFit) continue;
+    if (!worst || view.residual_mm > registration.views[*worst].residual_mm) worst = i;
+  }
+  return worst ? worst : alone;
 }
 
 }  // namespace
@@ -214,24 +234,19 @@ Result<Registration> register_views(const std::vector<PosedCloud>& views,
     const auto matches = match_views(moving, 2.0 * settings.last_reach_mm);
     registration.residual_after_mm = median_residual(matches);
     registration.unexplained_after_mm = unexplained(matches);
-    std::size_t worst = views.size();
     for (std::size_t i = 0; i < views.size(); ++i) {
-      if (!moving[i].taking_part) continue;
-      registration.views[i] = judge(moving, i, matches, settings);
-      if (registration.views[i].fit != ViewFit::kDoesNotFit) continue;
-      if (worst == views.size() ||
-          registration.views[i].residual_mm > registration.views[worst].residual_mm) {
-        worst = i;
-      }
+      if (moving[i].taking_part) registration.views[i] = judge(moving, i, matches, settings);
     }
-    if (worst == views.size()) {
+    const auto worst = worst_of(registration, moving);
+    if (!worst) {
       tell_errors(moving, matches, settings, registration);
       break;
     }
     // One at a time: a bad view spoils its neighbours.
-    moving[worst].taking_part = false;
-    registration.views[worst].correction = RigidTransform::Identity();
-    registration.views[worst].deeper = registration.views[worst].wider = 0.0;
+    moving[*worst].taking_part = false;
+    auto& out = registration.views[*worst];
+    out.correction = RigidTransform::Identity();
+    out.deeper = out.wider = out.moved_mm = out.taken_away_mm = 0.0;
   }
   return registration;
 }

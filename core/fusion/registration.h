@@ -21,6 +21,7 @@ struct RegistrationSettings {
   ExpectedErrors expected;      ///< holds what the surfaces leave open
   double most_shift_mm = 60.0;  ///< a view that wants to go further does not fit
   double most_turn_deg = 12.0;
+  double most_stretch = 0.015;    ///< nor does one that is to grow or shrink by more
   double least_overlap = 0.05;    ///< share of a view's queries with a match
   double most_residual_mm = 3.0;  ///< median of a view that fits
 };
@@ -62,18 +63,20 @@ struct Registration {
 };
 
 /// Moves and stretches views against each other until their surfaces agree: all at once, each
-/// iteration matching every view with every other and taking one Gauss-Newton step on the point-to-plane
-/// distances (Chen and Medioni 1992; normals of both sides, Rusinkiewicz 2019), each weighed by its
-/// noise, with Tukey weights whose reach shrinks from first_reach_mm to last_reach_mm. Views whose
-/// result breaks a limit are marked kDoesNotFit, get no correction, and the others are solved again
-/// without them.
+/// iteration matching every view with every other and taking one Gauss-Newton step on the
+/// point-to-plane distances (Chen and Medioni 1992; normals of both sides, Rusinkiewicz 2019), each
+/// weighed by its noise, with Tukey weights whose reach shrinks from first_reach_mm to
+/// last_reach_mm. Views whose result breaks a limit are marked kDoesNotFit, those that share hardly
+/// anything kAlone; neither gets a correction or errors, and the others are solved again without
+/// them.
 ///
 /// The given poses and lenses weigh too, twice over: first as ill known as the settings say, then
 /// as the overlaps have shown them to be (of lenses by a few rounds of Dempster, Laird and Rubin's
 /// EM, 1977). So right ones stay what they are, and wrong ones do not drift where views hardly
 /// overlap. A stretch is counted about the middle of what a view sees, not about its camera: a
 /// wrong distance is a matter of the pose, for poses are found by the same lenses. What is common
-/// to all views, the size of all together, is known by the given lenses alone.
+/// to all views, the size of all together, no overlap shows: it is taken to be as right as the
+/// views agree, as of lenses that err independently.
 ///
 /// What is left unknown is told with each view: the covariance of the step, in which neighbouring
 /// matches count as far fewer independent ones, turned into independent errors of all views.

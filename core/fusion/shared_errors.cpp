@@ -24,11 +24,17 @@ ErrorField rigid_part(const ErrorField& field, const Vector3d& centre) {
   return rigid;
 }
 
+std::size_t number_of_errors(const std::vector<ViewErrors>& views) {
+  std::size_t most = 0;
+  for (const auto& view : views) most = std::max(most, view.fields.size());
+  return most;
+}
+
 /// How far each error (column) moves every `stride`th point (row) along its normal.
 MatrixXd moved_along_normals(const PointCloud& cloud, const MatrixXd& shares,
                              const std::vector<ViewErrors>& views, std::size_t stride) {
   const auto points = static_cast<Eigen::Index>((cloud.size() + stride - 1) / stride);
-  const auto errors = static_cast<Eigen::Index>(views.front().fields.size());
+  const auto errors = static_cast<Eigen::Index>(number_of_errors(views));
   MatrixXd moved = MatrixXd::Zero(points, errors);
   const auto seeing = std::min(views.size(), static_cast<std::size_t>(shares.rows()));
   for (std::size_t v = 0; v < seeing; ++v) {
@@ -39,9 +45,9 @@ MatrixXd moved_along_normals(const PointCloud& cloud, const MatrixXd& shares,
       const Vector3d own = camera_from_station * cloud.positions[point];
       const Vector3d normal = camera_from_station.linear() * cloud.normals[point];
       const auto row = static_cast<Eigen::Index>(point / stride);
-      for (Eigen::Index e = 0; e < errors; ++e) {
-        const auto& field = views[v].fields[static_cast<std::size_t>(e)];
-        moved(row, e) += share * normal.dot(field * own.homogeneous());
+      for (std::size_t e = 0; e < views[v].fields.size(); ++e) {
+        moved(row, static_cast<Eigen::Index>(e)) +=
+            share * normal.dot(views[v].fields[e] * own.homogeneous());
       }
     }
   }
@@ -50,7 +56,9 @@ MatrixXd moved_along_normals(const PointCloud& cloud, const MatrixXd& shares,
 
 /// Independent errors of one sigma stay so however they are turned into each other: the mixtures
 /// (columns) that move the points most.
-MatrixXd main_mixtures(const MatrixXd& moved) {
+MatrixXd main_mixtures(MatrixXd moved) {
+  // Else one view that is known ill would hide what the others leave unknown elsewhere.
+  for (auto point : moved.rowwise()) point.stableNormalize();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(moved.transpose() * moved);
   if (solver.info() != Eigen::Success) return MatrixXd(moved.cols(), 0);
   const double all = solver.eigenvalues().sum();
@@ -86,13 +94,17 @@ ErrorField in_frame(const RigidTransform& target_from_source, const ErrorField& 
 }
 
 void take_common_motion_out(const Vector3d& centre, std::vector<ViewErrors>& views) {
-  if (views.empty()) return;
-  for (std::size_t e = 0; e < views.front().fields.size(); ++e) {
+  double shares = 0.0;
+  for (const auto& view : views) shares += view.share;
+  const std::size_t errors = number_of_errors(views);
+  if (!(shares > 0.0)) return;
+  for (auto& view : views) view.fields.resize(errors, ErrorField::Zero());
+  for (std::size_t e = 0; e < errors; ++e) {
     ErrorField common = ErrorField::Zero();
     for (const auto& view : views) {
-      common += rigid_part(in_frame(view.station_from_camera, view.fields[e]), centre);
+      common += view.share / shares *
+                rigid_part(in_frame(view.station_from_camera, view.fields[e]), centre);
     }
-    common /= static_cast<double>(views.size());
     for (auto& view : views) {
       view.fields[e] -= in_frame(view.station_from_camera.inverse(), common);
     }
@@ -101,7 +113,7 @@ void take_common_motion_out(const Vector3d& centre, std::vector<ViewErrors>& vie
 
 std::vector<std::vector<double>> shared_errors_of(const PointCloud& cloud, const MatrixXd& shares,
                                                   const std::vector<ViewErrors>& views) {
-  if (views.empty() || views.front().fields.empty() || cloud.empty()) return {};
+  if (number_of_errors(views) == 0 || cloud.empty()) return {};
   const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kPointsToMixBy);
   const MatrixXd mixtures = main_mixtures(moved_along_normals(cloud, shares, views, stride));
   std::vector<ViewErrors> few = views;

@@ -133,13 +133,13 @@ class Thinning {
   std::pair<double, double> joined(const std::vector<std::pair<std::uint16_t, ViewMean>>& by_view,
                                    Eigen::Ref<Eigen::VectorXd> shares) const {
     const double shared = settings_.correlated_share * settings_.correlated_share;
-    const double pose = settings_.pose_sigma_mm * settings_.pose_sigma_mm;
+    const double own = settings_.view_sigma_mm * settings_.view_sigma_mm;
     double weights = 0.0;
     double height = 0.0;
     double squares = 0.0;
     for (const auto& [view, mean] : by_view) {
       const double single = mean.variance / mean.weight;
-      const double variance = single * ((1.0 - shared) / mean.count + shared) + pose;
+      const double variance = single * ((1.0 - shared) / mean.count + shared) + own;
       const double view_height = mean.height / mean.weight;
       weights += 1.0 / variance;
       shares(view) = 1.0 / variance;

@@ -14,8 +14,9 @@ struct ThinSettings {
   /// Share of a point's sigma that its neighbours in the same view have too, so that averaging
   /// them does not lower it.
   double correlated_share = 0.4;
-  /// Error of a view's pose: common to all its points, averaged only with those of other views.
-  double pose_sigma_mm = 0.0;
+  /// What views lie apart by that neither noise nor what is known of their poses explains: common
+  /// to neighbours of a view, averaged only with those of other views.
+  double view_sigma_mm = 0.0;
 };
 
 /// A cloud whose points remember which view each came from.

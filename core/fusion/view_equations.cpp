@@ -1,5 +1,6 @@
 #include "core/fusion/view_equations.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

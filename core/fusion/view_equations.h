@@ -23,8 +23,9 @@ inline Eigen::Index first_unknown(std::size_t view) {
 struct ExpectedErrors {
   double pose_mm = 15.0;
   double pose_deg = 3.0;
-  /// Share by which depths may be off, and likewise what lies across them; 0 = exact. By this one
-  /// simulated feet are told alike well where it is 0, 0.1 and 0.3 % (tests/bench/poses).
+  /// Share by which depths may be off, and likewise what lies across them: 0 = exact, else 0.05
+  /// to 1 %. By this one simulated feet are told alike well where it is 0, 0.1 and 0.3 %
+  /// (tests/bench/poses).
   double lens = 2e-3;
 };
 

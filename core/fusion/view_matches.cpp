@@ -40,6 +40,7 @@ void match_pair(const std::vector<MovingView>& views, std::size_t view, std::siz
   const Eigen::Affine3d station_from_other = target.correction();
   const Eigen::Affine3d other_from_view = station_from_other.inverse() * source.correction();
   for (std::size_t i = 0; i < source.queries.size(); i += stride) {
+    // As if turned alone: by a stretch of a percent a normal turns by less than it is known to.
     const Vector3d normal = (other_from_view.linear() * source.queries.normals[i]).normalized();
     if (normal.dot(target.towards_camera) < kLeastViewCosine) continue;
     const Vector3d point = other_from_view * source.queries.positions[i];
@@ -85,6 +86,7 @@ std::vector<MovingView> moving_views(const std::vector<PosedCloud>& views, std::
   std::vector<MovingView> moving(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto& [cloud, station_from_camera] = views[i];
+    moving[i].station_from_camera = station_from_camera;
     const bool can_be_matched = !cloud.empty() && cloud.has_normals() && cloud.has_sigma() &&
                                 !cloud.view_directions.empty();
     if (!can_be_matched) continue;
@@ -93,7 +95,6 @@ std::vector<MovingView> moving_views(const std::vector<PosedCloud>& views, std::
     moving[i].index = std::make_unique<PointIndex>(moving[i].targets.positions);
     moving[i].centroid = mean(moving[i].targets.positions);
     moving[i].towards_camera = mean(moving[i].targets.view_directions).normalized();
-    moving[i].station_from_camera = station_from_camera;
     moving[i].taking_part = true;
   }
   return moving;

@@ -54,9 +54,8 @@ struct PointCloud {
 
   bool is_consistent() const;
 
-  /// Adds the points of `other`. A list that only one of the two knows is dropped, but `origins`,
-  /// whose absence has a meaning, and
-  /// shared errors, which are those of one cloud alone.
+  /// Adds the points of `other`. A list that only one of the two knows is dropped, but not
+  /// `origins`, whose absence has a meaning, nor shared errors, which are those of one cloud alone.
   void append(const PointCloud& other);
 
   /// The points at `indices`, in that order, with all that is known of them.

@@ -7,6 +7,7 @@
 
 #include "core/girth/loop_choice.h"
 #include "core/girth/section_gaps.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -21,9 +22,8 @@ constexpr const char* kNoSkinFound =
     "body";
 
 std::string warning_of(const SkinLayers& layers, double unit_mm) {
-  char figure[32];
-  std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * (layers.outer - layers.inner));
-  return "the points lie in two layers, " + std::string(figure) +
+  return "the points lie in two layers, " +
+         in_millimetres(unit_mm * (layers.outer - layers.inner)) +
          " apart: the tape was laid between them and may belong on either; see to the cameras' "
          "poses, or scan one layer alone";
 }
@@ -37,10 +37,8 @@ std::string warning_of(const std::vector<ScatteredPlace>& scattered, double unit
 }
 
 std::string warning_of(const UnfollowedSkin& skin, double unit_mm) {
-  char figure[32];
-  std::snprintf(figure, sizeof figure, "%.1f mm", unit_mm * skin.off);
-  return "points lead " + std::string(figure) + " away from the section" + kNoSkinFound +
-         "; take it away, or scan from nearer";
+  return "points lead " + in_millimetres(unit_mm * skin.off) + " away from the section" +
+         kNoSkinFound + "; take it away, or scan from nearer";
 }
 
 std::string warning_of_zigzags(double way_mm) {

@@ -120,7 +120,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   replay
       ->add_option("--poses", command->poses,
-                   "refine the cameras' poses by fitting the views to each other, or trust them; "
+                   "refine the cameras' poses and lenses by fitting the views to each other, or "
+                   "trust them; "
                    "auto is refine")
       ->check(CLI::IsMember({"refine", "trust", "auto"}))
       ->capture_default_str();

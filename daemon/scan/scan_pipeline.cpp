@@ -148,7 +148,7 @@ void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& q
   quality["registration_after_mm"] = figures.registration_after_mm;
   quality["unexplained_mm"] = figures.unexplained_mm;
   quality["poses_off_mm"] = figures.poses_off_mm;
-  quality["lenses_off_percent"] = 100.0 * figures.lenses_off;
+  if (figures.lenses_off) quality["lenses_off_percent"] = 100.0 * *figures.lenses_off;
 }
 
 /// What is no foot may be one that cameras see in wrong places: what they were warned of is told.

@@ -37,7 +37,7 @@ using ScanProgress = std::function<bool(std::string_view stage, double done)>;
 struct PipelineSettings {
   std::string station = "unnamed";
   double point_spacing_mm = 1.0;
-  bool refine_views = true;  ///< fit the views to each other; else the given poses are trusted
+  bool refine_views = true;  ///< fit the views to each other; else poses and lenses are trusted
   std::optional<Side> side;  ///< forced side; nothing = told from the shape
   MeasuringRules measures;
   SizeRules sizes;

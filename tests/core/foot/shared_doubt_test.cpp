@@ -83,6 +83,20 @@ TEST(SharedDoubt, OfALengthIsThatOfItsEnds) {
   EXPECT_EQ(doubt.of_landmarks(none), 0.0);
 }
 
+/// What closes a sole knows of no errors, but hangs on the wall that does.
+TEST(SharedDoubt, TakesUnseenSkinForAsWrongAsTheSeenBesideIt) {
+  FootScan foot = post();
+  foot.cloud.shared_errors_mm = {growth(foot.cloud)};
+  const double all_seen = SharedDoubt(foot).of_girth(girth_in(leaning(0.0)), leaning(0.0));
+  PointCloud sole = foot.cloud;
+  sole.shared_errors_mm.clear();
+  sole.origins.assign(sole.size(), PointOrigin::kPlatform);
+  foot.cloud.append(sole);
+  const SharedDoubt doubt(foot);
+  EXPECT_NEAR(doubt.of_girth(girth_in(leaning(0.0)), leaning(0.0)), all_seen, 1e-9);
+  EXPECT_NEAR(doubt.of_landmarks(length), kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
+}
+
 TEST(SharedDoubt, AddsIndependentErrorsAsSquares) {
   FootScan foot = post();
   foot.cloud.shared_errors_mm = {growth(foot.cloud), shift(foot.cloud), growth(foot.cloud)};

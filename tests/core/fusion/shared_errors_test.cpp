@@ -63,8 +63,8 @@ TEST(SharedErrors, KnowNothingOfWhatMovesAllViewsAlike) {
   test::RandomNumbers random(2);
   const PointCloud cloud = ball(100, random);
   const auto errors_by = [&](const ErrorField& first, const ErrorField& second) {
-    std::vector<ViewErrors> views = {{{in_frame(kPoses[0].inverse(), first)}, kPoses[0]},
-                                     {{in_frame(kPoses[1].inverse(), second)}, kPoses[1]}};
+    std::vector<ViewErrors> views = {{{in_frame(kPoses[0].inverse(), first)}, 1.0, kPoses[0]},
+                                     {{in_frame(kPoses[1].inverse(), second)}, 1.0, kPoses[1]}};
     take_common_motion_out({10, 0, 40}, views);
     return shared_errors_of(cloud, Eigen::MatrixXd::Constant(2, 100, 0.5), views);
   };
@@ -87,8 +87,8 @@ TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
   Eigen::MatrixXd shares(2, 3);
   shares << 1.0, 0.25, 1.0, 0.0, 0.75, 0.0;
   const auto along_x = [](double shift, const RigidTransform& pose) {
-    return ViewErrors{{in_frame(pose.inverse(), rigid_field(Vector3d::Zero(), {shift, 0, 0}))},
-                      pose};
+    return ViewErrors{
+        {in_frame(pose.inverse(), rigid_field(Vector3d::Zero(), {shift, 0, 0}))}, 1.0, pose};
   };
   const auto errors =
       shared_errors_of(cloud, shares, {along_x(0.4, kPoses[0]), along_x(-0.8, kPoses[1])});
@@ -103,7 +103,7 @@ TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
 TEST(SharedErrors, AreFewAndSayTheSame) {
   test::RandomNumbers random(3);
   const PointCloud cloud = ball(60, random);
-  std::vector<ViewErrors> views = {{{}, kPoses[0]}, {{}, kPoses[1]}};
+  std::vector<ViewErrors> views = {{{}, 1.0, kPoses[0]}, {{}, 1.0, kPoses[1]}};
   constexpr int kErrors = 20;
   for (auto& view : views) {
     for (int e = 0; e < kErrors; ++e) {
@@ -149,7 +149,7 @@ TEST(SharedErrors, AreFewAndSayTheSame) {
 TEST(SharedErrors, OfNothingAreNone) {
   test::RandomNumbers random(4);
   EXPECT_TRUE(shared_errors_of(ball(5, random), Eigen::MatrixXd::Ones(1, 5), {}).empty());
-  EXPECT_TRUE(shared_errors_of({}, Eigen::MatrixXd(1, 0), {{{}, kPoses[0]}}).empty());
+  EXPECT_TRUE(shared_errors_of({}, Eigen::MatrixXd(1, 0), {{{}, 1.0, kPoses[0]}}).empty());
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/geometry/point_cloud.h"
+#include "core/girth/girth.h"
+#include "core/girth/tape_plane.h"
+
+namespace instep {
+
+/// What a tape round a standing foot may be wrong by for running over skin that no camera saw, as
+/// halves of 95 % intervals; foot frame, with the floor at z = 0.
+
+/// Below the wall the skin is taken to go on in its bend (close_sole()): a share of the tape's
+/// length there. O(points).
+double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane);
+
+/// Where the wall was lost before it began to bend, as between two feet, nothing tells where it
+/// does: it may as well go down straight and bend at the floor only, and as a rule goes half the
+/// way.
+struct HiddenWall {
+  double height_mm = 0.0;  ///< over the floor, of the highest that was lost so
+  double doubt_mm = 0.0;   ///< 0 where the bend of all walls was seen
+};
+
+/// By the points within 2 mm of the plane. O(points + corners of the section * these).
+HiddenWall hidden_wall(const PointCloud& cloud, const TapePlane& plane, const Girth& girth);
+
+}  // namespace instep
