@@ -1,6 +1,7 @@
 #include "core/fusion/lens.h"
 
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 
 namespace instep {
@@ -50,6 +51,17 @@ std::optional<Eigen::Vector2d> undistorted(const CameraIntrinsics& intrinsics,
     ideal += jacobian.inverse() * miss;
   }
   return std::nullopt;
+}
+
+CameraIntrinsics widened(const CameraIntrinsics& intrinsics, double factor) {
+  CameraIntrinsics lens = intrinsics;
+  lens.fx /= factor;
+  lens.fy /= factor;
+  const std::array<double, 5> powers = {2.0, 4.0, 1.0, 1.0, 6.0};  // of k1, k2, p1, p2, k3
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    lens.distortion[i] /= std::pow(factor, powers[i]);
+  }
+  return lens;
 }
 
 Eigen::Vector2d pixel_of(const CameraIntrinsics& intrinsics, const Eigen::Vector3d& in_camera) {

@@ -21,6 +21,11 @@ std::optional<Eigen::Vector2d> undistorted(const CameraIntrinsics& intrinsics,
                                            const Eigen::Vector2d& target,
                                            const Eigen::Vector2d& start);
 
+/// The lens that sees what lies across the line of sight larger by `factor` (> 0) at the same
+/// depth: every ray, distorted or not, leans as much more. It folds the image where `intrinsics`
+/// does.
+CameraIntrinsics widened(const CameraIntrinsics& intrinsics, double factor);
+
 /// The pixel coordinates of a point in the camera frame, with z > 0.
 Eigen::Vector2d pixel_of(const CameraIntrinsics& intrinsics, const Eigen::Vector3d& in_camera);
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/fusion/lens.h"
 #include "core/fusion/registration.h"
 #include "core/in_millimetres.h"
 
@@ -49,18 +50,6 @@ Result<Registration> fit_to_each_other(const std::vector<WorkingView>& views,
     registering.expected.lens = 0.0;  // or part of what poses are off by would be taken for theirs
   }
   return register_views(clouds, registering, go_on);
-}
-
-/// The lens by which what lies across is wider by this factor at the same depth: as it does to
-/// every ray, distorted or not.
-CameraIntrinsics widened(CameraIntrinsics lens, double factor) {
-  lens.fx /= factor;
-  lens.fy /= factor;
-  const double powers[] = {2.0, 4.0, 1.0, 1.0, 6.0};  // of k1, k2, p1, p2, k3
-  for (std::size_t i = 0; i < lens.distortion.size(); ++i) {
-    lens.distortion[i] /= std::pow(factor, powers[i]);
-  }
-  return lens;
 }
 
 /// Makes depths and what lies across them larger by these shares. Fails with the lens alone.

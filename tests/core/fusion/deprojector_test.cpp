@@ -16,6 +16,19 @@ CameraGeometry distorted_camera() {
   return camera;
 }
 
+TEST(WidenedLens, MakesEveryRayLeanAsMuchMore) {
+  const auto lens = distorted_camera().intrinsics;
+  const double factor = 1.01;
+  const auto narrow = Deprojector::create(lens);
+  const auto wide = Deprojector::create(widened(lens, factor));
+  ASSERT_TRUE(narrow && wide);
+  const auto pixels = static_cast<std::size_t>(lens.width) * static_cast<std::size_t>(lens.height);
+  for (std::size_t pixel = 0; pixel < pixels; pixel += 7) {
+    EXPECT_NEAR(wide->ray(pixel).x(), factor * narrow->ray(pixel).x(), 1e-6);
+    EXPECT_NEAR(wide->ray(pixel).y(), factor * narrow->ray(pixel).y(), 1e-6);
+  }
+}
+
 TEST(Deprojector, PutsThePixelsOfAPlaneOnThePlane) {
   auto camera = distorted_camera();
   camera.station_from_camera.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()));

@@ -294,6 +294,26 @@ TEST(RegisterViews, RefusesToMoveAViewBeyondTheLimit) {
   EXPECT_EQ(registration.views[1].fit, ViewFit::kDoesNotFit);
 }
 
+TEST(RegisterViews, LeavesOutAViewThatWouldHaveToBeStretchedTooFar) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  clouds[1] = larger_by(0.06, clouds[1]);
+  const auto registration = register_views(clouds).value();
+  EXPECT_EQ(registration.views[1].fit, ViewFit::kDoesNotFit);
+  EXPECT_EQ(registration.views[1].deeper, 0.0);
+  for (const std::size_t i : {0U, 2U, 3U}) {
+    EXPECT_EQ(registration.views[i].fit, ViewFit::kFits);
+    EXPECT_LT(std::abs(registration.views[i].deeper), 1e-3);
+  }
+}
+
+TEST(RegisterViews, TellsNoErrorsOfAViewThatShowsNothing) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  clouds[2].cloud = {};
+  const auto registration = register_views(clouds).value();
+  EXPECT_TRUE(registration.views[2].errors.empty());
+  EXPECT_FALSE(registration.views[1].errors.empty());
+}
+
 TEST(RegisterViews, SaysWhichViewsShareNothing) {
   auto clouds = seen_by(small_ring(4), 1.0e-6);
   RigidTransform away = RigidTransform::Identity();

@@ -1,0 +1,90 @@
+#include "core/foot/hidden_skin.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kHalfBreadthMm = 40.0;
+constexpr double kTopMm = 60.0;
+constexpr double kInsetMm = 25.0;  ///< from the left wall to where it is taken to meet the floor
+
+/// An upright section across a foot. Its right wall was seen down to the floor, its left one down
+/// to `seen_to_mm`; from there it is taken to run to the floor along a quarter of an ellipse.
+struct Section {
+  TapePlane plane = *TapePlane::through({0, 0, 0}, {0, 50, 0}, {0, 0, 50});
+  PointCloud cloud;
+  Girth girth;
+
+  explicit Section(double seen_to_mm, double lean = 0.0) {
+    for (double y = -kHalfBreadthMm + 30 * lean; y <= kHalfBreadthMm; y += 1.0)
+      add(y, kTopMm, true);
+    for (double z = kTopMm - 1.0; z > 0.5; z -= 1.0) add(kHalfBreadthMm, z, true);
+    const double foot = -kHalfBreadthMm + lean * (kTopMm - seen_to_mm);
+    for (double y = kHalfBreadthMm; y > foot + kInsetMm; y -= 1.0) add(y, 0.0, false);
+    for (int degree = 1; degree < 90; ++degree) {
+      const double turn = degree * std::numbers::pi / 180.0;
+      add(foot + kInsetMm * (1 - std::sin(turn)), seen_to_mm * (1 - std::cos(turn)), false);
+    }
+    for (double z = seen_to_mm; z < kTopMm; z += 1.0) {
+      add(-kHalfBreadthMm + lean * (kTopMm - z), z, true);
+    }
+  }
+
+  double doubt() const { return hidden_wall(cloud, plane, girth).doubt_mm; }
+
+ private:
+  void add(double y, double z, bool was_seen) {
+    girth.contour.push_back(plane.project(Vector3d(0, y, z)));
+    cloud.positions.emplace_back(0, y, z);
+    cloud.origins.push_back(was_seen ? PointOrigin::kSeen : PointOrigin::kPlatform);
+  }
+};
+
+/// By Ramanujan's formula.
+double quarter_ellipse(double a, double b) {
+  return std::numbers::pi / 4.0 * (3 * (a + b) - std::sqrt((3 * a + b) * (a + 3 * b)));
+}
+
+TEST(HiddenWall, LeavesAShareOfTheCornerAtTheFloorOpen) {
+  for (const double height : {12.0, 20.0, 30.0}) {
+    const Section section(height);
+    const double corner = height + kInsetMm - quarter_ellipse(height, kInsetMm);
+    EXPECT_NEAR(section.doubt(), 0.75 * corner, 0.1 * corner) << height;
+    EXPECT_NEAR(hidden_wall(section.cloud, section.plane, section.girth).height_mm, height, 3.0);
+  }
+}
+
+TEST(HiddenWall, IsNoneWhereTheWallWasSeenDownToTheFloor) {
+  EXPECT_LT(Section(1.0).doubt(), 0.2);
+}
+
+TEST(HiddenWall, IsNoneWhereTheWallHadBegunToBend) {
+  EXPECT_EQ(Section(15.0, 0.6).doubt(), 0.0);
+  EXPECT_LT(Section(15.0, 0.25).doubt(), 0.8 * Section(15.0).doubt());
+}
+
+TEST(HiddenWall, IsNoneOfWhatStandsOnNoPlatform) {
+  Section section(20.0);
+  section.cloud.origins.clear();
+  EXPECT_EQ(section.doubt(), 0.0);
+}
+
+TEST(HiddenWall, BearsASectionOfNothing) {
+  Section section(20.0);
+  section.girth.contour.clear();
+  EXPECT_EQ(section.doubt(), 0.0);
+  const Section whole(20.0);
+  PointCloud unseen = whole.cloud;
+  unseen.origins.assign(unseen.size(), PointOrigin::kPlatform);
+  EXPECT_TRUE(std::isfinite(hidden_wall(unseen, whole.plane, whole.girth).doubt_mm));
+}
+
+}  // namespace
+}  // namespace instep
