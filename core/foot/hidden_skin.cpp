@@ -5,16 +5,23 @@
 #include <vector>
 
 #include "core/fusion/close_sole.h"
+#include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
+#include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 constexpr double kBandMm = 2.0;
 constexpr double kOverFloorMm = 0.3;
-/// Further from all seen points a corner of the section was not seen.
+/// Further from all seen points a corner of the section was not seen; where these lie further apart
+/// than they do in a scan, as many times further, and by a band that is as many times wider.
 constexpr double kUnseenMm = 2.5;
+constexpr double kSpacingMm = 1.5;
+constexpr std::size_t kSpacingSample = 200;
 /// A stretch that ends higher does not run down to the floor.
 constexpr double kDownMm = 3.0;
 /// As far back along the wall its direction is taken.
@@ -26,11 +33,29 @@ constexpr double kBending = 0.5;
 /// girths by -0.15 to 0.69.
 constexpr double kCornerShare = 0.75;
 
-std::vector<Vector2d> seen_near(const PointCloud& cloud, const TapePlane& plane) {
-  std::vector<Vector2d> near;
+/// The seen points of a cloud, and how many times further apart they are than usual.
+struct SeenPoints {
+  std::vector<Vector3d> positions;
+  double sparse = 1.0;
+};
+
+SeenPoints seen_points(const PointCloud& cloud) {
+  SeenPoints seen;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const bool counts = cloud.was_seen(i) && std::abs(plane.distance(cloud.positions[i])) < kBandMm;
-    if (counts) near.push_back(plane.project(cloud.positions[i]));
+    if (cloud.was_seen(i)) seen.positions.push_back(cloud.positions[i]);
+  }
+  if (seen.positions.empty()) return seen;
+  const double spacing = usual_spacing(PointIndex(seen.positions), kSpacingSample);
+  seen.sparse = std::max(1.0, spacing / kSpacingMm);
+  return seen;
+}
+
+std::vector<Vector2d> near_plane(const SeenPoints& seen, const TapePlane& plane) {
+  std::vector<Vector2d> near;
+  for (const auto& point : seen.positions) {
+    if (std::abs(plane.distance(point)) < kBandMm * seen.sparse) {
+      near.push_back(plane.project(point));
+    }
   }
   return near;
 }
@@ -38,11 +63,13 @@ std::vector<Vector2d> seen_near(const PointCloud& cloud, const TapePlane& plane)
 /// Of each corner of the section: over the floor, and far from all that was seen.
 std::vector<bool> hidden_corners(const PointCloud& cloud, const TapePlane& plane,
                                  const std::vector<Vector2d>& contour) {
-  const auto seen = seen_near(cloud, plane);
+  const SeenPoints seen = seen_points(cloud);
+  const auto near = near_plane(seen, plane);
+  const double reach = kUnseenMm * seen.sparse;
   std::vector<bool> is_hidden;
   for (const auto& corner : contour) {
-    const bool is_seen = std::any_of(seen.begin(), seen.end(), [&corner](const Vector2d& point) {
-      return (point - corner).squaredNorm() < kUnseenMm * kUnseenMm;
+    const bool is_seen = std::any_of(near.begin(), near.end(), [&](const Vector2d& point) {
+      return (point - corner).squaredNorm() < reach * reach;
     });
     is_hidden.push_back(!is_seen && plane.lift(corner).z() > kOverFloorMm);
   }
@@ -99,11 +126,8 @@ double longer_by_corner(const Stretch& stretch, const Vector2d& up) {
   const double falls = -up.dot(stretch.wall);
   const double leans = std::max(0.0, sign * level.dot(stretch.wall));
   if (!(height > 0.0) || leans >= kBending * falls) return 0.0;
-  const double slope = falls > 0.0 ? leans / falls : 0.0;
-  double length = 0.0;
-  for (std::size_t i = 1; i < stretch.course.size(); ++i) {
-    length += (stretch.course[i] - stretch.course[i - 1]).norm();
-  }
+  const double slope = leans / falls;
+  const double length = perimeter(convex_hull(stretch.course)) - way.norm();  // as a tape has it
   const double corner = std::hypot(height, slope * height) + std::abs(breadth - slope * height);
   return (1.0 - slope / kBending) * std::max(0.0, corner - length);
 }

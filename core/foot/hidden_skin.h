@@ -6,8 +6,8 @@
 
 namespace instep {
 
-/// What a tape round a standing foot may be wrong by for running over skin that no camera saw, as
-/// halves of 95 % intervals; foot frame, with the floor at z = 0.
+/// What a tape round a standing foot may be wrong by for running over skin that no camera saw, to
+/// be added to the half of its 95 % interval, as squares; foot frame, with the floor at z = 0.
 
 /// Below the wall the skin is taken to go on in its bend (close_sole()): a share of the tape's
 /// length there. O(points).
@@ -21,7 +21,8 @@ struct HiddenWall {
   double doubt_mm = 0.0;   ///< 0 where the bend of all walls was seen
 };
 
-/// By the points within 2 mm of the plane. O(points + corners of the section * these).
+/// By the points within 2 mm of the plane, or two spacings. O(points * log(points) + corners of the
+/// section * points near the plane).
 HiddenWall hidden_wall(const PointCloud& cloud, const TapePlane& plane, const Girth& girth);
 
 }  // namespace instep

@@ -57,7 +57,11 @@ Result<void> stretch(double deeper, double wider, WorkingView& view) {
   if (deeper == 0.0 && wider == 0.0) return {};
   const double factor = (1.0 + wider) / (1.0 + deeper);
   auto rays = Deprojector::create(widened(view.rays->intrinsics(), factor));
-  if (!rays) return tl::make_unexpected(rays.error());
+  if (!rays) {
+    Error error = rays.error();
+    error.message = "camera " + view.id + ": " + error.message;
+    return tl::make_unexpected(error);
+  }
   view.rays = std::make_shared<const Deprojector>(*std::move(rays));
   for (float& depth : view.depth.depth_mm) depth *= static_cast<float>(1.0 + deeper);
   return {};
@@ -108,8 +112,8 @@ void warn_of_unproven_poses(const Registration& registration, const std::vector<
         if (views.size() < 2) break;
         scene.warnings.push_back(
             camera +
-            " shares no surface with the others: its pose is not checked, and no "
-            "interval knows of it; let another camera see the skin between");
+            " shares no surface with the others: its pose is not checked, and taken to be as right "
+            "as theirs; let another camera see the skin between");
     }
   }
 }

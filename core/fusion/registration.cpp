@@ -149,8 +149,8 @@ void tell_errors(const std::vector<MovingView>& views, const std::vector<ViewMat
   const Eigen::MatrixXd errors =
       solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].taking_part) continue;
     auto& view = registration.views[i];
+    if (views[i].queries.empty() || view.fit == ViewFit::kDoesNotFit) continue;
     const RigidTransform camera_from_station =
         (view.correction * views[i].station_from_camera).inverse();
     for (Eigen::Index e = 0; e < errors.cols(); ++e) {
@@ -176,11 +176,35 @@ double share_matched(const MovingView& view, const std::vector<ViewMatch>& own) 
          static_cast<double>(is_matched.size());
 }
 
+/// The largest share of another view's queries that it matches.
+double share_of_others_matched(const std::vector<MovingView>& views, std::size_t at,
+                               const std::vector<ViewMatch>& all) {
+  std::vector<std::size_t> matched(views.size(), 0);
+  for (const auto& match : all) {
+    if (match.other == at) ++matched[match.view];
+  }
+  double most = 0.0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (matched[i] == 0) continue;
+    most = std::max(most,
+                    static_cast<double>(matched[i]) / static_cast<double>(views[i].queries.size()));
+  }
+  return most;
+}
+
+/// How near a view is to the limits within which it fits; over 1 is beyond.
+double strain(const MovingView& view, double residual_mm, const RegistrationSettings& settings) {
+  const double shift = (view.corrected_centroid() - view.centroid).norm();
+  const double turn = Eigen::AngleAxisd(view.pose_correction.linear()).angle();
+  const double stretch = std::max(std::abs(view.deeper), std::abs(view.wider));
+  return std::max({shift / settings.most_shift_mm, turn / (settings.most_turn_deg * kDegree),
+                   stretch / settings.most_stretch, residual_mm / settings.most_residual_mm});
+}
+
 RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
                      const std::vector<ViewMatch>& all, const RegistrationSettings& settings) {
   RegisteredView judged;
   const auto& view = views[at];
-  if (!view.taking_part) return judged;
   const auto own = matches_of(at, all);
   judged.overlap = share_matched(view, own);
   judged.taken_away_mm = taken_away(views, own);
@@ -188,34 +212,39 @@ RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
   judged.deeper = view.deeper;
   judged.wider = view.wider;
   judged.correction = correction_after_stretch(view);
-  const double shift = (view.corrected_centroid() - view.centroid).norm();
-  const double turn = Eigen::AngleAxisd(view.pose_correction.linear()).angle();
-  judged.moved_mm = shift + kArmMm * turn;
-  const double stretch = std::max(std::abs(view.deeper), std::abs(view.wider));
-  const bool too_far = shift > settings.most_shift_mm || turn > settings.most_turn_deg * kDegree ||
-                       stretch > settings.most_stretch;
-  if (too_far || judged.residual_mm > settings.most_residual_mm) {
+  judged.moved_mm = (view.corrected_centroid() - view.centroid).norm() +
+                    kArmMm * Eigen::AngleAxisd(view.pose_correction.linear()).angle();
+  const double shared = std::max(judged.overlap, share_of_others_matched(views, at, all));
+  if (strain(view, judged.residual_mm, settings) > 1.0) {
     judged.fit = ViewFit::kDoesNotFit;
-  } else if (judged.overlap >= settings.least_overlap) {
+  } else if (shared >= settings.least_overlap) {
     judged.fit = can_slide(own) ? ViewFit::kSlides : ViewFit::kFits;
   }
   return judged;
 }
 
-/// Of the views that take part and should not, the one that fits worst; one that is alone but for
-/// some matches only where all others fit.
+/// Of the views that take part and should not, the one that fits worst; where all fit, the one of
+/// those that are alone that shares least, unless it is the last.
 std::optional<std::size_t> worst_of(const Registration& registration,
-                                    const std::vector<MovingView>& views) {
+                                    const std::vector<MovingView>& views,
+                                    const RegistrationSettings& settings) {
   std::optional<std::size_t> worst;
   std::optional<std::size_t> alone;
+  double most = 0.0;
+  std::size_t taking_part = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto& view = registration.views[i];
     if (!views[i].taking_part) continue;
-    if (view.fit == ViewFit::kAlone && view.overlap > 0.0) alone = i;
-    if (view.fit != ViewFit::kDoesNotFit) continue;
-    if (!worst || view.residual_mm > registration.views[*worst].residual_mm) worst = i;
+    ++taking_part;
+    const auto& view = registration.views[i];
+    const double own = strain(views[i], view.residual_mm, settings);
+    if (view.fit == ViewFit::kDoesNotFit && own > most) {
+      most = own;
+      worst = i;
+    }
+    if (view.fit != ViewFit::kAlone) continue;
+    if (!alone || view.overlap < registration.views[*alone].overlap) alone = i;
   }
-  return worst ? worst : alone;
+  return worst || taking_part < 2 ? worst : alone;
 }
 
 }  // namespace
@@ -229,15 +258,19 @@ Result<Registration> register_views(const std::vector<PosedCloud>& views,
   const auto given = match_views(moving, 2.0 * settings.last_reach_mm);
   registration.residual_before_mm = median_residual(given);
   registration.unexplained_before_mm = unexplained(given);
+  registration.residual_after_mm = registration.residual_before_mm;
+  registration.unexplained_after_mm = registration.unexplained_before_mm;
   for (std::size_t round = 0; round <= views.size(); ++round) {
     if (!solve(moving, settings, go_on)) return cancelled();
     const auto matches = match_views(moving, 2.0 * settings.last_reach_mm);
-    registration.residual_after_mm = median_residual(matches);
-    registration.unexplained_after_mm = unexplained(matches);
+    if (!matches.empty()) {  // else nothing tells how they lie now
+      registration.residual_after_mm = median_residual(matches);
+      registration.unexplained_after_mm = unexplained(matches);
+    }
     for (std::size_t i = 0; i < views.size(); ++i) {
       if (moving[i].taking_part) registration.views[i] = judge(moving, i, matches, settings);
     }
-    const auto worst = worst_of(registration, moving);
+    const auto worst = worst_of(registration, moving, settings);
     if (!worst) {
       tell_errors(moving, matches, settings, registration);
       break;

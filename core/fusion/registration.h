@@ -21,8 +21,9 @@ struct RegistrationSettings {
   ExpectedErrors expected;      ///< holds what the surfaces leave open
   double most_shift_mm = 60.0;  ///< a view that wants to go further does not fit
   double most_turn_deg = 12.0;
-  double most_stretch = 0.015;    ///< nor does one that is to grow or shrink by more
-  double least_overlap = 0.05;    ///< share of a view's queries with a match
+  double most_stretch = 0.015;  ///< nor does one that is to grow or shrink by more
+  /// Share of a view's queries with a match, or of another one's with a match in it.
+  double least_overlap = 0.05;
   double most_residual_mm = 3.0;  ///< median of a view that fits
 };
 
@@ -67,8 +68,8 @@ struct Registration {
 /// point-to-plane distances (Chen and Medioni 1992; normals of both sides, Rusinkiewicz 2019), each
 /// weighed by its noise, with Tukey weights whose reach shrinks from first_reach_mm to
 /// last_reach_mm. Views whose result breaks a limit are marked kDoesNotFit, those that share hardly
-/// anything kAlone; neither gets a correction or errors, and the others are solved again without
-/// them.
+/// anything kAlone; neither gets a correction, and the others are solved again without them. One
+/// that is alone is taken to be as right as they are.
 ///
 /// The given poses and lenses weigh too, twice over: first as ill known as the settings say, then
 /// as the overlaps have shown them to be (of lenses by a few rounds of Dempster, Laird and Rubin's

@@ -306,6 +306,24 @@ TEST(RegisterViews, LeavesOutAViewThatWouldHaveToBeStretchedTooFar) {
   }
 }
 
+/// A few matches with what only happens to lie near would move it, and its neighbours with it.
+TEST(RegisterViews, DoesNotMoveAViewThatSharesHardlyAnything) {
+  auto clouds = seen_by(small_ring(4), 1.0e-6);
+  RigidTransform aside = RigidTransform::Identity();
+  aside.translation() = Vector3d(0, 0, 80);
+  clouds[3] = moved_by(aside, clouds[3]);
+  RegistrationSettings settings;
+  settings.least_overlap = 0.3;
+  const auto registration = register_views(clouds, settings).value();
+  EXPECT_EQ(registration.views[3].fit, ViewFit::kAlone);
+  EXPECT_GT(registration.views[3].overlap, 0.0);
+  EXPECT_TRUE(registration.views[3].correction.isApprox(RigidTransform::Identity()));
+  EXPECT_FALSE(registration.views[3].errors.empty());
+  for (const std::size_t i : {0U, 1U, 2U}) {
+    EXPECT_LT(registration.views[i].correction.translation().norm(), 0.2) << i;
+  }
+}
+
 TEST(RegisterViews, TellsNoErrorsOfAViewThatShowsNothing) {
   auto clouds = seen_by(small_ring(4), 1.0e-6);
   clouds[2].cloud = {};

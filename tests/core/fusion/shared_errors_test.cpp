@@ -80,6 +80,21 @@ TEST(SharedErrors, KnowNothingOfWhatMovesAllViewsAlike) {
   for (const double value : grown[0]) EXPECT_NEAR(std::abs(value), 0.5, 1e-9);
 }
 
+TEST(SharedErrors, HaveNoCommonMotionByTheSharesOfTheirViews) {
+  const ErrorField motion = rigid_field({0.01, -0.02, 0.005}, {1, 2, 3});
+  std::vector<ViewErrors> views = {
+      {{in_frame(kPoses[0].inverse(), motion)}, 0.75, kPoses[0]},
+      {{in_frame(kPoses[1].inverse(), -3.0 * motion)}, 0.25, kPoses[1]},
+      {{}, 0.0, kPoses[1]}};
+  auto with_one_blind = views;
+  with_one_blind[1].fields.clear();
+  take_common_motion_out({10, 0, 40}, views);
+  EXPECT_TRUE(in_frame(kPoses[0], views[0].fields[0]).isApprox(motion, 1e-9));
+  take_common_motion_out({10, 0, 40}, with_one_blind);
+  ASSERT_EQ(with_one_blind[1].fields.size(), 1U);
+  EXPECT_TRUE(in_frame(kPoses[1], with_one_blind[1].fields[0]).isApprox(-0.75 * motion, 1e-9));
+}
+
 TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
   PointCloud cloud;
   cloud.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};

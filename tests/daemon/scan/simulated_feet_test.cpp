@@ -133,6 +133,8 @@ TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
   ASSERT_TRUE(records) << records.error().line();
   const auto& measures = records->front().measures;
   const auto& truth = scan->truth.front().measures;
+  // One in twenty need not hold.
+  EXPECT_GE(number_known(measures, truth), 15);
   EXPECT_GE(number_held(measures, truth), number_known(measures, truth) - 1);
   EXPECT_TRUE(is_said("of its size", records->front().warnings));
 }
@@ -150,7 +152,8 @@ TEST(SimulatedPair, HasIntervalsThatHoldWhereOneFootHidesTheOther) {
     ASSERT_EQ(records->size(), 2U);
     for (std::size_t i = 0; i < 2; ++i) {
       const Measure* ball = (*records)[i].measures.find("ball_girth");
-      if (ball == nullptr) continue;
+      ASSERT_NE(ball, nullptr) << seed;
+      ASSERT_TRUE(ball->u95_mm);
       const double truth = scan->truth[i].measures.at("ball_girth");
       EXPECT_NEAR(ball->value_mm, truth, *ball->u95_mm) << seed;
       EXPECT_TRUE(is_said("the wall of the foot was not seen", ball->warnings)) << seed;
