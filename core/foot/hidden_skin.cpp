@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "core/fusion/close_sole.h"
-#include "core/geometry/point_index.h"
-#include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
@@ -15,63 +13,33 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kBandMm = 2.0;
 constexpr double kOverFloorMm = 0.3;
 /// Further from all seen points a corner of the section was not seen; where these lie further apart
-/// than they do in a scan, as many times further, and by a band that is as many times wider.
+/// than they do in a scan, as many times further. Set by eye, as what follows is but for the last.
 constexpr double kUnseenMm = 2.5;
 constexpr double kSpacingMm = 1.5;
-constexpr std::size_t kSpacingSample = 200;
 /// A stretch that ends higher does not run down to the floor.
 constexpr double kDownMm = 3.0;
 /// As far back along the wall its direction is taken.
 constexpr double kWallMm = 4.0;
+/// Less steep a plane is level, as round the ankle: it meets no floor.
+constexpr double kLeastUpright = 0.1;
 /// A wall that leans inwards by so much a millimetre down is in its bend, which goes on.
 constexpr double kBending = 0.5;
-/// Of what a corner at the floor would add. Where that is more than 5 mm, the ball girths of 20
-/// pairs of simulated feet are short by 0.37 to 0.8 of it, three of 23 by 0.9 to 1.2; the waist
-/// girths by -0.15 to 0.69.
+/// Of what a corner at the floor would add. Where that is more than 5 mm, the girths of 20 pairs of
+/// simulated feet are short by 0.37 to 0.8 of it at the ball, but two of 23 by 1.1 and 1.2, and by
+/// -0.15 to 0.6 at the waist.
 constexpr double kCornerShare = 0.75;
 
-/// The seen points of a cloud, and how many times further apart they are than usual.
-struct SeenPoints {
-  std::vector<Vector3d> positions;
-  double sparse = 1.0;
-};
-
-SeenPoints seen_points(const PointCloud& cloud) {
-  SeenPoints seen;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.was_seen(i)) seen.positions.push_back(cloud.positions[i]);
-  }
-  if (seen.positions.empty()) return seen;
-  const double spacing = usual_spacing(PointIndex(seen.positions), kSpacingSample);
-  seen.sparse = std::max(1.0, spacing / kSpacingMm);
-  return seen;
-}
-
-std::vector<Vector2d> near_plane(const SeenPoints& seen, const TapePlane& plane) {
-  std::vector<Vector2d> near;
-  for (const auto& point : seen.positions) {
-    if (std::abs(plane.distance(point)) < kBandMm * seen.sparse) {
-      near.push_back(plane.project(point));
-    }
-  }
-  return near;
-}
-
 /// Of each corner of the section: over the floor, and far from all that was seen.
-std::vector<bool> hidden_corners(const PointCloud& cloud, const TapePlane& plane,
+std::vector<bool> hidden_corners(const SeenSkin& seen, const TapePlane& plane,
                                  const std::vector<Vector2d>& contour) {
-  const SeenPoints seen = seen_points(cloud);
-  const auto near = near_plane(seen, plane);
-  const double reach = kUnseenMm * seen.sparse;
+  const double reach = kUnseenMm * std::max(1.0, seen.spacing_mm() / kSpacingMm);
   std::vector<bool> is_hidden;
   for (const auto& corner : contour) {
-    const bool is_seen = std::any_of(near.begin(), near.end(), [&](const Vector2d& point) {
-      return (point - corner).squaredNorm() < reach * reach;
-    });
-    is_hidden.push_back(!is_seen && plane.lift(corner).z() > kOverFloorMm);
+    const Vector3d place = plane.lift(corner);
+    const auto nearest = seen.nearest(place);
+    is_hidden.push_back(place.z() > kOverFloorMm && !(nearest && nearest->distance_mm < reach));
   }
   return is_hidden;
 }
@@ -137,6 +105,7 @@ double longer_by_corner(const Stretch& stretch, const Vector2d& up) {
 double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane) {
   // As drawn feet without soles have it (tests/bench/feet).
   constexpr double kDoubtShare = 0.035;
+  constexpr double kBandMm = 2.0;
   const double spacing = SoleSettings{}.spacing_mm;
   double points = 0.0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -147,12 +116,12 @@ double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane) {
   return kDoubtShare * points * spacing * spacing / (2.0 * kBandMm);
 }
 
-HiddenWall hidden_wall(const PointCloud& cloud, const TapePlane& plane, const Girth& girth) {
+HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth& girth) {
   HiddenWall hidden;
   const Vector2d upwards(plane.u().z(), plane.v().z());
-  if (!cloud.stands_on_platform() || !(upwards.norm() > 0.1)) return hidden;
+  if (!(upwards.norm() > kLeastUpright)) return hidden;
   const Vector2d up = upwards.normalized();
-  const auto is_hidden = hidden_corners(cloud, plane, girth.contour);
+  const auto is_hidden = hidden_corners(seen, plane, girth.contour);
   for (const auto& stretch : hidden_stretches(girth.contour, is_hidden, up)) {
     if (plane.lift(stretch.course.back()).z() > kDownMm) continue;
     const double doubt = kCornerShare * longer_by_corner(stretch, up);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/foot/seen_skin.h"
 #include "core/geometry/point_cloud.h"
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
@@ -21,8 +22,7 @@ struct HiddenWall {
   double doubt_mm = 0.0;   ///< 0 where the bend of all walls was seen
 };
 
-/// By the points within 2 mm of the plane, or two spacings. O(points * log(points) + corners of the
-/// section * points near the plane).
-HiddenWall hidden_wall(const PointCloud& cloud, const TapePlane& plane, const Girth& girth);
+/// `girth`: of a foot on a platform. O(corners of the section * log(points)).
+HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth& girth);
 
 }  // namespace instep

@@ -13,6 +13,7 @@
 #include "core/foot/measure_definitions.h"
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/rough_tape.h"
+#include "core/foot/seen_skin.h"
 #include "core/foot/shared_doubt.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
@@ -36,6 +37,14 @@ constexpr double kUselessMm = 5.0;
 constexpr double kUselessDegrees = 10.0;
 /// Of what a wall that was not seen leaves open of a girth.
 constexpr double kWorthSayingMm = 1.0;
+
+/// What is asked of a foot for each of its measures.
+struct FootDoubts {
+  explicit FootDoubts(const FootScan& foot) : seen(foot.cloud), shared(foot, seen) {}
+
+  SeenSkin seen;
+  SharedDoubt shared;
+};
 
 /// What each redraw of the landmarks gives; nothing where it gives nothing.
 template <typename Taker>
@@ -82,7 +91,7 @@ Result<void> check_heel(double breadth_mm, const FootScan& foot) {
 }
 
 Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
-                     const SharedDoubt& shared_doubt) {
+                     const FootDoubts& about) {
   const auto length = definition.length(foot.landmarks);
   if (!length) return tl::unexpected(length.error());
   if (definition.length == heel_breadth) {
@@ -94,7 +103,7 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
   if (u95) {
-    measure.parts = DoubtParts{shared_doubt.of_landmarks(definition.length), *u95};
+    measure.parts = DoubtParts{about.shared.of_landmarks(definition.length), *u95};
     u95 = std::hypot(measure.parts->surface, *u95);
   }
   if (definition.kind == LengthDefinition::Kind::kAngle) {
@@ -120,26 +129,27 @@ Result<void> check_share(double girth_mm, const FootScan& foot) {
 }
 
 Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
-                     const SharedDoubt& shared_doubt, const MeasureOptions& options) {
+                     const FootDoubts& about, const MeasureOptions& options) {
   const auto plane = definition.tape(foot.landmarks);
   if (!plane) return tl::unexpected(plane.error());
   auto girth = options.girth(foot.cloud, *plane, options.girth_options);
   if (!girth) return tl::unexpected(girth.error());
-  if (foot.cloud.stands_on_platform()) girth = standing_girth(*std::move(girth), *plane);
+  const bool is_standing = foot.cloud.stands_on_platform();
+  if (is_standing) girth = standing_girth(*std::move(girth), *plane);
   if (auto sane = check_share(girth->stretched_mm, foot); !sane) {
     return tl::unexpected(sane.error());
   }
   Measure measure;
   measure.id = definition.id;
   measure.value_mm = girth->stretched_mm;
-  const HiddenWall hidden = hidden_wall(foot.cloud, *plane, *girth);
+  const HiddenWall hidden = is_standing ? hidden_wall(about.seen, *plane, *girth) : HiddenWall{};
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
   const auto by_landmarks = u95_of(definition, foot);
   if (by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
     const double surface =
-        std::hypot(*girth->stretched_u95_mm, unseen, shared_doubt.of_girth(*girth, *plane));
+        std::hypot(*girth->stretched_u95_mm, unseen, about.shared.of_girth(*girth, *plane));
     measure.parts = DoubtParts{surface, std::hypot(*by_landmarks, definition.own_doubt_mm)};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
@@ -195,9 +205,9 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   }
   MeasureSet set;
   const bool is_last = is_shoe_last(foot);
-  const SharedDoubt shared_doubt(foot);
+  const FootDoubts about(foot);
   for (const auto& definition : length_definitions(foot.rules)) {
-    keep(set, definition.id, is_last, take(definition, foot, shared_doubt));
+    keep(set, definition.id, is_last, take(definition, foot, about));
     if (!go_on()) return cancelled();
   }
   const auto definitions = girth_definitions(foot);
@@ -205,7 +215,7 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   std::atomic<bool> wanted = true;
   options.workers(definitions.size(), [&](std::size_t i) {
     if (!wanted) return;
-    girths[i] = take(definitions[i], foot, shared_doubt, options);
+    girths[i] = take(definitions[i], foot, about, options);
     if (!go_on()) wanted = false;
   });
   if (!wanted) return cancelled();

@@ -5,7 +5,6 @@
 
 #include "core/geometry/polygon.h"
 #include "core/girth/length_doubt.h"
-#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -18,25 +17,16 @@ constexpr double kLeastCrosswise = 0.3;
 
 }  // namespace
 
-SharedDoubt::SharedDoubt(const FootScan& foot) : foot_(foot) {
-  if (foot.cloud.shared_errors_mm.empty() || !foot.cloud.has_normals()) return;
-  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
-    if (foot.cloud.was_seen(i)) seen_.push_back(i);
-  }
-  if (seen_.empty()) return;
-  index_.emplace(picked(foot.cloud.positions, seen_));
-  moved_.assign(foot.cloud.shared_errors_mm.size(), foot.landmarks);
+SharedDoubt::SharedDoubt(const FootScan& foot, const SeenSkin& seen) : foot_(foot), seen_(seen) {
+  const auto& errors = foot.cloud.shared_errors_mm;
+  moved_.assign(errors.size(), foot.landmarks);
   for (const auto& [name, landmark] : foot.landmarks) {
-    const std::size_t skin = skin_at(landmark.position_mm);
-    for (std::size_t e = 0; e < moved_.size(); ++e) {
-      moved_[e][name].position_mm +=
-          foot.cloud.shared_errors_mm[e][skin] * foot.cloud.normals[skin];
+    const auto skin = seen.nearest(landmark.position_mm);
+    if (!skin) return;
+    for (std::size_t e = 0; e < errors.size(); ++e) {
+      moved_[e][name].position_mm += errors[e][skin->index] * foot.cloud.normals[skin->index];
     }
   }
-}
-
-std::size_t SharedDoubt::skin_at(const Vector3d& place) const {
-  return seen_[index_->nearest(place, 1).front().index];
 }
 
 double SharedDoubt::of_landmarks(
@@ -52,22 +42,24 @@ double SharedDoubt::of_landmarks(
 }
 
 double SharedDoubt::of_girth(const Girth& girth, const TapePlane& plane) const {
-  if (!index_) return 0.0;
+  const auto& errors = foot_.cloud.shared_errors_mm;
+  if (errors.empty()) return 0.0;
   const auto tape = convex_hull(girth.contour);
   const std::size_t count = tape.size();
   if (count < 3) return 0.0;
-  std::vector<double> lengthened(foot_.cloud.shared_errors_mm.size(), 0.0);
+  std::vector<double> lengthened(errors.size(), 0.0);
   for (std::size_t i = 0; i < count; ++i) {
     const Vector2d& corner = tape[i];
     const Vector2d turn = (corner - tape[(i + count - 1) % count]).normalized() -
                           (tape[(i + 1) % count] - corner).normalized();
-    const std::size_t skin = skin_at(plane.lift(corner));
-    const Vector3d& normal = foot_.cloud.normals[skin];
+    const auto skin = seen_.nearest(plane.lift(corner));
+    if (!skin) return 0.0;
+    const Vector3d& normal = foot_.cloud.normals[skin->index];
     const Vector2d in_plane(plane.u().dot(normal), plane.v().dot(normal));
     const double squared = std::max(kLeastCrosswise * kLeastCrosswise, in_plane.squaredNorm());
     const double a_millimetre = turn.dot(in_plane) / squared;
     for (std::size_t e = 0; e < lengthened.size(); ++e) {
-      lengthened[e] += foot_.cloud.shared_errors_mm[e][skin] * a_millimetre;
+      lengthened[e] += errors[e][skin->index] * a_millimetre;
     }
   }
   double variance = 0.0;

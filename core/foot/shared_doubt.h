@@ -1,23 +1,22 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "core/foot/foot_scan.h"
-#include "core/geometry/point_index.h"
+#include "core/foot/seen_skin.h"
 #include "core/girth/girth.h"
 
 namespace instep {
 
 /// What the errors that many points share (PointCloud::shared_errors_mm) leave open of the measures
 /// of a foot: half-widths of 95 % intervals, 0 for a cloud that knows of none. To first order: the
-/// skin moves, with the landmarks on it, while the floor and the tapes' planes stay. Borrows the
-/// foot. Building costs O(n log n), some 5 ms for 20,000 points.
+/// skin moves, with the landmarks on it, while the floor and the tapes' planes stay. Skin that was
+/// not seen errs as the seen skin beside it, from which it goes on. Borrows the foot and what was
+/// seen of it.
 class SharedDoubt {
  public:
-  explicit SharedDoubt(const FootScan& foot);
+  SharedDoubt(const FootScan& foot, const SeenSkin& seen);
 
   /// Of a measure that is read off the landmarks, in its own unit.
   double of_landmarks(const std::function<Result<double>(const Landmarks&)>& measure) const;
@@ -26,14 +25,9 @@ class SharedDoubt {
   double of_girth(const Girth& girth, const TapePlane& plane) const;
 
  private:
-  /// The seen point of the cloud that stands for the skin at a place: what closes the sole goes on
-  /// from the wall, and errs as that does.
-  std::size_t skin_at(const Eigen::Vector3d& place) const;
-
   const FootScan& foot_;
-  std::vector<std::size_t> seen_;    ///< points; only of a cloud with shared errors
-  std::optional<PointIndex> index_;  ///< of these
-  std::vector<Landmarks> moved_;     ///< the landmarks by each of these
+  const SeenSkin& seen_;
+  std::vector<Landmarks> moved_;  ///< the landmarks by each of the errors
 };
 
 }  // namespace instep

@@ -183,17 +183,9 @@ void estimate_standing_height(const std::vector<ViewedCloud>& feet, FusedScene& 
       "no camera saw the platform; its height is taken from the lowest points of the feet");
 }
 
-/// The errors of the views, as they tell on a foot in the middle of the cloud.
-std::vector<ViewErrors> errors_of(const std::vector<WorkingView>& views, const ThinnedCloud& foot) {
+std::vector<ViewErrors> errors_of(const std::vector<WorkingView>& views) {
   std::vector<ViewErrors> errors;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    const double share = row < foot.shares.rows() ? foot.shares.row(row).sum() : 0.0;
-    errors.push_back({views[i].errors, share, views[i].station_from_camera});
-  }
-  Vector3d centre = Vector3d::Zero();
-  for (const auto& point : foot.cloud.positions) centre += point;
-  take_common_motion_out(centre / static_cast<double>(foot.cloud.size()), errors);
+  for (const auto& view : views) errors.push_back({view.errors, view.station_from_camera});
   return errors;
 }
 
@@ -202,9 +194,8 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   ThinSettings thinning;
   thinning.spacing_mm = settings.point_spacing_mm;
   thinning.view_sigma_mm = scene.diagnostics.unexplained_mm / std::numbers::sqrt2;  // of each view
-  ThinnedCloud thinned = thin(points, thinning);
-  PointCloud& foot = thinned.cloud;
-  foot.shared_errors_mm = shared_errors_of(foot, thinned.shares, errors_of(views, thinned));
+  auto [foot, shares] = thin(points, views.size(), thinning);
+  foot.shared_errors_mm = shared_errors_of(foot, shares, errors_of(views));
   const std::string name = "foot " + std::to_string(scene.feet.size() + 1);
   const double coverage = coverage_of(foot);
   scene.diagnostics.points.push_back(foot.size());

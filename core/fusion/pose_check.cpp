@@ -134,7 +134,7 @@ void warn_of_wrong_poses(const Registration& registration, const std::vector<Wor
       "by the given poses, camera " + views[*furthest].id + " before others, the same skin lies " +
       in_millimetres(off_mm) + " apart in two views: " +
       (are_refined ? "they were refined; if they should be right, a camera was moved, or its lens "
-                     "or depth is off"
+                     "or depth is off: calibrate the station"
                    : "no interval knows of that; let them be refined (refine_views = true in the "
                      "settings, --poses refine)"));
 }
@@ -167,8 +167,8 @@ void warn_of_the_unexplained(const Registration& registration, FusedScene& scene
   scene.warnings.push_back("what two cameras see of the same skin lies " +
                            in_millimetres(registration.unexplained_after_mm) +
                            " apart, however they are fitted to each other, and the intervals take "
-                           "that for noise: their depths are bent, the foot moved between them, "
-                           "or they are noisier than so few frames tell");
+                           "that for noise: calibrate their depths, ask the customer to stand "
+                           "still, or take more frames");
 }
 
 }  // namespace

@@ -165,7 +165,8 @@ bool can_slide(const std::vector<ViewMatch>& matches) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const auto& match : matches) sum += match.normal * match.normal.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum, Eigen::EigenvaluesOnly);
-  return !(solver.eigenvalues()(0) >= kLeastHold * static_cast<double>(matches.size()));
+  return matches.empty() ||
+         !(solver.eigenvalues()(0) >= kLeastHold * static_cast<double>(matches.size()));
 }
 
 /// Of its queries, by however many views each.

@@ -83,7 +83,7 @@ struct Registration {
 /// matches count as far fewer independent ones, turned into independent errors of all views.
 ///
 /// Clouds are given in the station frame and need normals, sigma and view directions; one without
-/// is kAlone. Deterministic. Costs some 150 ms for 4 views of good poses; each iteration is a piece
+/// is kAlone. Deterministic. Costs some 100 ms for 4 views of good poses; each iteration is a piece
 /// of the work for `go_on`. Fails with kCancelled alone.
 Result<Registration> register_views(const std::vector<PosedCloud>& views,
                                     const RegistrationSettings& settings = {},

@@ -30,14 +30,33 @@ std::size_t number_of_errors(const std::vector<ViewErrors>& views) {
   return most;
 }
 
+/// The errors without what moves the views together, each by its share, as one rigid body about
+/// `centre`.
+std::vector<ViewErrors> without_common_motion(std::vector<ViewErrors> views,
+                                              const Eigen::VectorXd& shares,
+                                              const Vector3d& centre) {
+  const std::size_t errors = number_of_errors(views);
+  for (auto& view : views) view.fields.resize(errors, ErrorField::Zero());
+  for (std::size_t e = 0; e < errors; ++e) {
+    ErrorField common = ErrorField::Zero();
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      const ErrorField field = in_frame(views[v].station_from_camera, views[v].fields[e]);
+      common += shares(static_cast<Eigen::Index>(v)) * rigid_part(field, centre);
+    }
+    for (auto& view : views) {
+      view.fields[e] -= in_frame(view.station_from_camera.inverse(), common);
+    }
+  }
+  return views;
+}
+
 /// How far each error (column) moves every `stride`th point (row) along its normal.
 MatrixXd moved_along_normals(const PointCloud& cloud, const MatrixXd& shares,
                              const std::vector<ViewErrors>& views, std::size_t stride) {
   const auto points = static_cast<Eigen::Index>((cloud.size() + stride - 1) / stride);
   const auto errors = static_cast<Eigen::Index>(number_of_errors(views));
   MatrixXd moved = MatrixXd::Zero(points, errors);
-  const auto seeing = std::min(views.size(), static_cast<std::size_t>(shares.rows()));
-  for (std::size_t v = 0; v < seeing; ++v) {
+  for (std::size_t v = 0; v < views.size(); ++v) {
     const RigidTransform camera_from_station = views[v].station_from_camera.inverse();
     for (std::size_t point = 0; point < cloud.size(); point += stride) {
       const double share = shares(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(point));
@@ -73,14 +92,14 @@ MatrixXd main_mixtures(MatrixXd moved) {
 
 /// The same fields, mixed.
 std::vector<ErrorField> mixed(const std::vector<ErrorField>& fields, const MatrixXd& mixtures) {
-  std::vector<ErrorField> mixed(static_cast<std::size_t>(mixtures.cols()), ErrorField::Zero());
-  for (std::size_t to = 0; to < mixed.size(); ++to) {
+  std::vector<ErrorField> made(static_cast<std::size_t>(mixtures.cols()), ErrorField::Zero());
+  for (std::size_t to = 0; to < made.size(); ++to) {
     for (std::size_t from = 0; from < fields.size(); ++from) {
-      mixed[to] +=
+      made[to] +=
           mixtures(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(to)) * fields[from];
     }
   }
-  return mixed;
+  return made;
 }
 
 }  // namespace
@@ -93,33 +112,17 @@ ErrorField in_frame(const RigidTransform& target_from_source, const ErrorField& 
   return moved;
 }
 
-void take_common_motion_out(const Vector3d& centre, std::vector<ViewErrors>& views) {
-  double shares = 0.0;
-  for (const auto& view : views) shares += view.share;
-  const std::size_t errors = number_of_errors(views);
-  if (!(shares > 0.0)) return;
-  for (auto& view : views) view.fields.resize(errors, ErrorField::Zero());
-  for (std::size_t e = 0; e < errors; ++e) {
-    ErrorField common = ErrorField::Zero();
-    for (const auto& view : views) {
-      common += view.share / shares *
-                rigid_part(in_frame(view.station_from_camera, view.fields[e]), centre);
-    }
-    for (auto& view : views) {
-      view.fields[e] -= in_frame(view.station_from_camera.inverse(), common);
-    }
-  }
-}
-
 std::vector<std::vector<double>> shared_errors_of(const PointCloud& cloud, const MatrixXd& shares,
                                                   const std::vector<ViewErrors>& views) {
   if (number_of_errors(views) == 0 || cloud.empty()) return {};
+  Vector3d centre = Vector3d::Zero();
+  for (const auto& point : cloud.positions) centre += point / static_cast<double>(cloud.size());
+  auto own = without_common_motion(views, shares.rowwise().mean(), centre);
   const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kPointsToMixBy);
-  const MatrixXd mixtures = main_mixtures(moved_along_normals(cloud, shares, views, stride));
-  std::vector<ViewErrors> few = views;
-  for (auto& view : few) view.fields = mixed(view.fields, mixtures);
+  const MatrixXd mixtures = main_mixtures(moved_along_normals(cloud, shares, own, stride));
+  for (auto& view : own) view.fields = mixed(view.fields, mixtures);
   std::vector<std::vector<double>> errors;
-  const MatrixXd moved = moved_along_normals(cloud, shares, few, 1);
+  const MatrixXd moved = moved_along_normals(cloud, shares, own, 1);
   for (const auto& column : moved.colwise()) errors.emplace_back(column.begin(), column.end());
   return errors;
 }

@@ -32,12 +32,11 @@ class Thinning {
         settings_(settings),
         grid_(points.cloud.positions, reach(points.cloud.sigma_mm, settings.spacing_mm)) {}
 
-  ThinnedCloud run() {
+  ThinnedCloud run(std::size_t views) {
     choose_and_assign();
     ThinnedCloud thinned;
-    const std::uint16_t last_view = *std::max_element(views_.begin(), views_.end());
-    thinned.shares =
-        Eigen::MatrixXd::Zero(last_view + 1, static_cast<Eigen::Index>(chosen_.size()));
+    thinned.shares = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(views),
+                                           static_cast<Eigen::Index>(chosen_.size()));
     for (std::size_t i = 0; i < chosen_.size(); ++i) add_mean(i, thinned);
     return thinned;
   }
@@ -172,9 +171,9 @@ ViewedCloud subset(const ViewedCloud& points, const std::vector<std::size_t>& in
   return part;
 }
 
-ThinnedCloud thin(const ViewedCloud& points, const ThinSettings& settings) {
+ThinnedCloud thin(const ViewedCloud& points, std::size_t views, const ThinSettings& settings) {
   if (points.cloud.empty()) return {};
-  return Thinning(points, settings).run();
+  return Thinning(points, settings).run(views);
 }
 
 }  // namespace instep

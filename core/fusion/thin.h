@@ -32,13 +32,14 @@ struct ThinnedCloud {
   Eigen::MatrixXd shares;  ///< how much each view (row) counts in each point (column); sum 1
 };
 
-/// Fewer points, each standing for the disc of radius `spacing_mm` round it: of the given points
-/// some are chosen that keep this distance on the surface, and each takes the mean of the points
-/// nearest to it. Heights are averaged along the mean of both normals, which follows the curvature
-/// instead of cutting it; sheets that lie further apart than their noise stay separate.
+/// Fewer points of so many views, each standing for the disc of radius `spacing_mm` round it: of
+/// the given points some are chosen that keep this distance on the surface, and each takes the mean
+/// of the points nearest to it. Heights are averaged along the mean of both normals, which follows
+/// the curvature instead of cutting it; sheets that lie further apart than their noise stay
+/// separate.
 ///
 /// Sigma is what is left after averaging: within a view the independent part only, then the views
 /// by inverse variance, never less than the views disagree. Deterministic; some 1 us a point.
-ThinnedCloud thin(const ViewedCloud& points, const ThinSettings& settings);
+ThinnedCloud thin(const ViewedCloud& points, std::size_t views, const ThinSettings& settings);
 
 }  // namespace instep

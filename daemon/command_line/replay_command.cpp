@@ -121,8 +121,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   replay
       ->add_option("--poses", command->poses,
                    "refine the cameras' poses and lenses by fitting the views to each other, or "
-                   "trust them; "
-                   "auto is refine")
+                   "trust them; auto is refine")
       ->check(CLI::IsMember({"refine", "trust", "auto"}))
       ->capture_default_str();
   replay->add_option("--format", command->format, "json (if stdout is no terminal) or text")

@@ -212,7 +212,7 @@ TEST(FuseViews, SaysThatAViewCouldSlide) {
 }
 
 TEST(FuseViews, SaysWhatNoPoseExplains) {
-  EXPECT_EQ(warnings_of(good_views(), true).find("depths are bent"), std::string::npos);
+  EXPECT_EQ(warnings_of(good_views(), true).find("calibrate their depths"), std::string::npos);
   auto views = good_views();
   auto& depth = views[1].depth;
   for (int y = 0; y < depth.height; ++y) {  // bent, as by a wrong lens
@@ -221,7 +221,7 @@ TEST(FuseViews, SaysWhatNoPoseExplains) {
       if (millimetres > 0.0F) millimetres += static_cast<float>(5.0 * std::sin(0.04 * x));
     }
   }
-  EXPECT_NE(warnings_of(views, true).find("depths are bent"), std::string::npos);
+  EXPECT_NE(warnings_of(views, true).find("calibrate their depths"), std::string::npos);
 }
 
 TEST(FuseViews, NamesACameraThatSawNothing) {

@@ -63,36 +63,46 @@ TEST(SharedErrors, KnowNothingOfWhatMovesAllViewsAlike) {
   test::RandomNumbers random(2);
   const PointCloud cloud = ball(100, random);
   const auto errors_by = [&](const ErrorField& first, const ErrorField& second) {
-    std::vector<ViewErrors> views = {{{in_frame(kPoses[0].inverse(), first)}, 1.0, kPoses[0]},
-                                     {{in_frame(kPoses[1].inverse(), second)}, 1.0, kPoses[1]}};
-    take_common_motion_out({10, 0, 40}, views);
+    const std::vector<ViewErrors> views = {{{in_frame(kPoses[0].inverse(), first)}, kPoses[0]},
+                                           {{in_frame(kPoses[1].inverse(), second)}, kPoses[1]}};
     return shared_errors_of(cloud, Eigen::MatrixXd::Constant(2, 100, 0.5), views);
   };
   const ErrorField motion = rigid_field({0.01, -0.02, 0.005}, {1, 2, 3});
   EXPECT_LT(largest(errors_by(motion, motion)), 1e-9);
   // Opposite motions cancel where both views count alike; one of them alone is half common.
   EXPECT_LT(largest(errors_by(motion, -motion)), 1e-9);
+  Vector3d middle = Vector3d::Zero();
+  for (const auto& point : cloud.positions) middle += point / 100.0;
   ErrorField growth = ErrorField::Zero();
   growth.leftCols<3>() = 0.01 * Eigen::Matrix3d::Identity();
-  growth.col(3) = -0.01 * Vector3d(10, 0, 40);
+  growth.col(3) = -0.01 * middle;
   const auto grown = errors_by(growth, growth);
   ASSERT_EQ(grown.size(), 1U);
-  for (const double value : grown[0]) EXPECT_NEAR(std::abs(value), 0.5, 1e-9);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const double moved = 0.01 * cloud.normals[i].dot(cloud.positions[i] - middle);
+    EXPECT_NEAR(std::abs(grown[0][i]), std::abs(moved), 1e-9);
+  }
 }
 
-TEST(SharedErrors, HaveNoCommonMotionByTheSharesOfTheirViews) {
+/// Three quarters of the points are of one view, and no point of a third one, which has no errors.
+TEST(SharedErrors, AreBesideTheMotionThatViewsHaveInCommonByTheirShares) {
+  test::RandomNumbers random(5);
+  const PointCloud cloud = ball(80, random);
+  Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(3, 80);
+  shares.row(0).head(60).setOnes();
+  shares.row(1).tail(20).setOnes();
   const ErrorField motion = rigid_field({0.01, -0.02, 0.005}, {1, 2, 3});
-  std::vector<ViewErrors> views = {
-      {{in_frame(kPoses[0].inverse(), motion)}, 0.75, kPoses[0]},
-      {{in_frame(kPoses[1].inverse(), -3.0 * motion)}, 0.25, kPoses[1]},
-      {{}, 0.0, kPoses[1]}};
-  auto with_one_blind = views;
-  with_one_blind[1].fields.clear();
-  take_common_motion_out({10, 0, 40}, views);
-  EXPECT_TRUE(in_frame(kPoses[0], views[0].fields[0]).isApprox(motion, 1e-9));
-  take_common_motion_out({10, 0, 40}, with_one_blind);
-  ASSERT_EQ(with_one_blind[1].fields.size(), 1U);
-  EXPECT_TRUE(in_frame(kPoses[1], with_one_blind[1].fields[0]).isApprox(-0.75 * motion, 1e-9));
+  const auto errors = shared_errors_of(cloud, shares,
+                                       {{{in_frame(kPoses[0].inverse(), motion)}, kPoses[0]},
+                                        {{in_frame(kPoses[1].inverse(), -3.0 * motion)}, kPoses[1]},
+                                        {{}, kPoses[1]}});
+  ASSERT_EQ(errors.size(), 1U);
+  const auto moved = [&](std::size_t i) {
+    const double times = i < 60 ? 1.0 : -3.0;
+    return times * cloud.normals[i].dot(motion * cloud.positions[i].homogeneous());
+  };
+  const double sign = errors[0][0] * moved(0) > 0.0 ? 1.0 : -1.0;
+  for (std::size_t i = 0; i < 80; ++i) EXPECT_NEAR(sign * errors[0][i], moved(i), 1e-9);
 }
 
 TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
@@ -102,15 +112,16 @@ TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
   Eigen::MatrixXd shares(2, 3);
   shares << 1.0, 0.25, 1.0, 0.0, 0.75, 0.0;
   const auto along_x = [](double shift, const RigidTransform& pose) {
-    return ViewErrors{
-        {in_frame(pose.inverse(), rigid_field(Vector3d::Zero(), {shift, 0, 0}))}, 1.0, pose};
+    return ViewErrors{{in_frame(pose.inverse(), rigid_field(Vector3d::Zero(), {shift, 0, 0}))},
+                      pose};
   };
   const auto errors =
       shared_errors_of(cloud, shares, {along_x(0.4, kPoses[0]), along_x(-0.8, kPoses[1])});
   ASSERT_EQ(errors.size(), 1U);
   const double sign = errors[0][0] > 0.0 ? 1.0 : -1.0;
-  EXPECT_NEAR(sign * errors[0][0], 0.4, 1e-12);
-  EXPECT_NEAR(sign * errors[0][1], 0.25 * 0.4 - 0.75 * 0.8, 1e-12);
+  // Together they move by (2.25 * 0.4 - 0.75 * 0.8) / 3.
+  EXPECT_NEAR(sign * errors[0][0], 0.3, 1e-12);
+  EXPECT_NEAR(sign * errors[0][1], 0.25 * 0.3 - 0.75 * 0.9, 1e-12);
   EXPECT_NEAR(errors[0][2], 0.0, 1e-12);
 }
 
@@ -118,13 +129,19 @@ TEST(SharedErrors, CountByHowMuchTheirViewDoes) {
 TEST(SharedErrors, AreFewAndSayTheSame) {
   test::RandomNumbers random(3);
   const PointCloud cloud = ball(60, random);
-  std::vector<ViewErrors> views = {{{}, 1.0, kPoses[0]}, {{}, 1.0, kPoses[1]}};
+  std::vector<ViewErrors> views = {{{}, kPoses[0]}, {{}, kPoses[1]}};
   constexpr int kErrors = 20;
+  Vector3d middle = Vector3d::Zero();
+  for (const auto& point : cloud.positions) middle += point / 60.0;
   for (auto& view : views) {
     for (int e = 0; e < kErrors; ++e) {
+      // A stretch about the middle moves nothing as one body.
+      Eigen::Matrix3d stretch;
+      for (double& part : stretch.reshaped()) part = std::pow(0.6, e) * random.normal();
       ErrorField field;
-      for (double& part : field.reshaped()) part = std::pow(0.6, e) * random.normal();
-      view.fields.push_back(field);
+      field.leftCols<3>() = stretch + stretch.transpose();
+      field.col(3) = -field.leftCols<3>() * middle;
+      view.fields.push_back(in_frame(view.station_from_camera.inverse(), field));
     }
   }
   Eigen::MatrixXd shares = Eigen::MatrixXd::Constant(2, 60, 0.5);
@@ -164,7 +181,7 @@ TEST(SharedErrors, AreFewAndSayTheSame) {
 TEST(SharedErrors, OfNothingAreNone) {
   test::RandomNumbers random(4);
   EXPECT_TRUE(shared_errors_of(ball(5, random), Eigen::MatrixXd::Ones(1, 5), {}).empty());
-  EXPECT_TRUE(shared_errors_of({}, Eigen::MatrixXd(1, 0), {{{}, 1.0, kPoses[0]}}).empty());
+  EXPECT_TRUE(shared_errors_of({}, Eigen::MatrixXd(1, 0), {{{}, kPoses[0]}}).empty());
 }
 
 }  // namespace

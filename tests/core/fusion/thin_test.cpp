@@ -58,7 +58,7 @@ TEST(Thin, KeepsTheRadiusOfASphere) {
       for (const double sigma : {0.02, 0.3}) {
         ThinSettings settings;
         settings.spacing_mm = spacing;
-        const auto thinned = thin(noisy_sphere(radius, sigma, 3.0, 2), settings).cloud;
+        const auto thinned = thin(noisy_sphere(radius, sigma, 3.0, 2), 2, settings).cloud;
         EXPECT_NEAR(spread_of(thinned, radius).mean_radius, radius, 0.05)
             << radius << " " << spacing << " " << sigma;
       }
@@ -69,7 +69,8 @@ TEST(Thin, KeepsTheRadiusOfASphere) {
 TEST(Thin, KeepsSigmaHonest) {
   for (const double sigma : {0.1, 0.3, 0.8}) {
     for (const int views : {1, 3}) {
-      const auto thinned = thin(noisy_sphere(40, sigma, 2.0, views), {}).cloud;
+      const auto thinned =
+          thin(noisy_sphere(40, sigma, 2.0, views), static_cast<std::size_t>(views), {}).cloud;
       const auto spread = spread_of(thinned, 40);
       EXPECT_GT(spread.sd_of_z, 0.7) << sigma << " " << views;
       EXPECT_LT(spread.sd_of_z, 1.4) << sigma << " " << views;
@@ -85,15 +86,15 @@ TEST(Thin, LowersSigmaByViewsButNotBelowTheSharedPartByPoints) {
     for (const double sigma : cloud.sigma_mm) sum += sigma;
     return sum / static_cast<double>(cloud.size());
   };
-  const double one = mean_sigma(thin(noisy_sphere(40, 0.3, 3.0, 1), settings).cloud);
-  const double four = mean_sigma(thin(noisy_sphere(40, 0.3, 3.0, 4), settings).cloud);
+  const double one = mean_sigma(thin(noisy_sphere(40, 0.3, 3.0, 1), 1, settings).cloud);
+  const double four = mean_sigma(thin(noisy_sphere(40, 0.3, 3.0, 4), 4, settings).cloud);
   EXPECT_GE(one, settings.correlated_share * 0.3);
   EXPECT_LT(four, 0.7 * one);
 }
 
 TEST(Thin, SaysSoWhereViewsDisagree) {
-  const auto agreeing = thin(noisy_sphere(40, 0.1, 3.0, 2), {}).cloud;
-  const auto biased = thin(noisy_sphere(40, 0.1, 3.0, 2, 0.4), {}).cloud;
+  const auto agreeing = thin(noisy_sphere(40, 0.1, 3.0, 2), 2, {}).cloud;
+  const auto biased = thin(noisy_sphere(40, 0.1, 3.0, 2, 0.4), 2, {}).cloud;
   EXPECT_GT(*std::max_element(biased.sigma_mm.begin(), biased.sigma_mm.end()),
             2.0 * *std::max_element(agreeing.sigma_mm.begin(), agreeing.sigma_mm.end()));
 }
@@ -101,7 +102,7 @@ TEST(Thin, SaysSoWhereViewsDisagree) {
 TEST(Thin, KeepsTheSpacingNeitherCloserNorMuchWider) {
   ThinSettings settings;
   settings.spacing_mm = 2.0;
-  const auto thinned = thin(noisy_sphere(40, 0.05, 5.0, 1), settings).cloud;
+  const auto thinned = thin(noisy_sphere(40, 0.05, 5.0, 1), 1, settings).cloud;
   const double area = 4 * std::numbers::pi * 40 * 40;
   EXPECT_LT(static_cast<double>(thinned.size()), area / (0.5 * 2.0 * 2.0));
   EXPECT_GT(static_cast<double>(thinned.size()), area / (2.0 * 2.0 * 2.0));
@@ -119,7 +120,7 @@ TEST(Thin, KeepsTheTwoSidesOfAThinBodyApart) {
       plate.views.push_back(0);
     }
   }
-  for (const auto& point : thin(plate, {}).cloud.positions) {
+  for (const auto& point : thin(plate, 1, {}).cloud.positions) {
     EXPECT_TRUE(std::abs(point.z()) < 1e-9 || std::abs(point.z() - 0.5) < 1e-9);
   }
 }
@@ -133,8 +134,8 @@ TEST(Thin, SaysHowMuchEachViewCounts) {
   ThinSettings settings;
   settings.spacing_mm = 4.0;
   settings.correlated_share = 1.0;  // as many points of a view as may be count as one
-  const auto thinned = thin(sphere, settings);
-  ASSERT_EQ(thinned.shares.rows(), 2);
+  const auto thinned = thin(sphere, 3, settings);
+  ASSERT_EQ(thinned.shares.rows(), 3) << "one that shows nothing of it too";
   ASSERT_EQ(thinned.shares.cols(), static_cast<Eigen::Index>(thinned.cloud.size()));
   for (Eigen::Index i = 0; i < thinned.shares.cols(); ++i) {
     EXPECT_NEAR(thinned.shares.col(i).sum(), 1.0, 1e-12);
@@ -143,7 +144,7 @@ TEST(Thin, SaysHowMuchEachViewCounts) {
 }
 
 TEST(Thin, OfNothingIsNothing) {
-  EXPECT_TRUE(thin({}, {}).cloud.empty());
+  EXPECT_TRUE(thin({}, 0, {}).cloud.empty());
 }
 
 }  // namespace
