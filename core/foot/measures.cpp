@@ -103,7 +103,7 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
   if (u95) {
-    measure.parts = DoubtParts{about.shared.of_landmarks(definition.length), *u95};
+    measure.parts = DoubtParts{about.shared.of(definition.length), *u95};
     u95 = std::hypot(measure.parts->surface, *u95);
   }
   if (definition.kind == LengthDefinition::Kind::kAngle) {
@@ -148,9 +148,8 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   const auto by_landmarks = u95_of(definition, foot);
   if (by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
-    const double surface =
-        std::hypot(*girth->stretched_u95_mm, unseen, about.shared.of_girth(*girth, *plane));
-    measure.parts = DoubtParts{surface, std::hypot(*by_landmarks, definition.own_doubt_mm)};
+    measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen),
+                               std::hypot(*by_landmarks, definition.own_doubt_mm)};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   measure.plane = *plane;

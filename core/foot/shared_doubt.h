@@ -5,28 +5,22 @@
 
 #include "core/foot/foot_scan.h"
 #include "core/foot/seen_skin.h"
-#include "core/girth/girth.h"
 
 namespace instep {
 
 /// What the errors that many points share (PointCloud::shared_errors_mm) leave open of the measures
-/// of a foot: half-widths of 95 % intervals, 0 for a cloud that knows of none. To first order: the
-/// skin moves, with the landmarks on it, while the floor and the tapes' planes stay. Skin that was
-/// not seen errs as the seen skin beside it, from which it goes on. Borrows the foot and what was
-/// seen of it.
+/// that are read off the landmarks of a foot (girths: core/girth/shared_length_doubt.h). To first
+/// order: the landmarks move with the skin that they are on, while the floor stays. Skin that was
+/// not seen errs as the seen skin beside it, from which it goes on. Borrows the foot.
 class SharedDoubt {
  public:
   SharedDoubt(const FootScan& foot, const SeenSkin& seen);
 
-  /// Of a measure that is read off the landmarks, in its own unit.
-  double of_landmarks(const std::function<Result<double>(const Landmarks&)>& measure) const;
-
-  /// Of the stretched length: each corner of the tape lengthens it by as much as it turns there.
-  double of_girth(const Girth& girth, const TapePlane& plane) const;
+  /// Half-width of the 95 % interval, in the measure's own unit; 0 for a cloud that knows of none.
+  double of(const std::function<Result<double>(const Landmarks&)>& measure) const;
 
  private:
   const FootScan& foot_;
-  const SeenSkin& seen_;
   std::vector<Landmarks> moved_;  ///< the landmarks by each of the errors
 };
 

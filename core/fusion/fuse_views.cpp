@@ -10,6 +10,7 @@
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
 #include "core/median.h"
+#include "core/noticed.h"
 
 namespace instep {
 namespace {
@@ -215,6 +216,13 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   scene.feet.push_back(std::move(foot));
 }
 
+/// What stands there and is no foot may be one that cameras see in wrong places.
+Error no_foot(const PointCloud& points, const FusedScene& scene) {
+  const auto failure = fail(ErrorCode::kInsufficientData, "no foot stands on the platform",
+                            "step on the platform with bare feet or thin socks, then scan again");
+  return points.empty() ? failure.value() : with_what_was_noticed(failure.value(), scene.warnings);
+}
+
 }  // namespace
 
 Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings,
@@ -243,10 +251,7 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   if (!go_on()) return cancelled();
   const auto feet = pick_feet(*points, settings, scene);
   if (!go_on()) return cancelled();
-  if (feet.empty()) {
-    return fail(ErrorCode::kInsufficientData, "no foot stands on the platform",
-                "step on the platform with bare feet or thin socks, then scan again");
-  }
+  if (feet.empty()) return tl::make_unexpected(no_foot(points->cloud, scene));
   if (!scene.diagnostics.platform_found) estimate_standing_height(feet, scene);
   for (const auto& foot : feet) {
     finish_foot(foot, working, settings, scene);

@@ -117,6 +117,15 @@ Result<void> check_cloud(const PointCloud& cloud) {
     return bad_point(i, cloud.positions[i].allFinite() ? "lies more than 100 m from the origin"
                                                        : "has a coordinate that is no number");
   }
+  for (const auto& error : cloud.shared_errors_mm) {
+    const auto bad = std::find_if_not(error.begin(), error.end(), [](double error_mm) {
+      return std::abs(error_mm) <= kLargestSigmaMm;
+    });
+    if (bad != error.end()) {
+      return bad_point(static_cast<std::size_t>(bad - error.begin()),
+                       "has a shared error that is no number, or above 100 mm");
+    }
+  }
   if (!cloud.has_normals() && cloud.view_directions.empty() && !cloud.has_sigma()) return {};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.has_normals() && !(std::abs(cloud.normals[i].norm() - 1.0) < 1e-3)) {

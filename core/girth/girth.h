@@ -90,7 +90,8 @@ struct Girth {
 /// surface through far more points, laid along that contour (smooth_section()), unless the two
 /// contradict each other; elsewhere, and where a hole is reported, the intervals are LengthDoubt's.
 /// They take the noise of points to be independent: what is common to neighbours, such as a bent
-/// depth map, is not in them.
+/// depth map, is not in them, but for the shared errors that the cloud tells of
+/// (shared_doubt_of()).
 ///
 /// Points in two layers all round (core/girth/skin_layers.h), as of a skin and a sock, are named in
 /// a warning, and the interval reaches both. Those of cameras with wrong poses hardly ever are, for

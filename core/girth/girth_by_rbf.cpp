@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/bodies_apart.h"
 #include "core/girth/girth.h"
+#include "core/girth/shared_length_doubt.h"
 #include "core/girth/told_girth.h"
 
 namespace instep {
@@ -123,6 +125,17 @@ bool counts_before(const ToldGirth& one, const ToldGirth& all) {
   return is_part_of(one, all) && one.doubt() < kAboutAsSure * all.doubt();
 }
 
+/// With what the points' shared errors leave open, of which the surface through them knows nothing.
+Girth with_shared_doubt(Girth girth, const TapePlane& plane, const PointCloud& cloud) {
+  const auto shared = shared_doubt_of(girth.contour, plane, cloud);
+  const auto widen = [](std::optional<double>& u95, double more) {
+    if (u95) u95 = std::hypot(*u95, more);
+  };
+  widen(girth.stretched_u95_mm, shared.stretched_u95);
+  widen(girth.contact_u95_mm, shared.contact_u95);
+  return girth;
+}
+
 }  // namespace
 
 Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
@@ -136,7 +149,7 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   }
   if (!told) return tl::make_unexpected(std::move(told).error());
   if (told->refusal) return tl::make_unexpected(std::move(*told->refusal));
-  return std::move(told->girth);
+  return with_shared_doubt(std::move(told->girth), plane, cloud);
 }
 
 }  // namespace instep

@@ -92,6 +92,12 @@ void settle_normals(CloudFile& read) {
   }
 }
 
+void drop_shared_errors(CloudFile& read, const std::string& why) {
+  if (read.cloud.shared_errors_mm.empty()) return;
+  read.cloud.shared_errors_mm.clear();
+  read.notes.push_back("the errors that the file's points share are not in the intervals: " + why);
+}
+
 /// Adds to the corners of a mesh the points on its large faces, and normals where it has none.
 void cover_faces(CloudFile& read) {
   PointCloud& cloud = read.cloud;
@@ -117,7 +123,9 @@ void cover_faces(CloudFile& read) {
     if (cloud.has_sigma()) {
       extra.sigma_mm.assign(extra.size(), median(cloud.sigma_mm));
     }
-    if (cloud.has_normals() == extra.has_normals() || extra.empty()) cloud.append(extra);
+    if (extra.empty() || cloud.has_normals() != extra.has_normals()) return;
+    drop_shared_errors(read, "points between them were added on its faces");
+    cloud.append(extra);
     return;
   }
   cloud = corners_with_normals(fine);
@@ -169,6 +177,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   }
   if (const auto doubt = doubt_of_unit(*settled, *extent)) read.notes.push_back(*doubt);
   settle_normals(read);
+  if (!read.cloud.has_normals()) drop_shared_errors(read, "they lie along normals, which it lacks");
   if (!raw->triangles.empty()) {
     read.mesh = {read.cloud.positions, std::move(raw->triangles)};
     cover_faces(read);

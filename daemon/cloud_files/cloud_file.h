@@ -25,8 +25,8 @@ struct CloudFile {
 };
 
 /// Reads PLY (ASCII, binary of both byte orders), XYZ or CSV text, PCD (ASCII, binary), OBJ and
-/// STL. The content decides, then the extension. sigma_mm is taken from PLY and always means
-/// millimetres.
+/// STL. The content decides, then the extension. sigma_mm and shared errors are taken from PLY and
+/// always mean millimetres.
 ///
 /// Every fault is an error with its file's name and advice: files that are missing, empty, cut
 /// short or lie about their size (kCorruptData), numbers that are none or absurd (kInvalidInput),

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "daemon/cloud_files/little_endian.h"
+#include "daemon/cloud_files/shared_error_property.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -17,6 +18,9 @@ std::string header_of(const PointCloud& cloud) {
   }
   if (cloud.has_sigma()) header += "property float sigma_mm\n";
   if (!cloud.origins.empty()) header += "property uchar origin\n";
+  for (std::size_t e = 0; e < cloud.shared_errors_mm.size(); ++e) {
+    header += "property float " + shared_error_property(e) + "\n";
+  }
   return header + "end_header\n";
 }
 
@@ -27,7 +31,7 @@ Result<std::string> cloud_to_ply(const PointCloud& cloud) {
     return fail(ErrorCode::kInvalidInput, "the lists of a cloud differ in length", "report this");
   }
   std::string bytes = header_of(cloud);
-  bytes.reserve(bytes.size() + cloud.size() * 41);
+  bytes.reserve(bytes.size() + cloud.size() * (41 + 4 * cloud.shared_errors_mm.size()));
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) append_little_endian(bytes, cloud.positions[i][axis]);
     for (int axis = 0; axis < 3 && cloud.has_normals(); ++axis) {
@@ -36,6 +40,9 @@ Result<std::string> cloud_to_ply(const PointCloud& cloud) {
     if (cloud.has_sigma()) append_little_endian(bytes, static_cast<float>(cloud.sigma_mm[i]));
     if (!cloud.origins.empty())
       append_little_endian(bytes, static_cast<std::uint8_t>(cloud.was_seen(i) ? 0 : 1));
+    for (const auto& error : cloud.shared_errors_mm) {
+      append_little_endian(bytes, static_cast<float>(error[i]));
+    }
   }
   return bytes;
 }

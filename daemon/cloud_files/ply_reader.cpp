@@ -4,6 +4,7 @@
 
 #include "daemon/cloud_files/ply_body.h"
 #include "daemon/cloud_files/ply_header.h"
+#include "daemon/cloud_files/shared_error_property.h"
 
 namespace instep {
 namespace {
@@ -25,12 +26,27 @@ bool want_vectors(const PlyElement& element, const std::array<const char*, 3>& n
   return true;
 }
 
-void want_numbers(const PlyElement& element, const char* name, std::vector<double>& numbers,
+/// A column that goes to `numbers`, if the element has it.
+bool want_numbers(const PlyElement& element, const std::string& name, std::vector<double>& numbers,
                   std::vector<PlyColumn>& columns) {
   const auto place = element.find(name);
-  if (!place || element.properties[*place].count_type || element.count == 0) return;
+  if (!place || element.properties[*place].count_type || element.count == 0) return false;
   numbers.resize(element.count);
   columns.push_back({*place, {numbers.data(), 1}});
+  return true;
+}
+
+/// The columns of the errors that many points share, as far as they are numbered without a gap.
+/// False if they are more than kMostSharedErrors.
+bool want_shared_errors(const PlyElement& element, std::vector<std::vector<double>>& errors,
+                        std::vector<PlyColumn>& columns) {
+  std::vector<double> error;
+  while (want_numbers(element, shared_error_property(errors.size()), error, columns)) {
+    if (errors.size() == kMostSharedErrors) return false;
+    errors.push_back(std::move(error));  // the columns go on pointing to its numbers
+    error = {};
+  }
+  return true;
 }
 
 Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::string& file,
@@ -43,6 +59,12 @@ Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::
   want_vectors(element, {"nx", "ny", "nz"}, cloud.normals, columns);
   want_numbers(element, "sigma_mm", cloud.sigma_mm, columns);
   want_numbers(element, "origin", origins, columns);
+  if (!want_shared_errors(element, cloud.shared_errors_mm, columns)) {
+    return fail(
+        ErrorCode::kUnsupported,
+        fmt::format("{} has more than {} properties of shared errors", file, kMostSharedErrors),
+        "leave the smallest of them out");
+  }
   if (auto good = body.read(element, columns, nullptr); !good) return good;
   for (const double origin : origins) {
     cloud.origins.push_back(origin == 1.0 ? PointOrigin::kPlatform : PointOrigin::kSeen);

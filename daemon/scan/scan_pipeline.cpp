@@ -14,6 +14,7 @@
 #include "core/fusion/fuse_views.h"
 #include "core/fusion/temporal_fusion.h"
 #include "core/go_on.h"
+#include "core/noticed.h"
 #include "daemon/scan/stage_clock.h"
 
 namespace instep {
@@ -151,14 +152,6 @@ void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& q
   if (figures.lenses_off) quality["lenses_off_percent"] = 100.0 * *figures.lenses_off;
 }
 
-/// What is no foot may be one that cameras see in wrong places: what they were warned of is told.
-Error with_what_was_noticed(Error error, const std::vector<std::string>& warnings) {
-  for (std::size_t i = 0; i < warnings.size(); ++i) {
-    error.advice += (i == 0 ? "; what was noticed before: " : "; ") + warnings[i];
-  }
-  return error;
-}
-
 }  // namespace
 
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
@@ -175,7 +168,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
 
   if (!clock.begin("fuse views", 0.2)) return cancelled();
   const auto scene = fuse_scene(capture, std::move(*images), settings, go_on);
-  if (!scene) return tl::make_unexpected(scene.error());
+  if (!scene) return tl::make_unexpected(with_what_was_noticed(scene.error(), warnings));
   add_scene_quality(*scene, quality);
   warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());
 

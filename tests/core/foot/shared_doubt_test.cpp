@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/support/analytic_shapes.h"
 
@@ -44,82 +43,51 @@ struct Doubt {
   SharedDoubt shared;
 };
 
-TapePlane leaning(double degrees) {
-  const double lean = degrees * std::numbers::pi / 180.0;
-  return *TapePlane::through({0, 0, 0}, {0, 50, 0}, {std::cos(lean) * 50, 0, std::sin(lean) * 50});
-}
-
-Girth girth_in(const TapePlane& plane) {
-  Girth girth;
-  girth.contour = test::true_section(test::elliptic_cylinder(kRadius, kRadius), plane, 720);
-  return girth;
-}
-
 Result<double> length(const Landmarks& landmarks) {
   return landmarks.at("front").position_mm.x() - landmarks.at("rear").position_mm.x();
 }
 
-TEST(SharedDoubt, OfATapeIsThatOfAThickerBody) {
-  FootScan foot = post();
-  foot.cloud.shared_errors_mm = {growth(foot.cloud)};
-  const Doubt doubt(foot);
-  for (const double degrees : {0.0, 20.0, 40.0}) {
-    const auto plane = leaning(degrees);
-    const auto thicker = test::elliptic_cylinder(kRadius + kErrorMm, kRadius + kErrorMm);
-    const double longer = test::true_girth(thicker, plane) -
-                          test::true_girth(test::elliptic_cylinder(kRadius, kRadius), plane);
-    EXPECT_NEAR(doubt.shared.of_girth(girth_in(plane), plane), kIn95 * longer, 0.02 * longer)
-        << degrees;
-  }
-}
-
-TEST(SharedDoubt, KnowsThatAShiftedBodyHasTheSameMeasures) {
+TEST(SharedDoubt, KnowsThatAShiftedBodyHasTheSameLengths) {
   FootScan foot = post();
   foot.cloud.shared_errors_mm = {shift(foot.cloud)};
   const Doubt doubt(foot);
-  EXPECT_LT(doubt.shared.of_girth(girth_in(leaning(0.0)), leaning(0.0)), 0.02 * kErrorMm);
-  EXPECT_LT(doubt.shared.of_landmarks(length), 0.02 * kErrorMm);
+  EXPECT_LT(doubt.shared.of(length), 0.02 * kErrorMm);
 }
 
 TEST(SharedDoubt, OfALengthIsThatOfItsEnds) {
   FootScan foot = post();
   foot.cloud.shared_errors_mm = {growth(foot.cloud)};
   const Doubt doubt(foot);
-  EXPECT_NEAR(doubt.shared.of_landmarks(length), kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
+  EXPECT_NEAR(doubt.shared.of(length), kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
   const auto none = [](const Landmarks&) -> Result<double> {
     return fail(ErrorCode::kInsufficientData, "the landmark was not found", "scan again");
   };
-  EXPECT_EQ(doubt.shared.of_landmarks(none), 0.0);
+  EXPECT_EQ(doubt.shared.of(none), 0.0);
 }
 
 /// What closes a sole knows of no errors, but hangs on the wall that does.
 TEST(SharedDoubt, TakesUnseenSkinForAsWrongAsTheSeenBesideIt) {
   FootScan foot = post();
   foot.cloud.shared_errors_mm = {growth(foot.cloud)};
-  const double all_seen = Doubt(foot).shared.of_girth(girth_in(leaning(0.0)), leaning(0.0));
   PointCloud sole = foot.cloud;
   sole.shared_errors_mm.clear();
   sole.origins.assign(sole.size(), PointOrigin::kPlatform);
   foot.cloud.append(sole);
   const Doubt doubt(foot);
-  EXPECT_NEAR(doubt.shared.of_girth(girth_in(leaning(0.0)), leaning(0.0)), all_seen, 1e-9);
-  EXPECT_NEAR(doubt.shared.of_landmarks(length), kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
+  EXPECT_NEAR(doubt.shared.of(length), kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
 }
 
 TEST(SharedDoubt, AddsIndependentErrorsAsSquares) {
   FootScan foot = post();
   foot.cloud.shared_errors_mm = {growth(foot.cloud), shift(foot.cloud), growth(foot.cloud)};
   const Doubt doubt(foot);
-  const double one = kIn95 * 2.0 * std::numbers::pi * kErrorMm;
-  EXPECT_NEAR(doubt.shared.of_girth(girth_in(leaning(0.0)), leaning(0.0)), std::sqrt(2.0) * one,
-              0.01 * one);
+  EXPECT_NEAR(doubt.shared.of(length), std::sqrt(2.0) * kIn95 * 2.0 * kErrorMm, 0.01 * kErrorMm);
 }
 
 TEST(SharedDoubt, OfACloudThatKnowsOfNoneIsNone) {
   const FootScan foot = post();
   const Doubt doubt(foot);
-  EXPECT_EQ(doubt.shared.of_girth(girth_in(leaning(0.0)), leaning(0.0)), 0.0);
-  EXPECT_EQ(doubt.shared.of_landmarks(length), 0.0);
+  EXPECT_EQ(doubt.shared.of(length), 0.0);
 }
 
 }  // namespace

@@ -247,6 +247,22 @@ TEST(FuseViews, TellsTheOperatorWhenNobodyStandsThere) {
   ASSERT_FALSE(scene);
   EXPECT_EQ(scene.error().code, ErrorCode::kInsufficientData);
   EXPECT_NE(scene.error().advice.find("step on the platform"), std::string::npos);
+  EXPECT_EQ(scene.error().advice.find("noticed"), std::string::npos) << "what would it be?";
+}
+
+/// A ball too small to be a foot; it may be one that the cameras see in wrong places.
+TEST(FuseViews, TellsWhatWasNoticedBeforeWhatIsNoFoot) {
+  const Surfaces ball = {ellipsoid_surface({0, 0, 20}, {20, 20, 20}, 0),
+                         disc_surface({0, 0, 0}, {0, 0, 1}, 350)};
+  auto views = views_of(ball, ring_of_cameras(4, 450, 330, {0, 0, 20}), {1.4e-6, 0.7, 0.01});
+  views[1].geometry.station_from_camera.translation() += Vector3d(0.0, 0.0, 0.5);
+  auto settings = at_zero();
+  settings.refine_views = false;
+  const auto scene = fuse_views(views, settings);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().message, "no foot stands on the platform");
+  EXPECT_NE(scene.error().advice.find("let them be refined"), std::string::npos)
+      << scene.error().line();
 }
 
 TEST(FuseViews, TellsTheOperatorWhenAllCamerasAreBlind) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -108,6 +109,15 @@ TEST(CheckCloud, RefusesWhatNoFootHolds) {
   PointCloud no_noise = two_points();
   no_noise.sigma_mm[0] = 0.0;
   EXPECT_FALSE(check_cloud(no_noise));
+  PointCloud astray = two_points();
+  astray.shared_errors_mm = {{0.5, -0.5}, {0.0, std::nan("")}};
+  const auto checked = check_cloud(astray);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message.find("point 1 has a shared error"), std::string::npos);
+  astray.shared_errors_mm[1][1] = -101.0;
+  EXPECT_FALSE(check_cloud(astray));
+  astray.shared_errors_mm[1][1] = -99.0;
+  EXPECT_TRUE(check_cloud(astray));
   PointCloud all_noise = two_points();
   all_noise.sigma_mm[1] = 1e30;
   EXPECT_FALSE(check_cloud(all_noise));

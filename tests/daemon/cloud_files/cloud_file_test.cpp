@@ -60,12 +60,14 @@ TEST_F(CloudFiles, WrittenCloudComesBackBitByBit) {
     cloud.sigma_mm.push_back(0.25 + i * 0.0625);
     cloud.origins.push_back(i % 3 == 0 ? PointOrigin::kPlatform : PointOrigin::kSeen);
   }
+  cloud.shared_errors_mm = {std::vector<double>(1000, -0.375), cloud.sigma_mm};
   ASSERT_TRUE(write_cloud_ply(cloud, folder_.path() / "cloud.ply"));
   const auto file = read_cloud_file(folder_.path() / "cloud.ply", LengthUnit::kMillimetre);
   ASSERT_TRUE(file) << file.error().line();
   EXPECT_EQ(file->cloud.positions, cloud.positions);
   EXPECT_EQ(file->cloud.sigma_mm, cloud.sigma_mm);
   EXPECT_EQ(file->cloud.origins, cloud.origins);
+  EXPECT_EQ(file->cloud.shared_errors_mm, cloud.shared_errors_mm);
   ASSERT_TRUE(file->cloud.has_normals());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     EXPECT_LT((file->cloud.normals[i] - cloud.normals[i]).norm(), 1e-6);
@@ -88,6 +90,40 @@ TEST_F(CloudFiles, ReadsAsciiPlyWithPropertiesOfAnyKindAndOrder) {
   const std::vector<Vector3d> expected = {{1, 2.5, 1.125}, {-4, 5, 30}, {7, 8, 6}};
   EXPECT_EQ(file->cloud.positions, expected);
   EXPECT_EQ(file->cloud.sigma_mm, (std::vector<double>{0.1, 0.2, 0.30000000000000004}));
+}
+
+TEST_F(CloudFiles, SaysWhenSharedErrorsAreOfNoUse) {
+  const std::string start =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty int x\n"
+      "property int y\nproperty int z\nproperty float shared_error_1_mm\n";
+  const auto bare = read("bare.ply", start + "end_header\n0 0 0 1\n90 0 0 1\n0 90 0 1\n0 0 90 1\n");
+  ASSERT_TRUE(bare) << bare.error().line();
+  EXPECT_TRUE(bare->cloud.shared_errors_mm.empty());
+  ASSERT_EQ(bare->notes.size(), 1U);
+  EXPECT_NE(bare->notes[0].find("along normals"), std::string::npos);
+  const auto mesh = read("mesh.ply", start +
+                                         "property int nx\nproperty int ny\nproperty int nz\n"
+                                         "element face 1\nproperty list uchar int vertex_index\n"
+                                         "end_header\n0 0 0 1 0 0 1\n90 0 0 1 0 0 1\n"
+                                         "0 90 0 1 0 0 1\n0 0 90 1 0 0 1\n3 0 1 2\n");
+  ASSERT_TRUE(mesh) << mesh.error().line();
+  EXPECT_GT(mesh->cloud.size(), 4U);
+  EXPECT_TRUE(mesh->cloud.shared_errors_mm.empty());
+  ASSERT_FALSE(mesh->notes.empty());
+  EXPECT_NE(mesh->notes.back().find("on its faces"), std::string::npos) << mesh->notes.back();
+}
+
+/// As far as they are numbered from 1 on, and of one number a point.
+TEST_F(CloudFiles, ReadsSharedErrors) {
+  const auto file = read("shared.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\n"
+                         "property int y\nproperty int z\nproperty int nx\nproperty int ny\n"
+                         "property int nz\nproperty float shared_error_2_mm\n"
+                         "property double shared_error_1_mm\nproperty int shared_error_4_mm\n"
+                         "property list int int shared_error_3_mm\nend_header\n"
+                         "1 2 3 0 0 1 20 10 40 0\n9 9 9 0 0 2 -21 -11 41 0\n");
+  ASSERT_TRUE(file) << file.error().line();
+  EXPECT_EQ(file->cloud.shared_errors_mm, (std::vector<std::vector<double>>{{10, -11}, {20, -21}}));
 }
 
 TEST_F(CloudFiles, ReadsBinaryPlyOfBothByteOrders) {
@@ -278,6 +314,20 @@ TEST_F(CloudFiles, TellsEveryFault) {
                "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\nproperty int y\n"
                "property int z\nproperty float sigma_mm\nend_header\n1 2 3 0.1\n9 9 9 0\n",
                ErrorCode::kInvalidInput, "sigma");
+  expect_fault("shared.ply",
+               "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\nproperty int y\n"
+               "property int z\nproperty int nx\nproperty int ny\nproperty int nz\n"
+               "property float shared_error_1_mm\nproperty float shared_error_2_mm\nend_header\n"
+               "1 2 3 0 0 1 0.1 -0.1\n9 9 9 0 0 1 0.1 nan\n",
+               ErrorCode::kInvalidInput, "point 1 has a shared error");
+  std::string many =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\n"
+      "property int z\n";
+  for (int i = 1; i <= 101; ++i) {
+    many += "property int shared_error_" + std::to_string(i) + "_mm\n";
+  }
+  expect_fault("many.ply", many + "end_header\n1 2 3" + std::string(202, ' '),
+               ErrorCode::kUnsupported, "more than 100");
   expect_fault("words.xyz", "0 0 0\nhello world you\n", corrupt, "line 2");
   expect_fault("columns.xyz", "0 0 0\n1 2 3 0 0 1\n", corrupt, "line 2");
   expect_fault("comma.csv", "1,5;2,5;3\n1,2;3,4,5;6\n", corrupt, "line 2");

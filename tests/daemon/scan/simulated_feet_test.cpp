@@ -5,6 +5,11 @@
 #include <numbers>
 #include <optional>
 
+#include "core/foot/alignment.h"
+#include "core/foot/landmarks.h"
+#include "core/foot/measures.h"
+#include "daemon/cloud_files/cloud_file.h"
+#include "daemon/cloud_files/cloud_ply_writer.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "sim/simulated_station.h"
 #include "tests/support/simulated_capture.h"
@@ -115,20 +120,24 @@ TEST(SimulatedFoot, IsMeasuredWithinAMillimetreByCamerasThatStandElsewhere) {
 }
 
 /// The depths and the lens of each camera are off, by shares that its neighbours do not have.
+void spoil_lenses(Capture& capture) {
+  double share = 0.003;
+  for (auto& camera : capture.cameras) {
+    camera.geometry.intrinsics.fx *= 1.0 - share;
+    camera.geometry.intrinsics.fy *= 1.0 - share;
+    for (auto& frame : capture.frames) {
+      if (frame.camera == camera.geometry.id) frame.depth_unit_mm *= 1.0 + share;
+    }
+    share = share > 0.0 ? -share + 0.001 : -share;
+  }
+}
+
 TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
   SimulationSettings settings;
   settings.seed = 5;
   auto scan = scan_of(settings);
   ASSERT_TRUE(scan);
-  double share = 0.003;
-  for (auto& camera : scan->capture.cameras) {
-    camera.geometry.intrinsics.fx *= 1.0 - share;
-    camera.geometry.intrinsics.fy *= 1.0 - share;
-    for (auto& frame : scan->capture.frames) {
-      if (frame.camera == camera.geometry.id) frame.depth_unit_mm *= 1.0 + share;
-    }
-    share = share > 0.0 ? -share + 0.001 : -share;
-  }
+  spoil_lenses(scan->capture);
   const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   const auto& measures = records->front().measures;
@@ -137,6 +146,31 @@ TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
   EXPECT_GE(number_known(measures, truth), 15);
   EXPECT_GE(number_held(measures, truth), number_known(measures, truth) - 1);
   EXPECT_TRUE(is_said("of its size", records->front().warnings));
+}
+
+/// What is unknown of the cameras goes into the file with the points.
+TEST(SimulatedFoot, KeepsItsIntervalsWhereItsCloudIsMeasuredAnew) {
+  SimulationSettings settings;
+  settings.seed = 5;
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  spoil_lenses(scan->capture);
+  const auto records = measure_capture(scan->capture, {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  const auto bytes = cloud_to_ply(records->front().foot.cloud);
+  ASSERT_TRUE(bytes) << bytes.error().line();
+  const auto file = read_cloud_bytes(*bytes, "cloud.ply", LengthUnit::kMillimetre);
+  ASSERT_TRUE(file) << file.error().line();
+  const auto foot = align_foot(file->cloud).and_then(find_landmarks);
+  ASSERT_TRUE(foot) << foot.error().line();
+  const auto anew = measure_foot(*foot);
+  ASSERT_TRUE(anew) << anew.error().line();
+  for (const char* id : {"foot_length", "foot_breadth", "ball_girth", "instep_girth"}) {
+    const Measure* before = records->front().measures.find(id);
+    const Measure* after = anew->find(id);
+    ASSERT_TRUE(before != nullptr && after != nullptr) << id;
+    EXPECT_NEAR(after->parts->surface, before->parts->surface, 0.1 * before->parts->surface) << id;
+  }
 }
 
 /// The lower part of their inner sides nobody sees: the girths there are not sure.

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/geometry/point_cloud.h"
+#include "core/girth/tape_plane.h"
+
+namespace instep {
+
+/// What the errors that many points share (PointCloud::shared_errors_mm) leave open of the lengths
+/// of a closed line: half-widths of 95 % intervals, mm.
+struct SharedLengthDoubt {
+  double contact_u95 = 0.0;    ///< of the line itself
+  double stretched_u95 = 0.0;  ///< of a tape round it
+};
+
+/// Of a line round a body, in the plane's own coordinates; none for a cloud that knows of no such
+/// errors. To first order: a line gains what the skin moves outwards at each corner times what it
+/// turns there. Skin that was not seen errs as the seen skin beside it, from which it goes on.
+/// O(n), and O(log m) a corner and error for the m points near the plane.
+SharedLengthDoubt shared_doubt_of(const std::vector<Eigen::Vector2d>& line, const TapePlane& plane,
+                                  const PointCloud& cloud);
+
+}  // namespace instep
