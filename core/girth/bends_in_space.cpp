@@ -21,14 +21,6 @@ struct Bend {
   double turn;
 };
 
-/// By how much the contour turns over a way that may pass its first corner.
-double turn_over(const ContourCourse& course, double begin, double way) {
-  const double end = begin + way;
-  const double whole = end > course.length() ? course.whole_turn() : 0.0;
-  const double rest = end > course.length() ? end - course.length() : end;
-  return whole + course.turn_at(rest) - course.turn_at(begin);
-}
-
 bool is_in_space(const BlendedSurface& surface, const Eigen::Vector2d& place) {
   const auto* patch = surface.leading_patch({place.x(), place.y(), 0.0});
   return patch != nullptr && std::holds_alternative<HermitePatch>(patch->field);
@@ -39,7 +31,7 @@ std::vector<Bend> sharp_bends(const ContourCourse& course, const BlendedSurface&
                               double way) {
   std::vector<Bend> bends;
   for (std::size_t i = 0; i < course.contour().points.size(); ++i) {
-    const Bend bend{course.way_to(i), turn_over(course, course.way_to(i), way)};
+    const Bend bend{course.way_to(i), course.turn_over(course.way_to(i), way)};
     if (!(std::abs(bend.turn) > kOrdinaryTurn)) continue;
     if (is_in_space(surface, course.place_at(bend.begin + 0.5 * way))) bends.push_back(bend);
   }

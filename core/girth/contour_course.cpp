@@ -24,6 +24,14 @@ double ContourCourse::turn_at(double way) const {
   return turns_[corner] + part * (turns_[corner + 1] - turns_[corner]);
 }
 
+double ContourCourse::turn_over(double begin, double way) const {
+  const auto turned = [this](double to) {
+    const double rounds = std::floor(to / length());
+    return rounds * whole_turn() + turn_at(to - rounds * length());
+  };
+  return turned(begin + way) - turned(begin);
+}
+
 Eigen::Vector2d ContourCourse::place_at(double way) const {
   const auto [corner, part] = station_at(way - length() * std::floor(way / length()));
   const auto& points = contour_.points;

@@ -25,6 +25,10 @@ class ContourCourse {
   /// Between 0 and the length. O(log corners).
   double turn_at(double way) const;
 
+  /// Over so long a way, which may begin and end beyond the first and the last corner. O(log
+  /// corners).
+  double turn_over(double begin, double way) const;
+
   /// On the chords; further than once round as well, either way. O(log corners).
   Eigen::Vector2d place_at(double way) const;
 

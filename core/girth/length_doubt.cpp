@@ -35,8 +35,9 @@ constexpr double kLeastWaves = 1e-6;
 constexpr double kBentAcross = 1.6;
 /// Variance of a direction (square radians) beyond which waves would be folds.
 constexpr double kSteepestWaves = 0.01;
-/// What first order leaves out, against the length.
+/// What first order leaves out, against the length; of points that are exact all round.
 constexpr double kLeast = 1e-5;
+constexpr double kLeastOfExact = 2e-6;
 /// Bends are told of as many pieces of a contour: of finer ones noise would tell more. Where a
 /// piece turns more (radians) it is a crease, whose sides do not bend.
 constexpr std::size_t kWindows = 40;
@@ -65,6 +66,7 @@ struct Sums {
   double noise_waves = 0.0;   ///< length
   double unseen_waves = 0.0;  ///< weighed
   double likely_waves = 0.0;  ///< length, as the points hint at
+  bool is_exact = true;       ///< all that were added
 };
 
 std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& surface) {
@@ -165,6 +167,7 @@ void add(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums&
   sums.stretched_wandering +=
       likely_wandering(stretch, of_patch.variance[kStretched], stretch.stretched);
   add_waves(stretch, noise, of_patch.variance[kTilt], sums);
+  sums.is_exact = sums.is_exact && stretch.sheet.patch->is_exact();
 }
 
 /// A patch in space knows no sums: all of its stretch may be off by as much as its middle.
@@ -196,7 +199,7 @@ double half_width(const std::vector<double>& influence, double wandering, const 
   const double variance = noise + wandering + sums.rounding +
                           sums.unseen_waves * sums.unseen_waves +
                           sums.noise_waves * sums.noise_waves;
-  return kDeviations * std::sqrt(variance) + kLeast * length;
+  return kDeviations * std::sqrt(variance) + (sums.is_exact ? kLeastOfExact : kLeast) * length;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/girth/bends_between_lines.h"
+#include "core/girth/bends_between_points.h"
 #include "core/girth/bends_in_space.h"
 #include "core/girth/cloud_edge.h"
 #include "core/girth/contour_course.h"
@@ -48,6 +49,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
       unseen_bends_of(course, evidence.ways, near),
       bends_between_lines(course, surface, band.spacing),
       bends_in_space(course, surface, band.spacing + kTipInSigmas * band.sigma),
+      bends_between_points(course, surface, band.spacing),
       layers_near_plane(band, surface, near),
       {},
       zigzags_of(ContourCourse(measured), kZigzagInGrains * band.grain),
@@ -58,6 +60,9 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
   return unknowns;
 }
 
+/// Bends between points count no more than all that was told, which knows of the points' spacing
+/// too: else girths of scanned feet of 1,080 points would have intervals 1.8 times as wide, not
+/// 1.4, though 96 % of them hold without.
 void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section) {
   // Noise that is not what was told of it is hardly independent from point to point either.
   const double distrust = std::min(band.told_scale, kMostDistrust);
@@ -65,7 +70,8 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   const double reach = unknowns.layers ? reach_of(*unknowns.layers)
                                        : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
   const auto with_bends = [&](double told, double UnseenBends::*length) {
-    double squares = std::pow(distrust * told, 2) + std::pow(unknowns.edge, 2);
+    double squares = std::pow(distrust * told, 2) + std::pow(unknowns.edge, 2) +
+                     std::pow(std::min(told, unknowns.between_points.*length), 2);
     for (const auto& bends : {unknowns.bends, unknowns.between_lines, unknowns.in_space}) {
       squares += std::pow(bends.*length, 2);
     }

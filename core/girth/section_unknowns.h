@@ -17,9 +17,10 @@ namespace instep {
 
 /// What the fitted surface does not know of a section. All in the band's unit.
 struct SectionUnknowns {
-  UnseenBends bends;          ///< where there are no points
-  UnseenBends between_lines;  ///< that points stand in
-  UnseenBends in_space;       ///< at the tips of thin parts
+  UnseenBends bends;           ///< where there are no points
+  UnseenBends between_lines;   ///< that points stand in
+  UnseenBends in_space;        ///< at the tips of thin parts
+  UnseenBends between_points;  ///< that are exact
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
   /// The skin's, or made by strays beside it. They do not widen intervals here: which of the two it

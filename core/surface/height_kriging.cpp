@@ -211,6 +211,12 @@ double HeightKriging::left_out(const Solution& solution) const {
   return (own > 0.0).select(squares, 0.0).sum() / static_cast<double>(scales_.size());
 }
 
+Eigen::ArrayXd HeightKriging::missed(const Solution& solution) const {
+  const Eigen::ArrayXd own = diagonal_of_inverse(solution);
+  const Eigen::ArrayXd weighed = (own > 0.0).select(solution.on_null_space.array() / own, 0.0);
+  return (weighed / scales_).head(samples());
+}
+
 double HeightKriging::most_leverage() const {
   return basis_.topRows(samples()).rowwise().squaredNorm().maxCoeff();
 }

@@ -274,6 +274,15 @@ double HeightPatch::fine_bending() const {
   return kriging_->left_out(solution_) / wander_;
 }
 
+std::vector<double> HeightPatch::missed() const {
+  const Eigen::ArrayXd of_samples = base_.radius() * kriging_->missed(solution_);
+  std::vector<double> missed(of_samples.data(), of_samples.data() + of_samples.size());
+  if (cells_.empty()) return missed;
+  missed.clear();
+  for (const Eigen::Index sample : cells_) missed.push_back(of_samples[sample]);
+  return missed;
+}
+
 HeightPatch::Rise HeightPatch::rise_of(const Polynomial& c, double x, double y) {
   return {c[0] + x * (c[1] + x * (c[3] + x * c[6]) + y * (c[4] + x * c[7])) +
               y * (c[2] + y * (c[5] + x * c[8] + y * c[9])),

@@ -58,6 +58,10 @@ class HeightPatch {
   /// which hides it. O(samples^3).
   double fine_bending() const;
 
+  /// How far each point, or the average that it went into, is off what the others predict, in the
+  /// order given to fit(): above 0 where it lies higher. O(samples^3).
+  std::vector<double> missed() const;
+
   /// The point that is most likely a stray, or all points of a cell that were averaged, and how
   /// much likelier the heights are (twice the log likelihood) if it may be off by anything: 0,
   /// whichever it is, where all lie within a hundredth of the radius of the polynomial, or are too

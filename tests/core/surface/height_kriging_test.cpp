@@ -246,23 +246,22 @@ HeightSamples without(const HeightSamples& samples, Index gone) {
   return rest;
 }
 
-/// The mean over the samples of how far each is off what the others tell, squared, against what is
-/// expected of that.
-double left_out_by_lu(const HeightSamples& samples, double ratio, const Model& model) {
-  double mean = 0.0;
-  for (Index i = 0; i < samples.size(); ++i) {
-    const auto rest = without(samples, i);
-    VectorXd to_rest(rest.size() + model.terms);
-    for (Index j = 0; j < rest.size(); ++j) {
-      to_rest[j] = model.at(samples.places.col(i), rest.places.col(j));
-    }
-    to_rest.tail(model.terms) = terms_at(samples.places.col(i), model.terms).transpose();
-    const VectorXd shares = full_system(rest, ratio, model).fullPivLu().solve(to_rest);
-    const double off = samples.heights[i] - shares.head(rest.size()).dot(rest.heights);
-    const double expected = ratio - shares.dot(to_rest);
-    mean += off * off / expected / static_cast<double>(samples.size());
+/// How far a sample is off what the others tell, and what is expected of that, squared.
+struct LeftOut {
+  double off;
+  double expected;
+};
+
+LeftOut left_out_by_lu(const HeightSamples& samples, Index gone, double ratio, const Model& model) {
+  const auto rest = without(samples, gone);
+  VectorXd to_rest(rest.size() + model.terms);
+  for (Index j = 0; j < rest.size(); ++j) {
+    to_rest[j] = model.at(samples.places.col(gone), rest.places.col(j));
   }
-  return mean;
+  to_rest.tail(model.terms) = terms_at(samples.places.col(gone), model.terms).transpose();
+  const VectorXd shares = full_system(rest, ratio, model).fullPivLu().solve(to_rest);
+  return {samples.heights[gone] - shares.head(rest.size()).dot(rest.heights),
+          ratio - shares.dot(to_rest)};
 }
 
 TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
@@ -272,7 +271,28 @@ TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
       samples.variances.setConstant(1e-4);
       const auto kriging = model.of(samples).value();
       const double left_out = kriging.left_out(kriging.solve(ratio).value());
-      EXPECT_NEAR(left_out / left_out_by_lu(samples, ratio, model), 1.0, 1e-4) << ratio;
+      double mean = 0.0;
+      for (Index i = 0; i < samples.size(); ++i) {
+        const auto one = left_out_by_lu(samples, i, ratio, model);
+        mean += one.off * one.off / one.expected / static_cast<double>(samples.size());
+      }
+      EXPECT_NEAR(left_out / mean, 1.0, 1e-4) << ratio;
+    }
+  }
+}
+
+TEST(HeightKriging, MissesASampleByAsMuchAsTheOthersAloneDo) {
+  for (const Model& model : kModels) {
+    for (const double ratio : {1e-7, 1e-3}) {
+      auto samples = wavy_samples(25, 6);
+      samples.variances.head(2).setConstant(1e-3);  // the scale, whichever is left out
+      const auto kriging = model.of(samples).value();
+      const Eigen::ArrayXd missed = kriging.missed(kriging.solve(ratio).value());
+      ASSERT_EQ(missed.size(), samples.size());
+      for (Index i = 0; i < samples.size(); ++i) {
+        const double off = left_out_by_lu(samples, i, ratio, model).off;
+        EXPECT_NEAR(missed[i], off, 1e-4 * std::abs(off) + 1e-9) << i << " " << ratio;
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
@@ -292,6 +293,31 @@ TEST(HeightPatch, BendsAtTheSmallestScaleOnFacetsAndHardlyOnASphere) {
   }
   EXPECT_LT(smooth, 0.6);
   EXPECT_GT(faceted, 0.8);
+}
+
+/// A point that is lifted off the sphere is missed by that, and the others by less.
+TEST(HeightPatch, MissesALiftedPointMost) {
+  constexpr double kLift = 0.01;
+  constexpr std::size_t kLifted = 7;
+  auto points = test::cap_points(kSphere, 1.0, 60, 0.0, 4);
+  for (const double missed : cap_patch(points).missed()) EXPECT_LT(std::abs(missed), 0.2 * kLift);
+  points[kLifted].position *= 1.0 + kLift / kSphere;
+  const auto missed = cap_patch(points).missed();
+  ASSERT_EQ(missed.size(), points.size());
+  EXPECT_NEAR(missed[kLifted], kLift, 0.2 * kLift);
+  for (std::size_t i = 0; i < missed.size(); ++i) {
+    if (i != kLifted) {
+      EXPECT_LT(std::abs(missed[i]), 0.8 * kLift) << i;
+    }
+  }
+}
+
+TEST(HeightPatch, MissesPointsOfACellByAsMuch) {
+  const auto patch = cap_patch(test::cap_points(kSphere, 1.0, 500, 0.0, 4));
+  const auto missed = patch.missed();
+  EXPECT_EQ(missed.size(), 500U);
+  EXPECT_LE(std::set<double>(missed.begin(), missed.end()).size(),
+            static_cast<std::size_t>(kMostHeightSamples));
 }
 
 TEST(HeightPatch, CannotTellFineBendingFromNoise) {
