@@ -11,8 +11,10 @@ namespace instep {
 /// What was cancelled comes back as it is.
 inline Error with_what_was_noticed(Error error, const std::vector<std::string>& warnings) {
   if (error.code == ErrorCode::kCancelled) return error;
-  for (std::size_t i = 0; i < warnings.size(); ++i) {
-    error.advice += (i == 0 ? "; what was noticed before: " : "; ") + warnings[i];
+  const std::string lead = "; what was noticed before: ";
+  for (const auto& warning : warnings) {
+    const bool is_led = error.advice.find(lead) != std::string::npos;
+    error.advice += (is_led ? "; " : lead) + warning;
   }
   return error;
 }

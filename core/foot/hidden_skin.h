@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/foot/seen_skin.h"
 #include "core/geometry/point_cloud.h"
+#include "core/geometry/seen_skin.h"
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
 

@@ -13,10 +13,10 @@
 #include "core/foot/measure_definitions.h"
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/rough_tape.h"
-#include "core/foot/seen_skin.h"
 #include "core/foot/shared_doubt.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
+#include "core/geometry/seen_skin.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

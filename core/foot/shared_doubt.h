@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/foot/foot_scan.h"
-#include "core/foot/seen_skin.h"
+#include "core/geometry/seen_skin.h"
 
 namespace instep {
 

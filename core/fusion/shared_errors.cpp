@@ -83,7 +83,8 @@ MatrixXd main_mixtures(MatrixXd moved) {
   const double all = solver.eigenvalues().sum();
   double untold = all;
   Eigen::Index count = 0;
-  while (count < moved.cols() && untold > kUntoldShare * all) {
+  const Eigen::Index most = std::min<Eigen::Index>(moved.cols(), kMostSharedErrors);
+  while (count < most && untold > kUntoldShare * all) {
     untold -= solver.eigenvalues()(moved.cols() - 1 - count);
     ++count;
   }

@@ -117,13 +117,17 @@ Result<void> check_cloud(const PointCloud& cloud) {
     return bad_point(i, cloud.positions[i].allFinite() ? "lies more than 100 m from the origin"
                                                        : "has a coordinate that is no number");
   }
+  if (!cloud.has_normals() && !cloud.shared_errors_mm.empty()) {
+    return fail(ErrorCode::kInvalidInput, "the points share errors along normals that they lack",
+                "give the normals too, or leave the errors out");
+  }
   for (const auto& error : cloud.shared_errors_mm) {
     const auto bad = std::find_if_not(error.begin(), error.end(), [](double error_mm) {
       return std::abs(error_mm) <= kLargestSigmaMm;
     });
     if (bad != error.end()) {
       return bad_point(static_cast<std::size_t>(bad - error.begin()),
-                       "has a shared error that is no number, or above 100 mm");
+                       "has a shared error that is no number, or beyond 100 mm");
     }
   }
   if (!cloud.has_normals() && cloud.view_directions.empty() && !cloud.has_sigma()) return {};

@@ -74,7 +74,8 @@ inline constexpr double kLargestSigmaMm = 100.0;
 
 /// The gate through which every cloud from outside passes: consistent lists, finite numbers,
 /// coordinates within kLargestCoordinateMm, unit normals, sigma above 0 and up to kLargestSigmaMm,
-/// shared errors too. The first fault is reported with the index of its point. Cost: one pass.
+/// shared errors within it. The first fault is reported with the index of its point. Cost: one
+/// pass.
 Result<void> check_cloud(const PointCloud& cloud);
 
 }  // namespace instep

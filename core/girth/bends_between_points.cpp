@@ -4,12 +4,18 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numbers>
 #include <variant>
 #include <vector>
 
+#include "core/geometry/point_spacing.h"
+
 namespace instep {
 namespace {
+
+// With these intervals of scanned feet of 4,260 exact points hold in 82 % (71 without), of lasts of
+// 902 bare points in 94 (92), of prisms of 14 to 24 sides of 600 and 1,500 points in 94 (67). If
+// bends counted by how far points are missed, not by its square, those of simulated feet of 4,260
+// points, which all hold without, would be three times as wide.
 
 /// A corner lies within so many spacings.
 constexpr double kWindow = 2.0;
@@ -25,8 +31,7 @@ class MissedPoints {
   MissedPoints(const SurfacePatch& patch, const std::vector<OrientedPoint>& points)
       : missed_(std::get<HeightPatch>(patch.field).missed()) {
     for (const std::size_t member : patch.members) places_.push_back(points[member].position);
-    const auto count = static_cast<double>(places_.size());
-    spacing_ = patch.radius * std::sqrt(std::numbers::pi / count);
+    spacing_ = spacing_within(patch.radius, places_.size());
   }
 
   /// Root mean square of those within a spacing or so.
@@ -66,7 +71,8 @@ UnseenBends bends_between_points(const ContourCourse& course, const BlendedSurfa
     const double middle = course.way_to(i) + 0.5 * contour.chord(i);
     const double turn = course.turn_over(middle - 0.5 * window, window);
     if (!(std::abs(turn) > kLeastTurn)) continue;
-    const Eigen::Vector3d place(contour.points[i].x(), contour.points[i].y(), 0.0);
+    const Eigen::Vector2d at = course.place_at(middle);
+    const Eigen::Vector3d place(at.x(), at.y(), 0.0);
     const SurfacePatch* patch = surface.leading_patch(place);
     if (patch == nullptr || !is_smooth_and_exact(*patch)) continue;
     const auto& of_patch = missed.try_emplace(patch, *patch, surface.points()).first->second;

@@ -9,6 +9,7 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/bodies_apart.h"
 #include "core/girth/girth.h"
+#include "core/girth/section_warnings.h"
 #include "core/girth/shared_length_doubt.h"
 #include "core/girth/told_girth.h"
 
@@ -126,13 +127,25 @@ bool counts_before(const ToldGirth& one, const ToldGirth& all) {
 }
 
 /// With what the points' shared errors leave open, of which the surface through them knows nothing.
-Girth with_shared_doubt(Girth girth, const TapePlane& plane, const PointCloud& cloud) {
+Result<Girth> with_shared_doubt(Girth girth, const TapePlane& plane, const PointCloud& cloud) {
   const auto shared = shared_doubt_of(girth.contour, plane, cloud);
+  if (!(shared.contact_u95 > 0.0)) return girth;
   const auto widen = [](std::optional<double>& u95, double more) {
     if (u95) u95 = std::hypot(*u95, more);
   };
   widen(girth.stretched_u95_mm, shared.stretched_u95);
   widen(girth.contact_u95_mm, shared.contact_u95);
+  if (is_too_doubtful(girth)) {
+    return fail(ErrorCode::kInsufficientData,
+                "the errors that the points share, as of the cameras that saw them, leave nothing "
+                "to be told of the girth",
+                "calibrate the cameras, or let them see more skin in common");
+  }
+  if (shared.stretched_u95 > kNotableDoubt * girth.stretched_mm) {
+    girth.warnings.emplace_back(
+        "the errors that the points share, as of the cameras that saw them, leave the girth "
+        "uncertain: calibrate the cameras, or let them see more skin in common");
+  }
   return girth;
 }
 

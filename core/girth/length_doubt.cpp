@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "core/geometry/plane_vectors.h"
@@ -215,6 +216,8 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface, doub
     if (stretch.sheet.patch == nullptr) {
       sums.contact_wandering += coherent_variance(stretch, stretch.contact);
       sums.stretched_wandering += coherent_variance(stretch, stretch.stretched);
+      const auto& field = stretch.sheet.owner->field;
+      sums.is_exact = sums.is_exact && std::holds_alternative<QuinticPatch>(field);
       continue;
     }
     add(stretch, points, sums);

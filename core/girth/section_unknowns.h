@@ -36,7 +36,8 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
                             const BlendedSurface& surface, const SectionEvidence& evidence,
                             const Contour& measured);
 
-/// Widens the intervals by them, and where noise was not what was told.
+/// Widens the intervals by them, and where noise was not what was told. Bends between points count
+/// as much as all that was told before, at most.
 void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section);
 
 }  // namespace instep

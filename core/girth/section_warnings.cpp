@@ -67,6 +67,10 @@ const char* reason_of_doubt(const SectionUnknowns& unknowns, const MeasuredSecti
     return "the points do not show how sharp the tip of a thin part is, so that the girth is "
            "uncertain: scan it from nearer, or from more sides";
   }
+  if (is_most_of(unknowns.between_points.stretched_u95, section)) {
+    return "the section may bend more sharply between the points than they show, so that the girth "
+           "is uncertain: scan from nearer, or with more frames";
+  }
   return "the points are so few or noisy that the girth is uncertain: scan again, with more or "
          "better "
          "frames";

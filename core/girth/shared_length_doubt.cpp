@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
+#include "core/geometry/seen_skin.h"
 #include "core/girth/length_doubt.h"
-#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -15,31 +14,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Skin that hardly meets the plane crosswise moves along it by so many times its error at most.
+/// Skin that hardly meets the plane crosswise moves along it by its error over so much at most.
 constexpr double kLeastCrosswise = 0.3;
-/// Points so far from the plane, as a share of the line, tell how the skin on it errs.
-constexpr double kBesideShare = 0.02;
 
-std::vector<std::size_t> seen_beside(const TapePlane& plane, const PointCloud& cloud,
-                                     double half_width) {
-  std::vector<std::size_t> seen;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const bool is_beside = std::abs(plane.distance(cloud.positions[i])) <= half_width;
-    if (is_beside && cloud.was_seen(i)) seen.push_back(i);
-  }
-  return seen;
-}
-
-/// The seen points near a plane, with what is known of their errors.
+/// What was seen of a cloud's skin, with what is known of its errors.
 class ErringSkin {
  public:
-  ErringSkin(const TapePlane& plane, const PointCloud& cloud, double half_width)
-      : plane_(plane),
-        cloud_(cloud),
-        points_(seen_beside(plane, cloud, half_width)),
-        index_(picked(cloud.positions, points_)) {}
-
-  bool empty() const { return points_.empty(); }
+  ErringSkin(const TapePlane& plane, const PointCloud& cloud)
+      : plane_(plane), cloud_(cloud), seen_(cloud) {}
 
   /// How much longer a closed line grows by each of the errors, one sigma.
   std::vector<double> growth_of(const std::vector<Vector2d>& line) const {
@@ -49,10 +31,11 @@ class ErringSkin {
       const Vector2d& corner = line[i];
       const Vector2d turn = (corner - line[(i + count - 1) % count]).normalized() -
                             (line[(i + 1) % count] - corner).normalized();
-      const std::size_t point = points_[index_.nearest(plane_.lift(corner), 1).front().index];
-      const double a_millimetre = turn.dot(motion_on_plane(cloud_.normals[point]));
+      const auto skin = seen_.nearest(plane_.lift(corner));
+      if (!skin) continue;
+      const double a_millimetre = turn.dot(motion_on_plane(cloud_.normals[skin->index]));
       for (std::size_t e = 0; e < growth.size(); ++e) {
-        growth[e] += cloud_.shared_errors_mm[e][point] * a_millimetre;
+        growth[e] += cloud_.shared_errors_mm[e][skin->index] * a_millimetre;
       }
     }
     return growth;
@@ -67,8 +50,7 @@ class ErringSkin {
 
   const TapePlane& plane_;
   const PointCloud& cloud_;
-  std::vector<std::size_t> points_;  ///< in the cloud
-  PointIndex index_;                 ///< of these
+  SeenSkin seen_;
 };
 
 double u95_of(const std::vector<double>& growth) {
@@ -82,8 +64,7 @@ double u95_of(const std::vector<double>& growth) {
 SharedLengthDoubt shared_doubt_of(const std::vector<Vector2d>& line, const TapePlane& plane,
                                   const PointCloud& cloud) {
   if (cloud.shared_errors_mm.empty()) return {};
-  const ErringSkin skin(plane, cloud, kBesideShare * perimeter(line));
-  if (skin.empty()) return {};
+  const ErringSkin skin(plane, cloud);
   return {u95_of(skin.growth_of(line)), u95_of(skin.growth_of(convex_hull(line)))};
 }
 

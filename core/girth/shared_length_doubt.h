@@ -18,7 +18,7 @@ struct SharedLengthDoubt {
 /// Of a line round a body, in the plane's own coordinates; none for a cloud that knows of no such
 /// errors. To first order: a line gains what the skin moves outwards at each corner times what it
 /// turns there. Skin that was not seen errs as the seen skin beside it, from which it goes on.
-/// O(n), and O(log m) a corner and error for the m points near the plane.
+/// The cloud passed check_cloud(). O(n log n), and O(log n + errors) a corner.
 SharedLengthDoubt shared_doubt_of(const std::vector<Eigen::Vector2d>& line, const TapePlane& plane,
                                   const PointCloud& cloud);
 

@@ -205,10 +205,7 @@ void widen(double contact, double stretched, ToldGirth& told) {
   Girth& girth = told.girth;
   *girth.contact_u95_mm += contact;
   *girth.stretched_u95_mm += stretched;
-  if (*girth.stretched_u95_mm <= kMostDoubt * girth.contact_mm &&
-      *girth.contact_u95_mm <= kMostFolded * girth.contact_mm) {
-    return;
-  }
+  if (!is_too_doubtful(girth)) return;
   Girth course;
   course.contour = std::move(girth.contour);
   girth = std::move(course);
@@ -245,6 +242,11 @@ ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOp
 }
 
 }  // namespace
+
+bool is_too_doubtful(const Girth& girth) {
+  return !(*girth.stretched_u95_mm <= kMostDoubt * girth.contact_mm &&
+           *girth.contact_u95_mm <= kMostFolded * girth.contact_mm);
+}
 
 double ToldGirth::doubt() const {
   return *girth.stretched_u95_mm + *girth.contact_u95_mm;

@@ -35,8 +35,12 @@ struct ToldGirth {
   bool is_plain() const;
 };
 
+/// Whether the intervals of a girth that has both leave nothing to be told.
+bool is_too_doubtful(const Girth& girth);
+
 /// The girth of a cloud that passed check_cloud(), all points near the plane taken together: as
-/// girth_by_rbf(), but that looks at bodies alone.
+/// girth_by_rbf(), but that looks at bodies alone, and adds what the points' shared errors leave
+/// open.
 Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
                                const GirthOptions& options);
 

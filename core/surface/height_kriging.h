@@ -72,7 +72,8 @@ class HeightKriging {
   /// same at all scales; less where the surface is smoother than the kernel takes it to be. O(n^3).
   double left_out(const Solution& solution) const;
 
-  /// The same of each sample's height, not squared and as long as the heights are. O(n^3).
+  /// How far each sample's height is off what the other readings predict, its own slopes among
+  /// them. O(n^3).
   Eigen::ArrayXd missed(const Solution& solution) const;
 
   /// The most that the polynomial follows one height: of one, it passes through it whatever the

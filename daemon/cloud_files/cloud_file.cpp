@@ -124,7 +124,7 @@ void cover_faces(CloudFile& read) {
       extra.sigma_mm.assign(extra.size(), median(cloud.sigma_mm));
     }
     if (extra.empty() || cloud.has_normals() != extra.has_normals()) return;
-    drop_shared_errors(read, "points between them were added on its faces");
+    drop_shared_errors(read, "points between them were added on its faces; leave the faces out");
     cloud.append(extra);
     return;
   }
@@ -177,7 +177,8 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   }
   if (const auto doubt = doubt_of_unit(*settled, *extent)) read.notes.push_back(*doubt);
   settle_normals(read);
-  if (!read.cloud.has_normals()) drop_shared_errors(read, "they lie along normals, which it lacks");
+  if (!read.cloud.has_normals())
+    drop_shared_errors(read, "they lie along normals, which it lacks; give these too");
   if (!raw->triangles.empty()) {
     read.mesh = {read.cloud.positions, std::move(raw->triangles)};
     cover_faces(read);

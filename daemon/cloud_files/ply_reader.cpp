@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "core/fusion/shared_errors.h"
 #include "daemon/cloud_files/ply_body.h"
 #include "daemon/cloud_files/ply_header.h"
 #include "daemon/cloud_files/shared_error_property.h"
@@ -36,17 +39,31 @@ bool want_numbers(const PlyElement& element, const std::string& name, std::vecto
   return true;
 }
 
-/// The columns of the errors that many points share, as far as they are numbered without a gap.
-/// False if they are more than kMostSharedErrors.
-bool want_shared_errors(const PlyElement& element, std::vector<std::vector<double>>& errors,
-                        std::vector<PlyColumn>& columns) {
-  std::vector<double> error;
-  while (want_numbers(element, shared_error_property(errors.size()), error, columns)) {
-    if (errors.size() == kMostSharedErrors) return false;
-    errors.push_back(std::move(error));  // the columns go on pointing to its numbers
-    error = {};
+bool is_shared_error(const PlyProperty& property) {
+  return property.name.starts_with("shared_error_") && property.name.ends_with("_mm");
+}
+
+/// The columns of the errors that many points share. None is passed over, for intervals would be
+/// too narrow then.
+Result<void> want_shared_errors(const PlyElement& element, const std::string& file,
+                                std::vector<std::vector<double>>& errors,
+                                std::vector<PlyColumn>& columns) {
+  const auto& properties = element.properties;
+  const auto told = static_cast<std::size_t>(
+      std::count_if(properties.begin(), properties.end(), is_shared_error));
+  if (told > kMostSharedErrors) {
+    return fail(ErrorCode::kUnsupported,
+                fmt::format("{} has {} properties of shared errors", file, told),
+                fmt::format("leave the smallest of them out, down to {}", kMostSharedErrors));
   }
-  return true;
+  errors.resize(element.count > 0 ? told : 0);
+  for (std::size_t e = 0; e < errors.size(); ++e) {
+    if (!want_numbers(element, shared_error_property(e), errors[e], columns)) {
+      return damaged_file(file,
+                          "its shared errors are not numbered from 1 on, each of a number a point");
+    }
+  }
+  return {};
 }
 
 Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::string& file,
@@ -59,12 +76,8 @@ Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::
   want_vectors(element, {"nx", "ny", "nz"}, cloud.normals, columns);
   want_numbers(element, "sigma_mm", cloud.sigma_mm, columns);
   want_numbers(element, "origin", origins, columns);
-  if (!want_shared_errors(element, cloud.shared_errors_mm, columns)) {
-    return fail(
-        ErrorCode::kUnsupported,
-        fmt::format("{} has more than {} properties of shared errors", file, kMostSharedErrors),
-        "leave the smallest of them out");
-  }
+  const auto wanted = want_shared_errors(element, file, cloud.shared_errors_mm, columns);
+  if (!wanted) return wanted;
   if (auto good = body.read(element, columns, nullptr); !good) return good;
   for (const double origin : origins) {
     cloud.origins.push_back(origin == 1.0 ? PointOrigin::kPlatform : PointOrigin::kSeen);

@@ -118,6 +118,8 @@ TEST(CheckCloud, RefusesWhatNoFootHolds) {
   EXPECT_FALSE(check_cloud(astray));
   astray.shared_errors_mm[1][1] = -99.0;
   EXPECT_TRUE(check_cloud(astray));
+  astray.normals.clear();
+  EXPECT_FALSE(check_cloud(astray)) << "along what normals?";
   PointCloud all_noise = two_points();
   all_noise.sigma_mm[1] = 1e30;
   EXPECT_FALSE(check_cloud(all_noise));

@@ -127,6 +127,34 @@ TEST(SharedLengthDoubt, OfACloudThatKnowsOfNoneIsNone) {
   EXPECT_EQ(doubt.contact_u95, 0.0);
 }
 
+/// Rings, half-way between two of which the plane lies.
+TEST(SharedLengthDoubt, IsThatOfTheNearestSkinHoweverFar) {
+  PointCloud cloud = points_on(post());
+  std::vector<std::size_t> far;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (std::abs(cloud.positions[i].z()) > 10.0) far.push_back(i);
+  }
+  cloud = cloud.subset(far);
+  add_error(cloud, growth);
+  const double one = kIn95 * 2.0 * std::numbers::pi * kErrorMm;
+  EXPECT_NEAR(doubt_of_post(leaning(0.0), cloud).stretched_u95, one, 0.02 * one);
+}
+
+TEST(SharedLengthDoubt, RefusesAGirthOfWhichItLeavesNothing) {
+  PointCloud cloud = points_on(post());
+  add_error(cloud, [](const Vector3d&, const Vector3d&) { return 5.0; });
+  const auto refused = girth_by_rbf(cloud, leaning(0.0));
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInsufficientData);
+  EXPECT_NE(refused.error().advice.find("calibrate"), std::string::npos);
+  cloud.shared_errors_mm.clear();
+  add_error(cloud, [](const Vector3d&, const Vector3d&) { return 1.0; });
+  const auto told = girth_by_rbf(cloud, leaning(0.0));
+  ASSERT_TRUE(told) << told.error().line();
+  ASSERT_EQ(told->warnings.size(), 1U);
+  EXPECT_NE(told->warnings[0].find("errors that the points share"), std::string::npos);
+}
+
 TEST(SharedLengthDoubt, IsInTheIntervalOfAGirth) {
   PointCloud cloud = points_on(post());
   const auto alone = girth_by_rbf(cloud, leaning(0.0));

@@ -113,17 +113,24 @@ TEST_F(CloudFiles, SaysWhenSharedErrorsAreOfNoUse) {
   EXPECT_NE(mesh->notes.back().find("on its faces"), std::string::npos) << mesh->notes.back();
 }
 
-/// As far as they are numbered from 1 on, and of one number a point.
+/// In any order; none is passed over.
 TEST_F(CloudFiles, ReadsSharedErrors) {
-  const auto file = read("shared.ply",
-                         "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\n"
-                         "property int y\nproperty int z\nproperty int nx\nproperty int ny\n"
-                         "property int nz\nproperty float shared_error_2_mm\n"
-                         "property double shared_error_1_mm\nproperty int shared_error_4_mm\n"
-                         "property list int int shared_error_3_mm\nend_header\n"
-                         "1 2 3 0 0 1 20 10 40 0\n9 9 9 0 0 2 -21 -11 41 0\n");
+  const auto file_with = [this](const std::string& first, const std::string& second) {
+    return read("shared.ply",
+                "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\nproperty int y\n"
+                "property int z\nproperty int nx\nproperty int ny\nproperty int nz\nproperty " +
+                    first + "\nproperty " + second +
+                    "\nend_header\n1 2 3 0 0 1 20 10\n9 9 9 0 0 2 -21 -11\n");
+  };
+  const auto file = file_with("float shared_error_2_mm", "double shared_error_1_mm");
   ASSERT_TRUE(file) << file.error().line();
   EXPECT_EQ(file->cloud.shared_errors_mm, (std::vector<std::vector<double>>{{10, -11}, {20, -21}}));
+  for (const char* other : {"float shared_error_3_mm", "float shared_error_0_mm",
+                            "list int int shared_error_2_mm", "float shared_error_1_mm"}) {
+    const auto broken = file_with("float shared_error_1_mm", other);
+    ASSERT_FALSE(broken) << other;
+    EXPECT_EQ(broken.error().code, ErrorCode::kCorruptData) << broken.error().line();
+  }
 }
 
 TEST_F(CloudFiles, ReadsBinaryPlyOfBothByteOrders) {
@@ -323,11 +330,11 @@ TEST_F(CloudFiles, TellsEveryFault) {
   std::string many =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\n"
       "property int z\n";
-  for (int i = 1; i <= 101; ++i) {
+  for (int i = 1; i <= 201; ++i) {
     many += "property int shared_error_" + std::to_string(i) + "_mm\n";
   }
-  expect_fault("many.ply", many + "end_header\n1 2 3" + std::string(202, ' '),
-               ErrorCode::kUnsupported, "more than 100");
+  expect_fault("many.ply", many + "end_header\n1 2 3" + std::string(402, ' '),
+               ErrorCode::kUnsupported, "201 properties of shared errors");
   expect_fault("words.xyz", "0 0 0\nhello world you\n", corrupt, "line 2");
   expect_fault("columns.xyz", "0 0 0\n1 2 3 0 0 1\n", corrupt, "line 2");
   expect_fault("comma.csv", "1,5;2,5;3\n1,2;3,4,5;6\n", corrupt, "line 2");

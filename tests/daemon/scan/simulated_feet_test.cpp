@@ -168,7 +168,7 @@ TEST(SimulatedFoot, KeepsItsIntervalsWhereItsCloudIsMeasuredAnew) {
   for (const char* id : {"foot_length", "foot_breadth", "ball_girth", "instep_girth"}) {
     const Measure* before = records->front().measures.find(id);
     const Measure* after = anew->find(id);
-    ASSERT_TRUE(before != nullptr && after != nullptr) << id;
+    ASSERT_TRUE(before != nullptr && after != nullptr && before->parts && after->parts) << id;
     EXPECT_NEAR(after->parts->surface, before->parts->surface, 0.1 * before->parts->surface) << id;
   }
 }

@@ -1,4 +1,4 @@
-#include "core/foot/seen_skin.h"
+#include "core/geometry/seen_skin.h"
 
 #include <cmath>
 
