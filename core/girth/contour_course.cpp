@@ -27,7 +27,7 @@ double ContourCourse::turn_at(double way) const {
 double ContourCourse::turn_over(double begin, double way) const {
   const auto turned = [this](double to) {
     const double rounds = std::floor(to / length());
-    return rounds * whole_turn() + turn_at(to - rounds * length());
+    return rounds * turns_.back() + turn_at(to - rounds * length());
   };
   return turned(begin + way) - turned(begin);
 }

@@ -18,15 +18,10 @@ class ContourCourse {
   const Contour& contour() const { return contour_; }
   /// Of the polygon through the corners.
   double length() const { return ways_.back(); }
-  /// All round (radians).
-  double whole_turn() const { return turns_.back(); }
   double way_to(std::size_t corner) const { return ways_[corner]; }
 
-  /// Between 0 and the length. O(log corners).
-  double turn_at(double way) const;
-
-  /// Over so long a way, which may begin and end beyond the first and the last corner. O(log
-  /// corners).
+  /// Radians, over so long a way, which may begin and end beyond the first and the last corner.
+  /// O(log corners).
   double turn_over(double begin, double way) const;
 
   /// On the chords; further than once round as well, either way. O(log corners).
@@ -38,6 +33,7 @@ class ContourCourse {
     double part;         ///< of the way to the next one
   };
   Station station_at(double way) const;
+  double turn_at(double way) const;
 
   const Contour& contour_;
   std::vector<double> ways_ = {0.0};  ///< to each corner, and all round to the first again

@@ -130,11 +130,8 @@ bool counts_before(const ToldGirth& one, const ToldGirth& all) {
 Result<Girth> with_shared_doubt(Girth girth, const TapePlane& plane, const PointCloud& cloud) {
   const auto shared = shared_doubt_of(girth.contour, plane, cloud);
   if (!(shared.contact_u95 > 0.0)) return girth;
-  const auto widen = [](std::optional<double>& u95, double more) {
-    if (u95) u95 = std::hypot(*u95, more);
-  };
-  widen(girth.stretched_u95_mm, shared.stretched_u95);
-  widen(girth.contact_u95_mm, shared.contact_u95);
+  girth.stretched_u95_mm = std::hypot(*girth.stretched_u95_mm, shared.stretched_u95);
+  girth.contact_u95_mm = std::hypot(*girth.contact_u95_mm, shared.contact_u95);
   if (is_too_doubtful(girth)) {
     return fail(ErrorCode::kInsufficientData,
                 "the errors that the points share, as of the cameras that saw them, leave nothing "

@@ -41,8 +41,7 @@ UnseenBends unseen_bends_of(const ContourCourse& course, const std::vector<doubl
     const std::size_t next = last ? 0 : i + 1;
     const double gap = ways[next] - ways[i] + (last ? course.length() : 0.0);
     if (gap <= near) continue;
-    const double turn =
-        course.turn_at(ways[next]) - course.turn_at(ways[i]) + (last ? course.whole_turn() : 0.0);
+    const double turn = course.turn_over(ways[i], gap);
     const double hole = (course.place_at(ways[next]) - course.place_at(ways[i])).norm();
     const double longer =
         kLikely * (gap - near) * longer_by_corner(std::abs(turn), kOrdinaryTurn, kSharpestCorner) +

@@ -132,12 +132,17 @@ void spoil_lenses(Capture& capture) {
   }
 }
 
-TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
+std::optional<Scan> scan_by_spoilt_lenses() {
   SimulationSettings settings;
   settings.seed = 5;
   auto scan = scan_of(settings);
+  if (scan) spoil_lenses(scan->capture);
+  return scan;
+}
+
+TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
+  const auto scan = scan_by_spoilt_lenses();
   ASSERT_TRUE(scan);
-  spoil_lenses(scan->capture);
   const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   const auto& measures = records->front().measures;
@@ -150,11 +155,8 @@ TEST(SimulatedFoot, IsMeasuredWithinItsIntervalsByLensesThatAreOff) {
 
 /// What is unknown of the cameras goes into the file with the points.
 TEST(SimulatedFoot, KeepsItsIntervalsWhereItsCloudIsMeasuredAnew) {
-  SimulationSettings settings;
-  settings.seed = 5;
-  auto scan = scan_of(settings);
+  const auto scan = scan_by_spoilt_lenses();
   ASSERT_TRUE(scan);
-  spoil_lenses(scan->capture);
   const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   const auto bytes = cloud_to_ply(records->front().foot.cloud);
