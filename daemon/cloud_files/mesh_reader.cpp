@@ -3,8 +3,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstring>
 #include <exception>
 
@@ -101,34 +103,90 @@ Result<void> check_text_stl(std::string_view bytes, const std::string& file) {
   return {};
 }
 
-/// The corners of an OBJ file without faces, which assimp refuses.
-Result<RawCloud> read_obj_points(std::string_view bytes, const std::string& file) {
-  RawCloud raw;
-  TextLines lines(bytes);
-  while (auto line = lines.next()) {
-    if (take_word(*line) != "v") continue;
-    const auto x = number_in(take_word(*line));
-    const auto y = number_in(take_word(*line));
-    const auto z = number_in(take_word(*line));
-    if (!x || !y || !z) return damaged_file(file, "a corner (v) of it is no point");
-    raw.cloud.positions.emplace_back(*x, *y, *z);
+/// What of an OBJ file tells its shape, said as plainly as it can be: on what else one may hold
+/// (materials, groups, normals, curves) assimp stumbles where it is damaged, and crashes.
+class PlainObj {
+ public:
+  /// False for a corner that is no point.
+  bool add_corner(std::string_view words) {
+    Eigen::Vector3d corner;
+    text_ += "v";
+    for (double& part : corner) {
+      const std::string_view word = take_word(words);
+      const auto number = number_in(word);
+      if (!number) return false;
+      part = *number;
+      text_.append(" ").append(word);
+    }
+    text_ += "\n";
+    corners_.push_back(corner);
+    return true;
   }
-  return raw;
-}
 
-/// True if one of its lines begins with "f".
-bool has_faces(std::string_view obj) {
-  TextLines lines(obj);
-  while (auto line = lines.next()) {
-    if (take_word(*line) == "f") return true;
+  /// False for a face that cannot be of these corners. Each may be followed by its place in a
+  /// picture and its normal, as in 3/1/2; below 0 it is counted back from the last one.
+  bool add_face(std::string_view words) {
+    text_ += "f";
+    for (auto word = take_word(words); !word.empty(); word = take_word(words)) {
+      word = word.substr(0, word.find('/'));
+      const auto corner = number_in(word);
+      if (!corner || *corner == 0.0 || *corner != std::trunc(*corner)) return false;
+      const std::size_t most = *corner > 0.0 ? kMostFilePoints : corners_.size();
+      if (std::abs(*corner) > static_cast<double>(most)) return false;
+      last_of_faces_ = std::max(last_of_faces_, *corner);
+      text_.append(" ").append(std::to_string(std::lround(*corner)));
+    }
+    text_ += "\n";
+    has_faces_ = true;
+    return true;
   }
-  return false;
+
+  bool has_faces() const { return has_faces_; }
+  bool has_all_corners() const { return last_of_faces_ <= static_cast<double>(corners_.size()); }
+  const std::vector<Eigen::Vector3d>& corners() const { return corners_; }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  std::vector<Eigen::Vector3d> corners_;
+  bool has_faces_ = false;
+  double last_of_faces_ = 0.0;
+};
+
+constexpr const char* kNoPoint = "a corner (v) of it is no point";
+constexpr const char* kNoCorner = "a face (f) of it names a point that is not there";
+
+Result<PlainObj> plain_obj(std::string_view bytes, const std::string& file) {
+  PlainObj obj;
+  std::string whole;  // a line that ends with a backslash goes on in the next
+  TextLines lines(bytes);
+  while (const auto line = lines.next()) {
+    whole += *line;
+    if (whole.ends_with('\\')) {
+      whole.back() = ' ';
+      continue;
+    }
+    std::string_view words = whole;
+    const std::string_view kind = take_word(words);
+    if (kind == "v" && !obj.add_corner(words)) return damaged_file(file, kNoPoint);
+    if (kind == "f" && !obj.add_face(words)) return damaged_file(file, kNoCorner);
+    whole.clear();
+  }
+  if (!obj.has_all_corners()) return damaged_file(file, kNoCorner);
+  return obj;
 }
 
 }  // namespace
 
 Result<RawCloud> read_obj(std::string_view bytes, const std::string& file) {
-  auto raw = has_faces(bytes) ? import(bytes, "obj", file) : read_obj_points(bytes, file);
+  const auto obj = plain_obj(bytes, file);
+  if (!obj) return tl::make_unexpected(obj.error());
+  Result<RawCloud> raw;
+  if (obj->has_faces()) {
+    raw = import(obj->text(), "obj", file);
+  } else {
+    raw->cloud.positions = obj->corners();  // assimp refuses points alone
+  }
   if (raw) raw->format = "OBJ";
   return raw;
 }

@@ -225,6 +225,25 @@ TEST_F(CloudFiles, OpensNoFileThatAMeshNames) {
   }
 }
 
+TEST_F(CloudFiles, TakesOfAnObjFileItsShapeAlone) {
+  const std::string corners = "v 0 0 0 1\nv 10 0 0 0.5 0.5 0.5\nv 10 10 0\n";
+  for (const char* face : {"f 1/4/9 2/5/9 3/6/9\n", "f 1//1 2//2 3//3\n", "f -3 -2 -1\n",
+                           "f 1 \\\n2 3\n", "usemtl \x85\x02\nvn 1\ncurv2 1\ng\nf 1 2 3\n"}) {
+    const auto file = read("m.obj", corners + face);
+    ASSERT_TRUE(file) << face << file.error().line();
+    EXPECT_EQ(file->mesh.triangles.size(), 1U) << face;
+    EXPECT_EQ(file->mesh.positions.size(), 3U) << face;
+  }
+  const auto before = read("m.obj", "f 1 2 3\n" + corners);
+  ASSERT_TRUE(before) << before.error().line();
+  EXPECT_EQ(before->mesh.triangles.size(), 1U);
+  for (const char* face : {"f 1 2 4\n", "f 0 1 2\n", "f 1 2 -4\n", "f 1 2 x\n", "f 1 2 2.5\n",
+                           "f 1 2 /3\n", "f 1 2 99999999999999999999\n", "f 1 2 nan\n"}) {
+    expect_fault("m.obj", corners + face, ErrorCode::kCorruptData, "a face (f)");
+  }
+  expect_fault("m.obj", corners + "v 1 2\nf 1 2 3\n", ErrorCode::kCorruptData, "a corner (v)");
+}
+
 TEST_F(CloudFiles, CoversLargeFacesWithPointsAndNormals) {
   const auto file = read("m.obj",
                          "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 2 3\nf 1 4 2\nf 1 3 4\n"
