@@ -51,6 +51,7 @@ std::optional<Landmark> find_medial_malleolus(const FootOutline& outline) {
   const auto steadier = is_in_range ? side.at(crest->along) : std::nullopt;
   const SkinBorder::Place place = steadier.value_or(*peak);
   if (place.along > top - kAboveMm) return std::nullopt;
+  if (!outline.was_seen(side.position(place))) return std::nullopt;
   return Landmark{side.position(place), 0.6,
                   "most medial point at 0.22-0.38 of the foot's length over the floor, weighed by "
                   "nearness to 0.30"};

@@ -5,6 +5,7 @@
 
 #include "core/foot/foot_scan.h"
 #include "core/foot/skin_border.h"
+#include "core/geometry/seen_skin.h"
 
 namespace instep {
 
@@ -27,6 +28,10 @@ class FootOutline {
     return seen_points_.empty() ? points_ : seen_points_;
   }
 
+  /// Whether a place is on skin that was seen (SeenSkin::is_near()), and how far it is from that.
+  bool was_seen(const Eigen::Vector3d& place) const;
+  double distance_to_seen(const Eigen::Vector3d& place) const;
+
   /// Reach towards medial, and towards lateral, at each x, of the skin up to
   /// kLandmarkOutlineHeightMm.
   const SkinBorder& medial() const { return medial_; }
@@ -36,6 +41,8 @@ class FootOutline {
   double length_mm_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3d> seen_points_;  ///< none where all were seen
+  SeenSkin seen_skin_;                        ///< of the foot as it is
+  double medial_sign_;
   SkinBorder medial_;
   SkinBorder lateral_;
 };

@@ -19,11 +19,13 @@ constexpr double kHeelMm = 40.0;
 constexpr double kRearShare = 0.2;
 constexpr double kSmoothingMm = 9.0;
 constexpr double kStepMm = 0.5;
-constexpr double kHalfWidthShare = 0.12;   ///< beside the axis
-constexpr double kHeelSlope = 0.45;        ///< radians: from the instep point down to the heel
-constexpr double kHeelRangeShare = 0.1;    ///< to either side of the line that slopes so
-constexpr double kMostUnderFloorMm = 2.0;  ///< where the border's own end runs away
-constexpr double kJunctionSlope = 0.62;    ///< radians: from the heel up to the junction
+constexpr double kHalfWidthShare = 0.12;      ///< beside the axis
+constexpr double kHeelSlope = 0.45;           ///< radians: from the instep point down to the heel
+constexpr double kHeelRangeShare = 0.1;       ///< to either side of the line that slopes so
+constexpr double kMostUnderFloorMm = 2.0;     ///< where the border's own end runs away
+constexpr double kLowestOfHeelMm = 6.0;       ///< below it no wall of a heel reaches furthest
+constexpr double kFarthestFromSeenMm = 15.0;  ///< a wall that is guessed
+constexpr double kJunctionSlope = 0.62;       ///< radians: from the heel up to the junction
 constexpr double kLeastRise = 0.40;
 constexpr double kMostRise = 0.85;
 
@@ -53,10 +55,18 @@ std::optional<double> breadth(const FootOutline& outline, double along) {
   return medial && lateral ? std::optional(*medial + *lateral) : std::nullopt;
 }
 
-std::optional<Landmark> at_heel(const SkinBorder& border, std::optional<double> along,
+/// Whether a place is on a wall that was seen, or goes on from what was seen. Where nothing of a
+/// wall was, what was put under the foot ends somewhere on the platform.
+bool is_on_wall(const FootOutline& outline, const Vector3d& place) {
+  return place.z() < kLowestOfHeelMm ? outline.was_seen(place)
+                                     : outline.distance_to_seen(place) < kFarthestFromSeenMm;
+}
+
+std::optional<Landmark> at_heel(const FootOutline& outline, const SkinBorder& border,
                                 HeelBreadthRule rule) {
+  const auto along = heel_breadth_place(outline, rule);
   const auto place = along ? border.at(*along) : std::nullopt;
-  if (!place) return std::nullopt;
+  if (!place || !is_on_wall(outline, border.position(*place))) return std::nullopt;
   return Landmark{border.position(*place), 0.9,
                   std::string("outline of the heel ") + description(rule)};
 }
@@ -95,11 +105,11 @@ std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadth
 }
 
 std::optional<Landmark> find_heel_medial(const FootOutline& outline, HeelBreadthRule rule) {
-  return at_heel(outline.medial(), heel_breadth_place(outline, rule), rule);
+  return at_heel(outline, outline.medial(), rule);
 }
 
 std::optional<Landmark> find_heel_lateral(const FootOutline& outline, HeelBreadthRule rule) {
-  return at_heel(outline.lateral(), heel_breadth_place(outline, rule), rule);
+  return at_heel(outline, outline.lateral(), rule);
 }
 
 std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landmark& instep,

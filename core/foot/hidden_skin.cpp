@@ -14,10 +14,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kOverFloorMm = 0.3;
-/// Further from all seen points a corner of the section was not seen; where these lie further apart
-/// than they do in a scan, as many times further. Set by eye, as what follows is but for the last.
-constexpr double kUnseenMm = 2.5;
-constexpr double kSpacingMm = 1.5;
+// Set by eye, as all that follows but for the last.
+/// As far from its lower end a wall is taken to be as it was seen.
+constexpr double kBorderMm = 2.5;
 /// A stretch that ends higher does not run down to the floor.
 constexpr double kDownMm = 3.0;
 /// As far back along the wall its direction is taken.
@@ -26,20 +25,17 @@ constexpr double kWallMm = 4.0;
 constexpr double kLeastUpright = 0.1;
 /// A wall that leans inwards by so much a millimetre down is in its bend, which goes on.
 constexpr double kBending = 0.5;
-/// Of what a corner at the floor would add. Where that is more than 5 mm, the girths of 20 pairs of
-/// simulated feet are short by 0.37 to 0.8 of it at the ball, but two of 23 by 1.1 and 1.2, and by
-/// -0.15 to 0.6 at the waist.
-constexpr double kCornerShare = 0.75;
+/// Of the range of hidden_range(). Cut off by so much at the ball or the waist, 24 simulated feet
+/// err by less than 0.33 of it (19 girths of 20), two scanned ones by up to 0.57 (9 of 10).
+constexpr double kRangeShare = 0.6;
 
 /// Of each corner of the section: over the floor, and far from all that was seen.
 std::vector<bool> hidden_corners(const SeenSkin& seen, const TapePlane& plane,
                                  const std::vector<Vector2d>& contour) {
-  const double reach = kUnseenMm * std::max(1.0, seen.spacing_mm() / kSpacingMm);
   std::vector<bool> is_hidden;
   for (const auto& corner : contour) {
     const Vector3d place = plane.lift(corner);
-    const auto nearest = seen.nearest(place);
-    is_hidden.push_back(place.z() > kOverFloorMm && !(nearest && nearest->distance_mm < reach));
+    is_hidden.push_back(place.z() > kOverFloorMm && !seen.is_near(place));
   }
   return is_hidden;
 }
@@ -65,7 +61,7 @@ Stretch stretch_of(const std::vector<Vector2d>& contour, std::size_t first, std:
     }
     return at;
   };
-  const std::size_t seen_last = back_along_wall(runs_down ? first : last % count, kUnseenMm);
+  const std::size_t seen_last = back_along_wall(runs_down ? first : last % count, kBorderMm);
   stretch.wall = contour[seen_last] - contour[back_along_wall(seen_last, kWallMm)];
   return stretch;
 }
@@ -83,9 +79,9 @@ std::vector<Stretch> hidden_stretches(const std::vector<Vector2d>& contour,
   return stretches;
 }
 
-/// By how much it would be longer if the wall went on as it was seen last, but no further outwards,
-/// and bent at the floor only; less where the wall has begun to bend.
-double longer_by_corner(const Stretch& stretch, const Vector2d& up) {
+/// Between the tape of a wall that goes on as it was seen last, but no further outwards, and bends
+/// at the floor only, and a tape straight across; less where the wall has begun to bend.
+double hidden_range(const Stretch& stretch, const Vector2d& up) {
   const Vector2d level(up.y(), -up.x());
   const Vector2d way = stretch.course.back() - stretch.course.front();
   const double sign = level.dot(way) > 0.0 ? 1.0 : -1.0;
@@ -95,9 +91,8 @@ double longer_by_corner(const Stretch& stretch, const Vector2d& up) {
   const double leans = std::max(0.0, sign * level.dot(stretch.wall));
   if (!(height > 0.0) || leans >= kBending * falls) return 0.0;
   const double slope = leans / falls;
-  const double length = perimeter(convex_hull(stretch.course)) - way.norm();  // as a tape has it
   const double corner = std::hypot(height, slope * height) + std::abs(breadth - slope * height);
-  return (1.0 - slope / kBending) * std::max(0.0, corner - length);
+  return (1.0 - slope / kBending) * std::max(0.0, corner - way.norm());
 }
 
 }  // namespace
@@ -124,7 +119,7 @@ HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth
   const auto is_hidden = hidden_corners(seen, plane, girth.contour);
   for (const auto& stretch : hidden_stretches(girth.contour, is_hidden, up)) {
     if (plane.lift(stretch.course.back()).z() > kDownMm) continue;
-    const double doubt = kCornerShare * longer_by_corner(stretch, up);
+    const double doubt = kRangeShare * hidden_range(stretch, up);
     if (!(doubt > 0.0)) continue;
     hidden.doubt_mm += doubt;
     hidden.height_mm = std::max(hidden.height_mm, plane.lift(stretch.course.front()).z());

@@ -7,6 +7,7 @@
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
+#include "core/fusion/wall_foot.h"
 
 namespace instep {
 namespace {
@@ -51,6 +52,15 @@ RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>
   return {std::move(part.landmarks), part.foot_from_input.inverse()};
 }
 
+/// Of the skin that was put where nobody saw it: an upright piece tells where a landmark may lie,
+/// but as all redraws share it, not how surely.
+bool is_guessed_wall(const PointCloud& cloud, std::size_t index) {
+  constexpr double kLeastUpright = -0.3;  // z of its normal
+  return !cloud.was_seen(index) && cloud.has_normals() &&
+         cloud.normals[index].z() > kLeastUpright &&
+         cloud.positions[index].z() > WallSettings{}.usual_edge_mm;
+}
+
 Parting parting_of(std::size_t points) {
   if (points < 2 * kPointsOfPart) return kOfFewPoints;
   return {std::min(points / kPointsOfPart, kMostParts), false};
@@ -86,7 +96,7 @@ Redraws redraw_landmarks(const FootScan& foot) {
       std::vector<std::size_t> taken;
       for (std::size_t i = 0; i < hashes.size(); ++i) {
         const bool is_of_part = (hashes[i] >> (8 * parting)) % parts == part;
-        if (is_of_part != is_part_left_out) taken.push_back(i);
+        if (is_of_part != is_part_left_out && !is_guessed_wall(foot.cloud, i)) taken.push_back(i);
       }
       redraws.landmarks.push_back(redrawn_on(foot, taken));
     }

@@ -19,8 +19,8 @@ constexpr double kSeenSoleHeightMm = 25.0;
 constexpr double kSeenSoleNormal = -0.8;  // z of the normal of a sole seen from below
 constexpr double kSidewaysMm = 4.0;       // standard deviation of the weight of walls to the side
 constexpr double kFarthestSidewaysMm = 12.0;
-constexpr double kBeyondContactMm = 6.0;  // how far a wall still says that there is contact
-constexpr double kOverhangMm = 30.0;      // how far the skin reaches out above the foot of a wall
+constexpr double kBeyondContactMm = 6.0;        // how far a wall still says that there is contact
+constexpr double kOverhangMm = 30.0;  // how far the skin reaches out above the foot of a wall
 
 /// The ground under the low part of the foot, its inside filled.
 Mask footprint(const GroundPlan& plan, const PointCloud& foot, double height,
@@ -120,6 +120,25 @@ PointCloud points_of(const GroundPlan& plan, const HeightMap& heights, double st
   return sole;
 }
 
+/// The hidden walls themselves, on which, steep as they are, a map of heights has hardly a point.
+PointCloud points_of(const std::vector<WallFoot>& walls, double standing_height_mm,
+                     const SoleSettings& settings) {
+  PointCloud skin;
+  for (const auto& wall : walls) {
+    const Vector2d along(-wall.out().y(), wall.out().x());
+    for (const auto& place : wall.hidden_wall(settings.spacing_mm)) {
+      const Vector2d level = std::sqrt(1.0 - place.sine_of_dip * place.sine_of_dip) * wall.out();
+      for (const double side : {-1.0, 0.0, 1.0}) {
+        const Vector2d ground =
+            wall.place() - place.inward * wall.out() + side * settings.spacing_mm * along;
+        add_point(skin, {ground.x(), ground.y(), standing_height_mm + place.height},
+                  {level.x(), level.y(), -place.sine_of_dip}, settings.sigma_mm);
+      }
+    }
+  }
+  return skin;
+}
+
 }  // namespace
 
 SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSettings& settings) {
@@ -142,9 +161,10 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
     }
   }
   const PointCloud sole = points_of(plan, heights, standing_height_mm, settings.sigma_mm);
+  const PointCloud hidden = points_of(walls, standing_height_mm, settings);
   foot.append(sole);
-  closure.points_added = sole.size();
-  closure.area_mm2 = static_cast<double>(closure.points_added) * plan.cell_mm * plan.cell_mm;
+  foot.append(hidden);
+  closure.points_added = sole.size() + hidden.size();
   const auto cells = std::count(print.begin(), print.end(), 1);
   std::ptrdiff_t seen_cells = 0;
   for (std::size_t cell = 0; cell < print.size(); ++cell) seen_cells += print[cell] && seen[cell];

@@ -13,6 +13,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kMostSine = 0.95;
+constexpr double kMostOutwardMm = 2.0;   // a wall lost above its widest place may bulge so far
 constexpr double kLeaningSine = 0.45;    // of a wall that leans in as much as a sole's edge does
 constexpr double kArchOverEdgeMm = 4.0;  // what leans in so far over the edge stands beside an arch
 
@@ -32,7 +33,7 @@ std::vector<Vector2d> wall_to_edge(double height, double sine, double bend, doub
   for (int i = 1; i <= kPieces; ++i) {
     const double at = std::lerp(height, edge_height, static_cast<double>(i) / kPieces);
     const double chord = (std::asin(sine) + std::asin(sine_at(height, sine, bend, at))) / 2.0;
-    corners.emplace_back((height - at) * std::tan(chord), at);
+    corners.emplace_back(std::max(-kMostOutwardMm, (height - at) * std::tan(chord)), at);
   }
   return corners;
 }
@@ -120,32 +121,48 @@ WallFoot::WallFoot(const Vector2d& place, const Vector2d& out, const WallShape& 
                    const WallSettings& settings)
     : place_(place), out_(out) {
   const double height = std::max(0.0, shape.height);
-  profile_ = wall_to_edge(height, std::clamp(shape.sine_of_dip, 0.0, kMostSine), shape.bend,
-                          settings.usual_edge_mm);
-  const Vector2d begin = profile_.back();
-  const double sine =
-      sine_at(height, std::clamp(shape.sine_of_dip, 0.0, kMostSine), shape.bend, begin.y());
+  const double end_sine = std::clamp(shape.sine_of_dip, -kMostSine, kMostSine);
+  course_ = wall_to_edge(height, end_sine, shape.bend, settings.usual_edge_mm);
+  wall_corners_ = course_.size();
+  const Vector2d begin = course_.back();
+  const double sine = sine_at(height, end_sine, shape.bend, begin.y());
   const double turn = std::acos(std::max(kLeaningSine, sine));
   const double falloff = std::max(falloff_of_bend(turn, shape.bend * begin.y()),
                                   falloff_beside_arch(begin.y(), settings.usual_edge_mm));
   for (const auto& corner : free_skin(turn, falloff, begin.y())) {
-    profile_.emplace_back(begin.x() + corner.x(), corner.y());
+    course_.emplace_back(begin.x() + corner.x(), corner.y());
   }
   if (contact() > shape.most_inset_mm) {
-    const double from = std::clamp(shape.sine_of_dip, 0.0, kMostSine);
+    const double from = std::max(0.0, end_sine);
     // No tighter than the arc that just touches the platform.
     const double radius = 1.0 / std::max(shape.bend, (1.0 - from) / std::max(height, 1e-9));
-    profile_ = taut_over_arch(height, std::asin(from), radius, shape.most_inset_mm);
+    course_ = taut_over_arch(height, std::asin(from), radius, shape.most_inset_mm);
+    wall_corners_ = 1;
   }
-  if (contact() < settings.least_inset_mm) profile_.emplace_back(settings.least_inset_mm, 0.0);
+  if (contact() < settings.least_inset_mm) course_.emplace_back(settings.least_inset_mm, 0.0);
+}
+
+std::vector<WallFoot::Place> WallFoot::hidden_wall(double spacing) const {
+  std::vector<Place> places;
+  double next = spacing;  // from the corner before
+  for (std::size_t i = 1; i < wall_corners_; ++i) {
+    const Vector2d piece = course_[i] - course_[i - 1];
+    const double length = piece.norm();
+    for (; next <= length; next += spacing) {
+      const Vector2d at = course_[i - 1] + next / length * piece;
+      places.push_back({at.x(), at.y(), piece.x() / length});
+    }
+    next -= length;
+  }
+  return places;
 }
 
 double WallFoot::skin_height(double inward) const {
   const auto after =
-      std::upper_bound(profile_.begin(), profile_.end(), inward,
+      std::upper_bound(course_.begin(), course_.end(), inward,
                        [](double at, const Vector2d& corner) { return at < corner.x(); });
-  if (after == profile_.end()) return 0.0;
-  if (after == profile_.begin()) return profile_.front().y();
+  if (after == course_.end()) return 0.0;
+  if (after == course_.begin()) return course_.front().y();
   const Vector2d& before = *(after - 1);
   const double share = (inward - before.x()) / (after->x() - before.x());
   return std::max(0.0, std::lerp(before.y(), after->y(), share));

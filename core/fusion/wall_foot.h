@@ -57,15 +57,27 @@ class WallFoot {
   }
 
   /// Inward distance from which on the skin rests on the platform.
-  double contact() const { return profile_.back().x(); }
+  double contact() const { return course_.back().x(); }
 
   /// Height of the skin over the platform at an inward distance >= 0.
   double skin_height(double inward) const;
 
+  /// A place on the skin, and how it leans there.
+  struct Place {
+    double inward = 0.0;
+    double height = 0.0;
+    double sine_of_dip = 0.0;
+  };
+
+  /// Places on the wall below its seen end, so far apart along it, down to where the skin hangs
+  /// free; none where it was seen so far.
+  std::vector<Place> hidden_wall(double spacing) const;
+
  private:
   Eigen::Vector2d place_;
   Eigen::Vector2d out_;
-  std::vector<Eigen::Vector2d> profile_;  ///< inward, height; from the wall's end to the contact
+  std::vector<Eigen::Vector2d> course_;  ///< inward, height; from the wall's end to the contact
+  std::size_t wall_corners_ = 0;         ///< of these, down to where the skin hangs free
 };
 
 /// The feet of the walls of a foot that stands at a height, one for each 6 mm or so round it. The

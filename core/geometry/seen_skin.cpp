@@ -1,5 +1,6 @@
 #include "core/geometry/seen_skin.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/point_spacing.h"
@@ -29,6 +30,13 @@ std::optional<SeenSkin::Point> SeenSkin::nearest(const Eigen::Vector3d& place) c
   const auto found = index_.nearest(place, 1);
   if (found.empty()) return std::nullopt;
   return Point{points_[found.front().index], std::sqrt(found.front().squared_distance)};
+}
+
+bool SeenSkin::is_near(const Eigen::Vector3d& place) const {
+  constexpr double kNearMm = 2.5;  // by eye
+  constexpr double kSpacingMm = 1.5;
+  const auto point = nearest(place);
+  return point && point->distance_mm < kNearMm * std::max(1.0, spacing_mm_ / kSpacingMm);
 }
 
 }  // namespace instep

@@ -25,6 +25,10 @@ class SeenSkin {
   /// The nearest to a place; nothing if no point was seen.
   std::optional<Point> nearest(const Eigen::Vector3d& place) const;
 
+  /// Whether a place is on skin that was seen: within 2.5 mm of a point or, where these lie further
+  /// apart than the 1.5 mm of a scan, as many times further.
+  bool is_near(const Eigen::Vector3d& place) const;
+
   /// How far apart the points usually are; 0 for fewer than two.
   double spacing_mm() const { return spacing_mm_; }
 

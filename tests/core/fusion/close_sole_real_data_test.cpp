@@ -43,6 +43,17 @@ struct WholeFoot {
     return cloud;
   }
 
+  /// As between two feet, where no camera sees the lower part of the inner wall.
+  PointCloud seen_beside_another(double hidden_mm, double medial_sign, std::uint64_t seed) const {
+    const auto cloud = seen_from_beside(seed);
+    std::vector<std::size_t> seen;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const auto& point = cloud.positions[i];
+      if (point.z() > hidden_mm || medial_sign * point.y() < 0.0) seen.push_back(i);
+    }
+    return cloud.subset(seen);
+  }
+
   double girth(const TapePlane& plane) const {
     return standing_girth(girth_by_section(mesh, plane).value(), plane).stretched_mm;
   }
@@ -81,6 +92,25 @@ TEST_P(CloseSoleOfRealFeet, LeavesTheirGirthsWhatTheyAreWithTheirSoles) {
     const auto girth = girth_by_rbf(open->cloud, heel);
     ASSERT_TRUE(girth) << girth.error().line();
     EXPECT_NEAR(standing_girth(*girth, heel).stretched_mm, truth(heel), kBarMm) << seed;
+  }
+}
+
+TEST_P(CloseSoleOfRealFeet, LeavesTheirBallGirthsWithinTheirIntervalsWhereAWallWasHidden) {
+  const WholeFoot whole(GetParam());
+  AlignmentOptions options;
+  options.standing_plane = StandingPlane{};
+  const double medial_sign = std::string(GetParam()) == "retail_left.stl" ? -1.0 : 1.0;
+  for (const double hidden_mm : {12.0, 18.0, 24.0}) {
+    const auto open = align_foot(whole.seen_beside_another(hidden_mm, medial_sign, 10), options)
+                          .and_then(find_landmarks);
+    ASSERT_TRUE(open) << open.error().line();
+    const auto set = measure_foot(*open);
+    ASSERT_TRUE(set) << set.error().line();
+    const Measure* girth = set->find("ball_girth");
+    ASSERT_NE(girth, nullptr) << hidden_mm;
+    const double truth = whole.girth(girth->plane->transformed(open->foot_from_input.inverse()));
+    EXPECT_NEAR(girth->value_mm, truth, *girth->u95_mm) << hidden_mm;
+    EXPECT_LT(*girth->u95_mm, 0.5 * hidden_mm) << hidden_mm;
   }
 }
 

@@ -83,6 +83,35 @@ TEST(CloseSole, MarksItsPointsAndRestsThemOnThePlatform) {
   }
 }
 
+TEST(CloseSole, LeavesNoGapInAWallWhoseFootWasHidden) {
+  constexpr double kHidden = 28.0;
+  PointCloud cloud;
+  const PointCloud whole = rounded_wall(8, 45);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const bool is_hidden = whole.positions[i].x() > 0.0 && whole.positions[i].z() < kHidden;
+    if (!is_hidden) add(cloud, whole.positions[i], whole.normals[i]);
+  }
+  close_sole(cloud, 0.0);
+  for (const double turn : {-0.9, -0.3, 0.0, 0.4, 1.0}) {
+    const Vector3d out(std::cos(turn), std::sin(turn), 0.0);
+    for (double z = 9.0; z < kHidden; z += 1.0) {
+      const Vector3d place = kRadius * out + z * Vector3d::UnitZ();
+      double nearest = 1e9;
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const double distance = (cloud.positions[i] - place).norm();
+        if (distance >= nearest) continue;
+        nearest = distance;
+        EXPECT_TRUE(distance > 3.0 || cloud.normals[i].dot(out) > 0.9) << turn << " " << z;
+      }
+      EXPECT_LT(nearest, 2.6) << turn << " " << z;
+    }
+  }
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.was_seen(i) || cloud.positions[i].z() < 12.0) continue;
+    EXPECT_NEAR(cloud.positions[i].head<2>().norm(), kRadius, 0.5);
+  }
+}
+
 TEST(CloseSole, GoesOnWithTheRoundingThatWasSeen) {
   for (const double rounding : {6.0, 12.0, 20.0}) {
     auto cloud = rounded_wall(rounding, 45);

@@ -165,6 +165,48 @@ TEST(WallFoot, GoesOnUprightToTheUsualEdgeWhereItsFootWasHidden) {
   EXPECT_LT(foot.contact(), 3.0 * WallSettings{}.usual_edge_mm);
 }
 
+/// The circle of the wall is the truth: outwards first, and back.
+TEST(WallFoot, GoesOnRoundItsWidestPlaceWhereItWasLostAboveThat) {
+  for (const double height : {20.0, 30.0}) {
+    for (const double dip_deg : {-20.0, -10.0, 0.0}) {
+      const double radius = 30.0;
+      const WallFoot foot = wall(height, dip_deg, 1.0 / radius);
+      const double dip = radians(dip_deg);
+      const Vector2d centre(radius * std::cos(dip), height + radius * std::sin(dip));
+      const auto places = foot.hidden_wall(1.0);
+      ASSERT_GT(places.size(), 10U);
+      double before = height;
+      for (const auto& place : places) {
+        const Vector2d from_centre = Vector2d(place.inward, place.height) - centre;
+        EXPECT_NEAR(from_centre.norm(), radius, 0.1) << height << " " << dip_deg;
+        EXPECT_NEAR(place.sine_of_dip, -from_centre.y() / radius, 0.05);
+        EXPECT_LT(place.height, before);
+        EXPECT_NEAR(before - place.height, 1.0, 0.12);
+        before = place.height;
+      }
+      // It ends where a sole's edge begins, by its height or by how it leans.
+      const double leaning = centre.y() - 0.45 * radius;
+      EXPECT_NEAR(before, std::max(leaning, WallSettings{}.usual_edge_mm), 1.0);
+      const double back = 2.0 * centre.y() - height;  // where it is below its end again
+      if (back < before) continue;
+      EXPECT_NEAR(foot.skin_height(0.0), back, 0.2) << height << " " << dip_deg;
+    }
+  }
+}
+
+TEST(WallFoot, BulgesByTwoMillimetresAtTheMost) {
+  double most = 0.0;
+  for (const auto& place : wall(30.0, -40.0, 0.005).hidden_wall(1.0)) {
+    most = std::max(most, -place.inward);
+  }
+  EXPECT_NEAR(most, 2.0, 1e-9);
+}
+
+TEST(WallFoot, HasNoHiddenWallBelowAnEndThatWasSeenSoFar) {
+  EXPECT_TRUE(wall(7.0, 0.0, 0.03).hidden_wall(1.0).empty());
+  EXPECT_TRUE(wall(20.0, 30.0, 0.03).hidden_wall(1.0).empty());
+}
+
 /// A round wall of 50 mm radius whose bottom edge is rounded, seen down to 45 degrees.
 PointCloud rounded_wall(double rounding) {
   PointCloud cloud;

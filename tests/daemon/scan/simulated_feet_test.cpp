@@ -293,6 +293,35 @@ TEST(SimulatedPair, IsPutSideBySideAndLedByTheLongerFoot) {
   }
 }
 
+/// No camera sees the lower part of the inner walls, nor anything of them behind the arch; what is
+/// told of these all the same has to be right.
+TEST(SimulatedPair, HasItsBallGirthsThoughTheInnerWallsAreHidden) {
+  SimulationSettings settings;
+  settings.subject = Subject::kFeet;
+  for (const std::uint64_t seed : {3U, 6U}) {
+    settings.seed = seed;
+    auto scan = scan_of(settings);
+    ASSERT_TRUE(scan);
+    const auto records = measure_capture(scan->capture, {}, {});
+    ASSERT_TRUE(records) << records.error().line();
+    ASSERT_EQ(records->size(), 2U);
+    for (std::size_t foot = 0; foot < 2; ++foot) {
+      const auto& measures = (*records)[foot].measures;
+      const Measure* girth = measures.find("ball_girth");
+      ASSERT_NE(girth, nullptr);
+      const double error = girth->value_mm - scan->truth[foot].measures.at("ball_girth");
+      EXPECT_LT(std::abs(error), 2.0) << seed << " " << foot;
+      EXPECT_LT(std::abs(error), *girth->u95_mm) << seed << " " << foot;
+      EXPECT_TRUE(is_said("the wall of the foot was not seen", girth->warnings));
+      for (const char* id : {"toe1_angle", "ankle_girth", "heel_breadth"}) {
+        const Measure* measure = measures.find(id);
+        if (measure == nullptr || !measure->u95()) continue;
+        EXPECT_NEAR(measure->value(), scan->truth[foot].measures.at(id), *measure->u95()) << id;
+      }
+    }
+  }
+}
+
 TEST(SimulatedPair, IsNoneForASingleFoot) {
   SimulationSettings settings;
   auto scan = scan_of(settings);
