@@ -24,6 +24,7 @@ constexpr double kDegreesAMillimetre = 0.1;
 struct Wishes {
   int feet = 16;
   int cameras = 4;
+  bool two_feet = false;
   bool bad_sensor = false;
 };
 
@@ -36,13 +37,14 @@ struct Fault {
 
 struct Scan {
   Capture capture;
-  std::map<std::string, double> truth;
+  std::vector<SubjectTruth> truth;  ///< of each foot
 };
 
 std::optional<Scan> scan_of(int seed, const Wishes& wishes) {
   SimulationSettings settings;
   settings.seed = static_cast<std::uint64_t>(seed);
   settings.side = seed % 2 == 0 ? Side::kLeft : Side::kRight;
+  if (wishes.two_feet) settings.subject = Subject::kFeet;
   settings.cameras = wishes.cameras;
   settings.width_px = 320;
   settings.height_px = 240;
@@ -50,11 +52,11 @@ std::optional<Scan> scan_of(int seed, const Wishes& wishes) {
   if (wishes.bad_sensor) settings.noise = NoiseLaw::kPessimistic;
   auto station = build_station(settings);
   if (!station) return std::nullopt;
-  const auto truth = station->truth();
+  auto truth = station->truth();
   if (!truth) return std::nullopt;
   auto capture = test::capture_of(*station);
   if (!capture) return std::nullopt;
-  return Scan{*std::move(capture), truth->front().measures};
+  return Scan{*std::move(capture), *std::move(truth)};
 }
 
 void spoil(const Fault& fault, int seed, Capture& capture) {
@@ -92,13 +94,19 @@ struct Tally {
   double squares = 0.0;  ///< of the errors of the ball girth
 
   void add(const Result<std::vector<ScanRecord>>& records, const Scan& scan) {
-    if (!records) {
+    if (!records || records->size() != scan.truth.size()) {
       ++refused;
       return;
     }
-    for (const auto& measure : records->front().measures.measures) {
-      const auto known = scan.truth.find(measure.id);
-      if (known == scan.truth.end() || !measure.u95()) continue;
+    for (std::size_t foot = 0; foot < records->size(); ++foot) {
+      add((*records)[foot].measures, scan.truth[foot].measures);
+    }
+  }
+
+  void add(const MeasureSet& set, const std::map<std::string, double>& truth) {
+    for (const auto& measure : set.measures) {
+      const auto known = truth.find(measure.id);
+      if (known == truth.end() || !measure.u95()) continue;
       const double error = measure.value() - known->second;
       ++measures;
       held += std::abs(error) <= *measure.u95() ? 1 : 0;
@@ -135,8 +143,9 @@ void report(const Fault& fault, const std::vector<Scan>& scans) {
 int main(int count, char** words) {
   CLI::App app("Measures of simulated feet by cameras that do not stand where they are said to");
   Wishes wishes;
-  app.add_option("--feet", wishes.feet, "How many feet")->capture_default_str();
+  app.add_option("--feet", wishes.feet, "How many feet, or people")->capture_default_str();
   app.add_option("--cameras", wishes.cameras, "How many cameras round them")->capture_default_str();
+  app.add_flag("--two-feet", wishes.two_feet, "Both feet of each person at once");
   app.add_flag("--bad-sensor", wishes.bad_sensor, "With 1.2 mm of noise in place of 0.4");
   CLI11_PARSE(app, count, words);
   std::vector<Scan> scans;
