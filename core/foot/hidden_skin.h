@@ -15,8 +15,7 @@ namespace instep {
 double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane);
 
 /// Where the wall was lost before it began to bend, as between two feet, nothing tells where it
-/// does: it may as well go down straight and bend at the floor only, and as a rule goes half the
-/// way.
+/// does: it may as well go down straight and bend at the floor only, or turn in at once.
 struct HiddenWall {
   double height_mm = 0.0;  ///< over the floor, of the highest that was lost so
   double doubt_mm = 0.0;   ///< 0 where the bend of all walls was seen

@@ -22,8 +22,9 @@ struct SoleClosure {
 
 /// Puts points (PointOrigin::kPlatform) below a foot where no camera saw it, so that a tape finds
 /// something there: on the standing plane where the sole is taken to rest on it, and between that
-/// contact and the lowest seen skin on the skin as WallFoot continues it. So no surface has to be
-/// made up across that gap; one that is bulges, and makes a tape too long.
+/// contact and the lowest seen skin on the skin as WallFoot continues it, walls that were lost high
+/// up, as between two feet, included. So no surface has to be made up across that gap; one that is
+/// bulges, and makes a tape too long.
 ///
 /// At each place the continuations of the walls it lies inward of are averaged, the straightest
 /// ahead most. The cloud is in the station frame and has normals. About 8 ms a foot.

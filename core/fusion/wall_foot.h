@@ -19,8 +19,10 @@ struct WallSettings {
 
 /// The lower end of a wall as it was seen.
 struct WallShape {
-  double height = 0.0;         ///< over the platform, mm
-  double sine_of_dip = 0.0;    ///< of the angle of the normal below the horizon; cut to 0..0.95
+  double height = 0.0;  ///< over the platform, mm
+  /// Of the angle of the normal below the horizon, cut to -0.95..0.95; below 0 where the wall was
+  /// lost above its widest place.
+  double sine_of_dip = 0.0;
   double bend = 0.0;           ///< curvature on the way down, 1/mm; 0 for a straight wall
   double most_inset_mm = 0.0;  ///< the contact lies no further inward; see WallFoot
 };
@@ -29,7 +31,8 @@ struct WallShape {
 /// platform: what a tape stretched over it would touch.
 ///
 /// In the upright plane square to the wall the skin begins with the height, the dip and the bend of
-/// the seen end. Two cases follow:
+/// the seen end; from an end above the widest place first outwards, by 2 mm at the most. Two cases
+/// follow:
 ///   rounded edge  It goes on in its own bend down to where soles usually begin to be round, or to
 ///                 where it leans in as a sole's edge does, and hangs free from there until it
 ///                 rests on the platform: free_skin(). An end below the usual edge that leans in
