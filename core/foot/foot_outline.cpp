@@ -36,17 +36,18 @@ FootOutline::FootOutline(const FootScan& foot)
                  foot.landmarks.at("pternion").position_mm.x()),
       points_(as_right_foot(foot)),
       seen_points_(those_seen(points_, foot.cloud)),
-      seen_skin_(foot.cloud),
+      seen_skin_(seen_points_.empty() ? std::nullopt : std::optional<SeenSkin>(foot.cloud)),
       medial_sign_(foot.medial_sign()),
       medial_(points_, from_above(1.0), kBorderSmoothingMm),
       lateral_(points_, from_above(-1.0), kBorderSmoothingMm) {}
 
 bool FootOutline::was_seen(const Eigen::Vector3d& place) const {
-  return seen_skin_.is_near({place.x(), medial_sign_ * place.y(), place.z()});
+  return !seen_skin_ || seen_skin_->is_near({place.x(), medial_sign_ * place.y(), place.z()});
 }
 
 double FootOutline::distance_to_seen(const Eigen::Vector3d& place) const {
-  const auto nearest = seen_skin_.nearest({place.x(), medial_sign_ * place.y(), place.z()});
+  if (!seen_skin_) return 0.0;
+  const auto nearest = seen_skin_->nearest({place.x(), medial_sign_ * place.y(), place.z()});
   return nearest ? nearest->distance_mm : std::numeric_limits<double>::infinity();
 }
 

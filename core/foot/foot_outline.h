@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/foot/foot_scan.h"
@@ -28,7 +29,8 @@ class FootOutline {
     return seen_points_.empty() ? points_ : seen_points_;
   }
 
-  /// Whether a place is on skin that was seen (SeenSkin::is_near()), and how far it is from that.
+  /// Whether a place is on skin that was seen (SeenSkin::is_near()), and how far it is from that:
+  /// in a cloud to which nothing was added, all places are.
   bool was_seen(const Eigen::Vector3d& place) const;
   double distance_to_seen(const Eigen::Vector3d& place) const;
 
@@ -41,7 +43,7 @@ class FootOutline {
   double length_mm_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3d> seen_points_;  ///< none where all were seen
-  SeenSkin seen_skin_;                        ///< of the foot as it is
+  std::optional<SeenSkin> seen_skin_;         ///< of the foot as it is; none where all were seen
   double medial_sign_;
   SkinBorder medial_;
   SkinBorder lateral_;

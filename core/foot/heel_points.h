@@ -7,7 +7,8 @@
 
 namespace instep {
 
-/// Right-foot form, as all here. Nothing where the cloud has no points there.
+/// Right-foot form, as all here. Nothing where the cloud has no points there; of the heel's sides
+/// neither where no camera saw their wall.
 
 /// Where along the axis the heel's breadth is taken. Nothing if no breadth is found at all.
 std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule);

@@ -19,8 +19,8 @@ constexpr double kSeenSoleHeightMm = 25.0;
 constexpr double kSeenSoleNormal = -0.8;  // z of the normal of a sole seen from below
 constexpr double kSidewaysMm = 4.0;       // standard deviation of the weight of walls to the side
 constexpr double kFarthestSidewaysMm = 12.0;
-constexpr double kBeyondContactMm = 6.0;        // how far a wall still says that there is contact
-constexpr double kOverhangMm = 30.0;  // how far the skin reaches out above the foot of a wall
+constexpr double kBeyondContactMm = 6.0;  // how far a wall still says that there is contact
+constexpr double kOverhangMm = 30.0;      // how far the skin reaches out above the foot of a wall
 
 /// The ground under the low part of the foot, its inside filled.
 Mask footprint(const GroundPlan& plan, const PointCloud& foot, double height,
@@ -121,7 +121,8 @@ PointCloud points_of(const GroundPlan& plan, const HeightMap& heights, double st
 }
 
 /// The hidden walls themselves, on which, steep as they are, a map of heights has hardly a point.
-PointCloud points_of(const std::vector<WallFoot>& walls, double standing_height_mm,
+PointCloud points_of(const std::vector<WallFoot>& walls, const GroundPlan& plan,
+                     const Mask& seen_sole, double standing_height_mm,
                      const SoleSettings& settings) {
   PointCloud skin;
   for (const auto& wall : walls) {
@@ -131,8 +132,9 @@ PointCloud points_of(const std::vector<WallFoot>& walls, double standing_height_
       for (const double side : {-1.0, 0.0, 1.0}) {
         const Vector2d ground =
             wall.place() - place.inward * wall.out() + side * settings.spacing_mm * along;
-        add_point(skin, {ground.x(), ground.y(), standing_height_mm + place.height},
-                  {level.x(), level.y(), -place.sine_of_dip}, settings.sigma_mm);
+        const Vector3d point(ground.x(), ground.y(), standing_height_mm + place.height);
+        if (seen_sole[plan.cell_of(point)]) continue;
+        add_point(skin, point, {level.x(), level.y(), -place.sine_of_dip}, settings.sigma_mm);
       }
     }
   }
@@ -161,7 +163,7 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
     }
   }
   const PointCloud sole = points_of(plan, heights, standing_height_mm, settings.sigma_mm);
-  const PointCloud hidden = points_of(walls, standing_height_mm, settings);
+  const PointCloud hidden = points_of(walls, plan, seen, standing_height_mm, settings);
   foot.append(sole);
   foot.append(hidden);
   closure.points_added = sole.size() + hidden.size();

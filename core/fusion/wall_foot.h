@@ -73,7 +73,7 @@ class WallFoot {
   };
 
   /// Places on the wall below its seen end, so far apart along it, down to where the skin hangs
-  /// free; none where it was seen so far.
+  /// free; none where it was seen so far, or turns over an arch.
   std::vector<Place> hidden_wall(double spacing) const;
 
  private:

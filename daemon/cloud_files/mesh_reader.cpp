@@ -2,6 +2,7 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <assimp/IOSystem.hpp>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <iterator>
 
 #include "core/geometry/mesh_sampling.h"
 #include "daemon/cloud_files/text_tokens.h"
@@ -112,11 +114,10 @@ class PlainObj {
     Eigen::Vector3d corner;
     text_ += "v";
     for (double& part : corner) {
-      const std::string_view word = take_word(words);
-      const auto number = number_in(word);
+      const auto number = number_in(take_word(words));
       if (!number) return false;
       part = *number;
-      text_.append(" ").append(word);
+      fmt::format_to(std::back_inserter(text_), " {}", part);
     }
     text_ += "\n";
     corners_.push_back(corner);
@@ -134,7 +135,7 @@ class PlainObj {
       const std::size_t most = *corner > 0.0 ? kMostFilePoints : corners_.size();
       if (std::abs(*corner) > static_cast<double>(most)) return false;
       last_of_faces_ = std::max(last_of_faces_, *corner);
-      text_.append(" ").append(std::to_string(std::lround(*corner)));
+      fmt::format_to(std::back_inserter(text_), " {}", std::lround(*corner));
     }
     text_ += "\n";
     has_faces_ = true;
@@ -158,13 +159,13 @@ constexpr const char* kNoCorner = "a face (f) of it names a point that is not th
 
 Result<PlainObj> plain_obj(std::string_view bytes, const std::string& file) {
   PlainObj obj;
-  std::string whole;  // a line that ends with a backslash goes on in the next
+  std::string whole;  // a line that ends with a backslash goes on in the next, but no comment does
   TextLines lines(bytes);
   while (const auto line = lines.next()) {
     whole += *line;
-    if (whole.ends_with('\\')) {
+    if (whole.ends_with('\\') && !whole.starts_with('#')) {
       whole.back() = ' ';
-      continue;
+      if (!lines.rest().empty()) continue;
     }
     std::string_view words = whole;
     const std::string_view kind = take_word(words);

@@ -108,6 +108,7 @@ TEST_P(CloseSoleOfRealFeet, LeavesTheirBallGirthsWithinTheirIntervalsWhereAWallW
     ASSERT_TRUE(set) << set.error().line();
     const Measure* girth = set->find("ball_girth");
     ASSERT_NE(girth, nullptr) << hidden_mm;
+    ASSERT_TRUE(girth->u95_mm) << hidden_mm;
     const double truth = whole.girth(girth->plane->transformed(open->foot_from_input.inverse()));
     EXPECT_NEAR(girth->value_mm, truth, *girth->u95_mm) << hidden_mm;
     EXPECT_LT(*girth->u95_mm, 0.5 * hidden_mm) << hidden_mm;

@@ -234,6 +234,9 @@ TEST_F(CloudFiles, TakesOfAnObjFileItsShapeAlone) {
     EXPECT_EQ(file->mesh.triangles.size(), 1U) << face;
     EXPECT_EQ(file->mesh.positions.size(), 3U) << face;
   }
+  const auto last = read("m.obj", "# C:\\scans\\\n" + corners + "f 1 2 3 \\");
+  ASSERT_TRUE(last) << last.error().line();
+  EXPECT_EQ(last->mesh.positions.size(), 3U);
   const auto before = read("m.obj", "f 1 2 3\n" + corners);
   ASSERT_TRUE(before) << before.error().line();
   EXPECT_EQ(before->mesh.triangles.size(), 1U);

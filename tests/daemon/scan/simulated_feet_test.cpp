@@ -309,6 +309,7 @@ TEST(SimulatedPair, HasItsBallGirthsThoughTheInnerWallsAreHidden) {
       const auto& measures = (*records)[foot].measures;
       const Measure* girth = measures.find("ball_girth");
       ASSERT_NE(girth, nullptr);
+      ASSERT_TRUE(girth->u95_mm);
       const double error = girth->value_mm - scan->truth[foot].measures.at("ball_girth");
       EXPECT_LT(std::abs(error), 2.0) << seed << " " << foot;
       EXPECT_LT(std::abs(error), *girth->u95_mm) << seed << " " << foot;
