@@ -71,6 +71,14 @@ std::optional<double> u95_of(const GirthDefinition& definition, const FootScan& 
   });
 }
 
+/// Where the points were asked how sure a measure is and could not say, it hangs on a few of them,
+/// as at the border of a hole.
+Result<void> check_known(const std::optional<double>& u95, const FootScan& foot) {
+  if (u95 || foot.redraws.landmarks.empty()) return {};
+  return fail(ErrorCode::kInsufficientData, "no part of the points finds its landmarks again",
+              "scan again, with the foot in full view of all cameras");
+}
+
 std::vector<std::string> doubts(const FootScan& foot, const std::vector<const char*>& landmarks) {
   std::vector<std::string> warnings;
   for (const char* name : landmarks) {
@@ -100,6 +108,7 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   Measure measure;
   measure.id = definition.id;
   auto u95 = u95_of(definition, foot);
+  if (auto known = check_known(u95, foot); !known) return tl::unexpected(known.error());
   if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
   if (u95) {
@@ -146,6 +155,7 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
   const auto by_landmarks = u95_of(definition, foot);
+  if (auto known = check_known(by_landmarks, foot); !known) return tl::unexpected(known.error());
   if (by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
     measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen),

@@ -9,9 +9,9 @@ namespace instep {
 /// as closed.
 bool is_sole_open(const FootScan& foot);
 
-/// Puts points on the floor under a foot whose sole is open (close_sole()), so that a tape finds
-/// something there, and says so in a warning. A foot stands with its weight on the floor, so that
-/// is where its sole is. About 40 ms for 20,000 points near the floor.
+/// Puts points under a foot whose sole is open, on the floor and up to its walls (close_sole()), so
+/// that a tape finds something there, and says so in a warning. A foot stands with its weight on
+/// the floor, so that is where its sole is. About 40 ms for 20,000 points near the floor.
 void close_open_sole(FootScan& foot);
 
 }  // namespace instep

@@ -18,7 +18,8 @@ namespace instep {
 /// a jackknife, whose variance of the whole is (k - 1)^2 / k times that between redraws (Efron,
 /// Tibshirani: An introduction to the bootstrap, 1993, section 11.5).
 ///
-/// A part that does not show the foot's axis gives no landmarks.
+/// A part that does not show the foot's axis gives no landmarks. Upright skin that was put where
+/// nobody saw a wall (close_sole()) is in no part.
 ///
 /// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
 /// meant, does not show. `foot` has its landmarks. One to four times the cost of landmarks; six

@@ -10,8 +10,8 @@ namespace instep {
 
 /// Reads the bytes of an OBJ or STL file through assimp: corners (as float32) and triangles, all
 /// parts of the file together. Corners at the same place become one, so that a surface hangs
-/// together. Fails with kCorruptData where a corner or a face of an OBJ file is
-/// none, or assimp makes nothing of it.
+/// together. Of an OBJ file only corners and faces are read. Fails with kCorruptData where one of
+/// these is none, or assimp makes nothing of it.
 Result<RawCloud> read_obj(std::string_view bytes, const std::string& file);
 Result<RawCloud> read_stl(std::string_view bytes, const std::string& file);
 
