@@ -11,22 +11,37 @@ namespace instep {
 namespace {
 
 using Eigen::Vector3d;
-using Terms = Eigen::Matrix<double, 6, 1>;
+constexpr int kOfSecondOrder = 6;
+constexpr int kOfThirdOrder = 10;
+template <int kTerms>
+using TermsOf = Eigen::Matrix<double, kTerms, 1>;
+using Terms = TermsOf<kOfSecondOrder>;
+using ThirdTerms = TermsOf<kOfThirdOrder>;
 
 constexpr int kMostRounds = 12;
 constexpr double kStandsStillMm = 0.01;
 constexpr double kDeepestMm = 8.0;  ///< under the start: beyond is another face
 constexpr std::size_t kFewestPoints = 12;
 constexpr std::size_t kFewestOnASide = 4;
-constexpr double kLeastLimitMm = 1.5;
+/// Points have less say the further they are off a first fit, and none so far off or further.
+constexpr double kStrayInThreeSigmas = 1.5;
+constexpr double kLeastLimitMm = 2.25;
+/// So much longer than the patch is that which tells the third order, by so many points at least,
+/// and so many beyond the patch on either side.
+constexpr double kLonger = 1.8;
+constexpr std::size_t kFewestForThird = 40;
+constexpr std::size_t kFewestBeyond = 8;
 
 /// A point as seen from a patch's middle: along, across, outwards.
 using Local = Vector3d;
 
-Terms terms(const Local& at) {
+/// Those of the second order, and those of the third.
+ThirdTerms terms(const Local& at) {
   const double x = at.x();
   const double y = at.y();
-  return (Terms() << 1.0, x, y, x * x, x * y, y * y).finished();
+  return (ThirdTerms() << 1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y,
+          y * y * y)
+      .finished();
 }
 
 /// Falls from 1 in the middle to 0 at a half-width off it, and smoothly there: a point that comes
@@ -36,46 +51,90 @@ double weight_at(double off, double half_width) {
   return std::pow(1.0 - share * share, 2);
 }
 
-/// Least squares by weight_at() both along and across.
-std::optional<Terms> fitted(const std::vector<Local>& points, const CrestPatch& patch) {
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Terms right = Terms::Zero();
-  for (const auto& point : points) {
-    const Terms row = terms(point);
-    const double weight =
-        weight_at(point.x(), patch.along_mm) * weight_at(point.y(), patch.across_mm);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+/// Least squares by weight_at() both along and across, and by how far each point is `off` a first
+/// fit, against `limit`; by none of it where `off` is empty.
+template <int kTerms>
+std::optional<TermsOf<kTerms>> fitted(const std::vector<Local>& points, const CrestPatch& patch,
+                                      const std::vector<double>& off = {}, double limit = 1.0) {
+  using Square = Eigen::Matrix<double, kTerms, kTerms>;
+  // By half-widths: all powers of them weigh alike.
+  const TermsOf<kTerms> unit = terms({patch.along_mm, patch.across_mm, 0.0}).head<kTerms>();
+  Square normal = Square::Zero();
+  TermsOf<kTerms> right = TermsOf<kTerms>::Zero();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Local& point = points[i];
+    if (!off.empty() && off[i] >= limit) continue;
+    const TermsOf<kTerms> row = terms(point).head<kTerms>().cwiseQuotient(unit);
+    const double weight = weight_at(point.x(), patch.along_mm) *
+                          weight_at(point.y(), patch.across_mm) *
+                          (off.empty() ? 1.0 : weight_at(off[i], limit));
+    normal.template selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     right += weight * point.z() * row;
   }
-  normal = normal.selfadjointView<Eigen::Lower>();
-  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal);
+  normal = normal.template selfadjointView<Eigen::Lower>();
+  const Eigen::LDLT<Square> solver(normal);
   const auto sizes = solver.vectorD().cwiseAbs();
-  if (!(sizes.minCoeff() > 1e-14 * sizes.maxCoeff())) return std::nullopt;
-  const Terms solution = solver.solve(right);
+  if (!(sizes.minCoeff() > 1e-10 * sizes.maxCoeff())) return std::nullopt;
+  const TermsOf<kTerms> solution = solver.solve(right).cwiseQuotient(unit);
   return solution.allFinite() ? std::optional(solution) : std::nullopt;
 }
 
-bool are_enough(const std::vector<Local>& points) {
-  const auto behind = std::count_if(points.begin(), points.end(),
-                                    [](const Local& point) { return point.x() < 0.0; });
-  const auto of_them = static_cast<std::size_t>(behind);
-  return points.size() >= kFewestPoints && of_them >= kFewestOnASide &&
-         points.size() - of_them >= kFewestOnASide;
+/// Fitted again without strays; nothing where `are_enough` says so of either.
+template <int kTerms, typename AreEnough>
+std::optional<TermsOf<kTerms>> fitted_without_strays(const std::vector<Local>& points,
+                                                     const CrestPatch& patch,
+                                                     const AreEnough& are_enough) {
+  if (!are_enough(points)) return std::nullopt;
+  const auto first = fitted<kTerms>(points, patch);
+  if (!first) return std::nullopt;
+  std::vector<double> off;
+  off.reserve(points.size());
+  for (const auto& point : points) {
+    off.push_back(std::abs(point.z() - first->dot(terms(point).head<kTerms>())));
+  }
+  const double limit =
+      std::max(kStrayInThreeSigmas * kThreeSigmasInMedians * median(off), kLeastLimitMm);
+  return fitted<kTerms>(points, patch, off, limit);
 }
 
-std::optional<Terms> skin_of(std::vector<Local> points, const CrestPatch& patch) {
-  if (!are_enough(points)) return std::nullopt;
-  const auto first = fitted(points, patch);
-  if (!first) return std::nullopt;
-  const auto off = [&](const Local& point) {
-    return std::abs(point.z() - first->dot(terms(point)));
-  };
-  std::vector<double> sizes;
-  sizes.reserve(points.size());
-  for (const auto& point : points) sizes.push_back(off(point));
-  const double limit = std::max(kThreeSigmasInMedians * median(std::move(sizes)), kLeastLimitMm);
-  std::erase_if(points, [&](const Local& point) { return off(point) > limit; });
-  return are_enough(points) ? fitted(points, patch) : std::nullopt;
+/// How many lie further along than `beyond_mm`, and behind as far.
+std::pair<std::size_t, std::size_t> on_both_sides(const std::vector<Local>& points,
+                                                  double beyond_mm) {
+  std::pair<std::size_t, std::size_t> sides{0, 0};
+  for (const auto& point : points) {
+    if (point.x() >= beyond_mm) ++sides.first;
+    if (point.x() < -beyond_mm) ++sides.second;
+  }
+  return sides;
+}
+
+/// The skin in third order, by points of a longer patch; none where too few lie on either end of
+/// it.
+ThirdTerms third_order_of(const std::vector<Local>& points, const CrestPatch& patch) {
+  const CrestPatch longer{kLonger * patch.along_mm, patch.across_mm};
+  const auto skin =
+      fitted_without_strays<kOfThirdOrder>(points, longer, [&](const std::vector<Local>& some) {
+        const auto [ahead, behind] = on_both_sides(some, patch.along_mm);
+        return some.size() >= kFewestForThird && std::min(ahead, behind) >= kFewestBeyond;
+      });
+  ThirdTerms third = skin.value_or(ThirdTerms::Zero());
+  third.head<kOfSecondOrder>().setZero();
+  return third;
+}
+
+/// The skin of second order through the points of the patch, freed of what a longer one shows of
+/// the third: that would pull a crest aside.
+std::optional<Terms> skin_of(const std::vector<Local>& points, const CrestPatch& patch) {
+  const ThirdTerms third = third_order_of(points, patch);
+  std::vector<Local> close;
+  for (const auto& point : points) {
+    if (std::abs(point.x()) >= patch.along_mm) continue;
+    close.emplace_back(point.x(), point.y(), point.z() - third.dot(terms(point)));
+  }
+  return fitted_without_strays<kOfSecondOrder>(close, patch, [](const std::vector<Local>& some) {
+    const auto [ahead, behind] = on_both_sides(some, 0.0);
+    return some.size() >= kFewestPoints && std::min(ahead, behind) >= kFewestOnASide;
+  });
 }
 
 /// The crest of a skin over the line along: how far it reaches there, a parabola.
@@ -102,21 +161,21 @@ std::vector<Local> seen_near(const Local& origin, const std::vector<Vector3d>& p
   for (const auto& point : points) {
     const Local seen =
         Local(view.along.dot(point), view.across.dot(point), view.outwards.dot(point)) - origin;
-    const bool is_near = std::abs(seen.x()) < 2.0 * patch.along_mm &&
+    const bool is_near = std::abs(seen.x()) < (1.0 + kLonger) * patch.along_mm &&
                          std::abs(seen.y()) < 3.0 * patch.across_mm && seen.z() > -kDeepestMm;
     if (is_near) near.push_back(seen);
   }
   return near;
 }
 
-/// Those of them that lie close to a place, as seen from it.
+/// Those of them that lie in the longer patch at a place, as seen from it.
 std::vector<Local> patch_at(const SkinBorder::Place& place, const std::vector<Local>& points,
                             const CrestPatch& patch) {
   std::vector<Local> close;
   for (const auto& point : points) {
     const Local seen = point - Local(place.along, place.across, 0.0);
     const bool is_close =
-        std::abs(seen.x()) < patch.along_mm && std::abs(seen.y()) < patch.across_mm;
+        std::abs(seen.x()) < kLonger * patch.along_mm && std::abs(seen.y()) < patch.across_mm;
     if (is_close) close.push_back(seen);
   }
   return close;

@@ -46,6 +46,19 @@ TEST(BorderCrest, IsWhereAParabolicWallReachesFurthest) {
   EXPECT_NEAR(crest->bend, -kBendAlong, 1e-6);
 }
 
+/// By 0.4 mm where a border that bends more and more is taken for one that bends evenly.
+TEST(BorderCrest, IsNotPulledAsideWhereTheBorderBendsMoreAndMore) {
+  constexpr double kMoreBend = 0.001;  // for each millimetre
+  for (const double sign : {1.0, -1.0}) {
+    auto points = wall(2000, 0.0, 3);
+    for (auto& point : points) point.y() += sign * kMoreBend * std::pow(point.x() - 100.0, 3) / 6.0;
+    const auto crest = crest_near(points, from_above(), start(), kPatch);
+    ASSERT_TRUE(crest) << sign;
+    EXPECT_NEAR(crest->along, 100.0, 0.02) << sign;
+    EXPECT_NEAR(crest->reach, 40.0, 1e-3) << sign;
+  }
+}
+
 /// Of two parabolas, the wall's and that of the usual place, each has its say by its bend.
 TEST(BorderCrest, IsDrawnToItsUsualPlace) {
   const UsualPlace usual{112.0, 10.0};
