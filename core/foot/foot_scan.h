@@ -20,6 +20,9 @@ struct Landmark {
   std::string rule;                                       ///< how it was found, in a few words
   /// Within this of the true place with 95 % probability, as far as the points tell.
   std::optional<double> radius_mm = std::nullopt;
+  /// Where it lies instead, as seen from there, if what no point shows is one standard deviation
+  /// off; zero where the points show all.
+  Eigen::Vector3d one_deviation_off_mm = Eigen::Vector3d::Zero();
 
   /// The points hardly tell where it is. Of `toe2_tip` FootScan::has_seen_toes() tells instead.
   bool is_placed_by_proportion() const { return confidence < 0.35; }

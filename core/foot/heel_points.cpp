@@ -128,15 +128,22 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
                                  : seen_from_side(place, instep.position_mm);
   });
   if (!point || is_under_floor(*point)) return std::nullopt;
-  constexpr ReachPatch kWide{10.0, 16.0};
+  Landmark found{*point, 0.8, "point of the heel's side view furthest from the instep point"};
+  const auto is_in_range = [&](const Vector3d& place) {
+    return std::abs(along.dot(place) - middle) <= range && !is_under_floor(place);
+  };
   const Vector3d& origin = instep.position_mm;
-  const auto refined = stance == HeelStance::kOnFloor
-                           ? furthest_of_standing_heel(outline.seen_points(), length, origin)
-                           : furthest_reach(outline.points(), origin, *point, kWide);
-  const bool is_in_range =
-      refined && std::abs(along.dot(*refined) - middle) <= range && !is_under_floor(*refined);
-  return Landmark{is_in_range ? *refined : *point, 0.8,
-                  "point of the heel's side view furthest from the instep point"};
+  if (stance == HeelStance::kOnFloor) {
+    const auto fitted = furthest_of_standing_heel(outline.seen_points(), length, origin);
+    if (!fitted || !is_in_range(fitted->place)) return found;
+    found.position_mm = fitted->place;
+    found.one_deviation_off_mm = fitted->one_deviation_off;
+    return found;
+  }
+  constexpr ReachPatch kWide{10.0, 16.0};
+  const auto refined = furthest_reach(outline.points(), origin, *point, kWide);
+  if (refined && is_in_range(*refined)) found.position_mm = *refined;
+  return found;
 }
 
 std::optional<Landmark> find_junction(const FootOutline& outline, const Landmark& heel) {

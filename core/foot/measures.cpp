@@ -17,6 +17,7 @@
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
 #include "core/geometry/seen_skin.h"
+#include "core/girth/length_doubt.h"
 #include "core/in_millimetres.h"
 
 namespace instep {
@@ -69,6 +70,24 @@ std::optional<double> u95_of(const GirthDefinition& definition, const FootScan& 
     if (!tape) return std::nullopt;
     return rough_tape(foot.cloud.positions, tape->transformed(redrawn.foot_from_redrawn));
   });
+}
+
+/// How far a girth moves where its landmarks lie elsewhere by what no point shows, and so no
+/// redraw.
+double u95_of_unseen(const GirthDefinition& definition, const TapePlane& tape,
+                     const FootScan& foot) {
+  double squares = 0.0;
+  for (const char* name : definition.landmarks) {
+    Landmarks moved = foot.landmarks;
+    auto& landmark = moved.at(name);
+    if (landmark.one_deviation_off_mm.isZero()) continue;
+    landmark.position_mm += landmark.one_deviation_off_mm;
+    const auto other = definition.tape(moved);
+    const auto there = other ? rough_tape(foot.cloud.positions, *other) : std::nullopt;
+    const auto here = rough_tape(foot.cloud.positions, tape);
+    if (here && there) squares += std::pow(*there - *here, 2);
+  }
+  return kDeviations * std::sqrt(squares);
 }
 
 /// Where the points were asked how sure a measure is and could not say, it hangs on a few of them,
@@ -159,7 +178,8 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   if (by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
     measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen),
-                               std::hypot(*by_landmarks, definition.own_doubt_mm)};
+                               std::hypot(*by_landmarks, definition.own_doubt_mm,
+                                          u95_of_unseen(definition, *plane, foot))};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   measure.plane = *plane;

@@ -8,6 +8,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/fusion/wall_foot.h"
+#include "core/girth/length_doubt.h"
 
 namespace instep {
 namespace {
@@ -146,7 +147,8 @@ void set_radii(FootScan& foot) {
       squared += std::pow(own.value_or(0.0), 2);
     }
     if (is_known) {
-      landmark.radius_mm = std::hypot(kSharedDoubt * std::sqrt(squared), own_doubt_mm(name));
+      landmark.radius_mm = std::hypot(kSharedDoubt * std::sqrt(squared), own_doubt_mm(name),
+                                      kDeviations * landmark.one_deviation_off_mm.norm());
     }
   }
 }

@@ -113,7 +113,8 @@ Misses misses_of(const TurnedHeel& heel, const Finder& found) {
 }
 
 std::optional<Vector3d> by_standing_heel(const std::vector<Vector3d>& points) {
-  return furthest_of_standing_heel(points, kLength, kInstep);
+  const auto found = furthest_of_standing_heel(points, kLength, kInstep);
+  return found ? std::optional(found->place) : std::nullopt;
 }
 
 /// The edge begins at various heights, and the wall leans in by more or less there.
@@ -153,6 +154,18 @@ TEST(StandingHeel, IsToldWithoutItsSole) {
     const auto misses = misses_of(heel, by_standing_heel);
     EXPECT_LT(misses.root_mean_square, 1.0) << heel.edge << ", " << heel.wall;
   }
+}
+
+TEST(StandingHeel, TellsWhatAnEdgeThatWasNotSeenLeavesOpen) {
+  TurnedHeel heel = heels().front();
+  heel.noise = 0.1;
+  const auto seen = furthest_of_standing_heel(heel.points(1), kLength, kInstep);
+  heel.deepest_normal = -0.2;
+  const auto unseen = furthest_of_standing_heel(heel.points(1), kLength, kInstep);
+  ASSERT_TRUE(seen && unseen);
+  EXPECT_LT(seen->one_deviation_off.norm(), 0.1);
+  EXPECT_GT(unseen->one_deviation_off.norm(), 0.5);
+  EXPECT_LT(unseen->one_deviation_off.norm(), 2.0);
 }
 
 TEST(StandingHeel, DoesNotMindStrays) {
