@@ -79,7 +79,8 @@ std::optional<TermsOf<kTerms>> fitted(const std::vector<Local>& points, const Cr
   return solution.allFinite() ? std::optional(solution) : std::nullopt;
 }
 
-/// Fitted again without strays; nothing where `are_enough` says so of either.
+/// Fitted again with less say of what is off, and none of strays; nothing where `are_enough` denies
+/// it of all points or of the rest.
 template <int kTerms, typename AreEnough>
 std::optional<TermsOf<kTerms>> fitted_without_strays(const std::vector<Local>& points,
                                                      const CrestPatch& patch,
@@ -94,6 +95,11 @@ std::optional<TermsOf<kTerms>> fitted_without_strays(const std::vector<Local>& p
   }
   const double limit =
       std::max(kStrayInThreeSigmas * kThreeSigmasInMedians * median(off), kLeastLimitMm);
+  std::vector<Local> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (off[i] < limit) kept.push_back(points[i]);
+  }
+  if (!are_enough(kept)) return std::nullopt;
   return fitted<kTerms>(points, patch, off, limit);
 }
 

@@ -18,10 +18,12 @@ struct Landmark {
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< foot frame
   double confidence = 0.0;                                ///< 0 to 1; by proportion under 0.35
   std::string rule;                                       ///< how it was found, in a few words
-  /// Within this of the true place with 95 % probability, as far as the points tell.
+  /// Within this of the true place with 95 % probability, as far as the points and
+  /// `one_deviation_off_mm` tell.
   std::optional<double> radius_mm = std::nullopt;
-  /// Where it lies instead, as seen from there, if what no point shows is one standard deviation
-  /// off; zero where the points show all.
+  /// Where it lies instead, as seen from there, if something that redraws share, and so do not
+  /// show, is one standard deviation off: of `heel_point` the edge of a standing foot's sole. Zero
+  /// of all others.
   Eigen::Vector3d one_deviation_off_mm = Eigen::Vector3d::Zero();
 
   /// The points hardly tell where it is. Of `toe2_tip` FootScan::has_seen_toes() tells instead.

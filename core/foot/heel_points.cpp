@@ -25,7 +25,9 @@ constexpr double kHeelRangeShare = 0.1;       ///< to either side of the line th
 constexpr double kMostUnderFloorMm = 2.0;     ///< where the border's own end runs away
 constexpr double kLowestOfHeelMm = 6.0;       ///< below it no wall of a heel reaches furthest
 constexpr double kFarthestFromSeenMm = 15.0;  ///< a wall that is guessed
-constexpr double kJunctionSlope = 0.62;       ///< radians: from the heel up to the junction
+/// Of a place that no fit tells: what it is where no point shows the edge.
+const Vector3d kUsuallyOff(-0.4, 0.0, 1.0);
+constexpr double kJunctionSlope = 0.62;  ///< radians: from the heel up to the junction
 constexpr double kLeastRise = 0.40;
 constexpr double kMostRise = 0.85;
 
@@ -135,9 +137,9 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
   const Vector3d& origin = instep.position_mm;
   if (stance == HeelStance::kOnFloor) {
     const auto fitted = furthest_of_standing_heel(outline.seen_points(), length, origin);
-    if (!fitted || !is_in_range(fitted->place)) return found;
-    found.position_mm = fitted->place;
-    found.one_deviation_off_mm = fitted->one_deviation_off;
+    const bool is_fitted = fitted && is_in_range(fitted->place);
+    if (is_fitted) found.position_mm = fitted->place;
+    found.one_deviation_off_mm = is_fitted ? fitted->one_deviation_off_mm : kUsuallyOff;
     return found;
   }
   constexpr ReachPatch kWide{10.0, 16.0};

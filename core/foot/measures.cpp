@@ -72,20 +72,21 @@ std::optional<double> u95_of(const GirthDefinition& definition, const FootScan& 
   });
 }
 
-/// How far a girth moves where its landmarks lie elsewhere by what no point shows, and so no
-/// redraw.
-double u95_of_unseen(const GirthDefinition& definition, const TapePlane& tape,
-                     const FootScan& foot) {
+/// How far a girth moves where its landmarks lie elsewhere by what redraws share; nothing where no
+/// tape tells.
+std::optional<double> u95_of_shared(const GirthDefinition& definition, const TapePlane& tape,
+                                    const FootScan& foot) {
   double squares = 0.0;
   for (const char* name : definition.landmarks) {
+    const auto found = foot.landmarks.find(name);
+    if (found == foot.landmarks.end() || found->second.one_deviation_off_mm.isZero()) continue;
     Landmarks moved = foot.landmarks;
-    auto& landmark = moved.at(name);
-    if (landmark.one_deviation_off_mm.isZero()) continue;
-    landmark.position_mm += landmark.one_deviation_off_mm;
+    moved[name].position_mm += found->second.one_deviation_off_mm;
     const auto other = definition.tape(moved);
     const auto there = other ? rough_tape(foot.cloud.positions, *other) : std::nullopt;
     const auto here = rough_tape(foot.cloud.positions, tape);
-    if (here && there) squares += std::pow(*there - *here, 2);
+    if (!here || !there) return std::nullopt;
+    squares += std::pow(*there - *here, 2);
   }
   return kDeviations * std::sqrt(squares);
 }
@@ -173,13 +174,15 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   const HiddenWall hidden = is_standing ? hidden_wall(about.seen, *plane, *girth) : HiddenWall{};
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
-  const auto by_landmarks = u95_of(definition, foot);
+  auto by_landmarks = u95_of(definition, foot);
+  const auto by_shared = u95_of_shared(definition, *plane, foot);
+  by_landmarks = by_landmarks && by_shared
+                     ? std::optional(std::hypot(*by_landmarks, *by_shared, definition.own_doubt_mm))
+                     : std::nullopt;
   if (auto known = check_known(by_landmarks, foot); !known) return tl::unexpected(known.error());
   if (by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
-    measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen),
-                               std::hypot(*by_landmarks, definition.own_doubt_mm,
-                                          u95_of_unseen(definition, *plane, foot))};
+    measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen), *by_landmarks};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   measure.plane = *plane;

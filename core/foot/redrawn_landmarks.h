@@ -22,8 +22,9 @@ namespace instep {
 /// nobody saw a wall (close_sole()) is in no part.
 ///
 /// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
-/// meant, does not show. `foot` has its landmarks. One to four times the cost of landmarks; six
-/// times where parts are left out.
+/// meant, does not show; of an edge that no point shows Landmark::one_deviation_off_mm tells.
+/// `foot` has its landmarks. One to four times the cost of landmarks; six times where parts are
+/// left out.
 Redraws redraw_landmarks(const FootScan& foot);
 
 /// Half-width of the 95 % interval of a value from what the redraws gave for it, in their order
@@ -36,7 +37,7 @@ std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& v
 /// drawn feet (tests/bench/feet) intervals so much wider hold about as often as they should.
 inline constexpr double kSharedDoubt = 1.6;
 
-/// The landmarks' 95 % radii, from FootScan::redraws.
+/// The landmarks' 95 % radii, from FootScan::redraws and Landmark::one_deviation_off_mm.
 void set_radii(FootScan& foot);
 
 }  // namespace instep

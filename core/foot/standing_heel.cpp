@@ -235,15 +235,15 @@ bool Heel::settles(const std::vector<WeighedPoint>& points) {
          settles(points, limit_of(points), EdgeHeight::kFitted);
 }
 
-/// Of what points and what is usual together leave open of it.
+/// Of what points and what is usual together leave open of it. All else goes along as it is bound
+/// to it, to first order.
 std::optional<Heel> Heel::with_edge_one_deviation_higher(
     const std::vector<WeighedPoint>& points) const {
   const auto all = equations(points, limit_of(points));
-  const auto edge_of_inverse = all ? solved(all->normal, Unknowns::Unit(kEdge)) : std::nullopt;
-  if (!edge_of_inverse) return std::nullopt;
+  const auto bound = all ? solved(all->normal, Unknowns::Unit(kEdge)) : std::nullopt;
+  if (!bound || !((*bound)(kEdge) > 0.0)) return std::nullopt;
   Heel higher = *this;
-  higher.unknowns_(kEdge) += all->sigma_mm * std::sqrt((*edge_of_inverse)(kEdge));
-  if (!higher.settles(points, limit_of(points), EdgeHeight::kKept)) return std::nullopt;
+  higher.unknowns_ += all->sigma_mm / std::sqrt((*bound)(kEdge)) * *bound;
   return higher;
 }
 
@@ -289,10 +289,10 @@ std::optional<StandingHeelPoint> furthest_of_standing_heel(const std::vector<Vec
   const auto own = heel.points_of(points);
   if (own.size() < kFewestPoints || !heel.settles(own)) return std::nullopt;
   const auto furthest = heel.furthest_from(place);
-  if (!furthest) return std::nullopt;
   const auto higher = heel.with_edge_one_deviation_higher(own);
   const auto elsewhere = higher ? higher->furthest_from(place) : std::nullopt;
-  return StandingHeelPoint{*furthest, elsewhere.value_or(*furthest) - *furthest};
+  if (!furthest || !elsewhere) return std::nullopt;
+  return StandingHeelPoint{*furthest, *elsewhere - *furthest};
 }
 
 }  // namespace instep

@@ -11,7 +11,7 @@ struct StandingHeelPoint {
   /// Where it lies instead, as seen from there, if the edge is one standard deviation higher: of
   /// what the points and what is usual leave open. About a millimetre up the wall where no point
   /// shows the edge.
-  Eigen::Vector3d one_deviation_off = Eigen::Vector3d::Zero();
+  Eigen::Vector3d one_deviation_off_mm = Eigen::Vector3d::Zero();
 };
 
 /// Where the side view of a heel that stands on the floor is furthest from a place over and before
@@ -28,8 +28,9 @@ struct StandingHeelPoint {
 ///
 /// `points`: those seen, foot frame (core/foot/foot_scan.h: pternion over the origin, floor at z =
 /// 0), of the heel or of all the foot. `foot_length_mm` > 0. Nothing where they show no such heel,
-/// or too little of it to tell its wall, or where the place would be at the floor or too high for
-/// the wall to tell. O(n): some five milliseconds for each thousand points of the heel.
+/// or too little of it to tell its wall and how sure the place is, or where the place would be at
+/// the floor or too high for the wall to tell. O(n): some five milliseconds for each thousand
+/// points of the heel.
 std::optional<StandingHeelPoint> furthest_of_standing_heel(
     const std::vector<Eigen::Vector3d>& points, double foot_length_mm,
     const Eigen::Vector3d& place);

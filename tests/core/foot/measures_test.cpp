@@ -154,6 +154,31 @@ TEST(Measures, WarnOfEachDoubtfulLandmarkThatTheirTapeHangsOn) {
   EXPECT_GT(warned, 8);
 }
 
+TEST(Measures, KnowWhatMovesAllRedrawsOfALandmark) {
+  auto foot = prepared(FootBody{}.points());
+  auto& heel = foot.landmarks.at("heel_point");
+  heel.one_deviation_off_mm.setZero();
+  const auto sure = measure_foot(foot).value();
+  heel.one_deviation_off_mm = Vector3d(-1.0, 0.0, 2.5);
+  const auto unsure = measure_foot(foot).value();
+  auto moved = foot;
+  moved.landmarks.at("heel_point").position_mm += heel.one_deviation_off_mm;
+  const auto elsewhere = measure_foot(moved).value();
+  for (const auto& measure : sure.measures) {
+    const auto* now = unsure.find(measure.id);
+    ASSERT_NE(now, nullptr) << measure.id;
+    const bool hangs = measure.id == "short_heel_girth" || measure.id == "long_heel_girth";
+    ASSERT_TRUE(measure.parts && now->parts) << measure.id;
+    const double more =
+        std::sqrt(std::pow(now->parts->landmarks, 2) - std::pow(measure.parts->landmarks, 2));
+    const double moves = std::abs(elsewhere.find(measure.id)->value() - measure.value());
+    EXPECT_NEAR(more, hangs ? 1.96 * moves : 0.0, 0.4) << measure.id;
+    if (hangs) {
+      EXPECT_GT(more, 0.8) << measure.id;
+    }
+  }
+}
+
 // Measured: at most 0.09 mm, of the long heel girth, whose interval is +- 0.6: it crosses the kink
 // of the body's walls, and patches start elsewhere in a mirror.
 TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {

@@ -163,9 +163,12 @@ TEST(StandingHeel, TellsWhatAnEdgeThatWasNotSeenLeavesOpen) {
   heel.deepest_normal = -0.2;
   const auto unseen = furthest_of_standing_heel(heel.points(1), kLength, kInstep);
   ASSERT_TRUE(seen && unseen);
-  EXPECT_LT(seen->one_deviation_off.norm(), 0.1);
-  EXPECT_GT(unseen->one_deviation_off.norm(), 0.5);
-  EXPECT_LT(unseen->one_deviation_off.norm(), 2.0);
+  EXPECT_LT(seen->one_deviation_off_mm.norm(), 0.1);
+  EXPECT_GT(unseen->one_deviation_off_mm.norm(), 0.5);
+  EXPECT_LT(unseen->one_deviation_off_mm.norm(), 2.0);
+  // Up the wall, which overhangs there.
+  EXPECT_GT(unseen->one_deviation_off_mm.z(), 0.0);
+  EXPECT_LT(unseen->one_deviation_off_mm.x(), 0.0);
 }
 
 TEST(StandingHeel, DoesNotMindStrays) {
