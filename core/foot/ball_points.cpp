@@ -22,7 +22,7 @@ constexpr double kSmoothingMm = 13.0;
 // The same for one surface fitted at once, which wanders less. The ball's girth moves by 0.8 mm for
 // a millimetre of the fibulare, and by 0.1 mm for one of the tibiale, whose head bends tighter.
 constexpr double kTibialePatchMm = 9.0;
-constexpr double kFibularePatchMm = 12.0;
+constexpr double kFibularePatchMm = 13.0;
 constexpr double kPatchAcrossMm = 10.0;
 constexpr double kPriorConfidence = 0.3;  ///< where the border has no say
 constexpr double kMostConfidence = 0.95;  ///< where it alone decides
