@@ -29,7 +29,7 @@ struct StandingHeelPoint {
 /// `points`: those seen, foot frame (core/foot/foot_scan.h: pternion over the origin, floor at z =
 /// 0), of the heel or of all the foot. `foot_length_mm` > 0. Nothing where they show no such heel,
 /// or too little of it to tell its wall and how sure the place is, or where the place would be at
-/// the floor or too high for the wall to tell. O(n): some five milliseconds for each thousand
+/// the floor or too high for the wall to tell. O(n): some four milliseconds for each thousand
 /// points of the heel.
 std::optional<StandingHeelPoint> furthest_of_standing_heel(
     const std::vector<Eigen::Vector3d>& points, double foot_length_mm,

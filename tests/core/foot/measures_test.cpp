@@ -211,8 +211,9 @@ TEST(Measures, WithholdAGirthThatCannotBeHad) {
   for (const auto& measure : set->measures) EXPECT_FALSE(measure.girth) << measure.id;
   for (const char* id : {"ball_girth", "waist_girth", "instep_girth", "long_heel_girth"}) {
     EXPECT_EQ(set->find(id), nullptr) << id;
-    const auto withheld = std::find_if(set->withheld.begin(), set->withheld.end(),
-                                       [&](const WithheldMeasure& one) { return one.id == id; });
+    const auto withheld =
+        std::find_if(set->withheld.begin(), set->withheld.end(),
+                     [name = id](const WithheldMeasure& one) { return one.id == name; });
     ASSERT_NE(withheld, set->withheld.end()) << id;
     EXPECT_NE(withheld->reason.find("the section is open"), std::string::npos) << id;
   }
@@ -279,8 +280,9 @@ TEST(Measures, WithholdEvenALengthOrAnAngleThatIsUseless) {
   EXPECT_NE(set->find("foot_breadth"), nullptr);
   for (const auto& [id, unit] : {std::pair("foot_length", " mm"), {"toe1_angle", " degrees"}}) {
     EXPECT_EQ(set->find(id), nullptr) << id;
-    const auto withheld = std::find_if(set->withheld.begin(), set->withheld.end(),
-                                       [&](const WithheldMeasure& one) { return one.id == id; });
+    const auto withheld =
+        std::find_if(set->withheld.begin(), set->withheld.end(),
+                     [name = id](const WithheldMeasure& one) { return one.id == name; });
     ASSERT_NE(withheld, set->withheld.end()) << id;
     EXPECT_NE(withheld->reason.find(unit), std::string::npos) << withheld->reason;
   }
