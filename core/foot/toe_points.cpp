@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/foot/border_crest.h"
+
 namespace instep {
 namespace {
 
@@ -12,7 +14,10 @@ using Eigen::Vector3d;
 constexpr double kFirstToeShare = 0.30;  ///< of the ball's breadth, from medial
 constexpr double kBehindTipMm = 15.0;
 constexpr double kToeSmoothingMm = 5.0;
-constexpr double kBearingStep = 0.005;
+constexpr double kBearingStepMm = 1.0;
+constexpr CrestPatch kLittleToePatch{7.0, 8.0};
+constexpr int kRulerRounds = 2;  ///< the crest turns the ruler a little
+constexpr double kConfidence = 0.7;
 
 double inner_limit(const Landmark& tibiale, const Landmark& fibulare) {
   const double inner = tibiale.position_mm.y();
@@ -30,22 +35,36 @@ std::vector<Vector3d> toes_of(const FootOutline& outline) {
 }
 
 /// The place of the border whose bearing from `ball` is most outwards. `sign` +1 medial.
-std::optional<Landmark> ruler_contact(const SkinBorder& border, const Vector3d& ball, double sign,
-                                      double from, double to, double length, const char* rule) {
+std::optional<Vector3d> ruler_contact(const SkinBorder& border, const Vector3d& ball, double sign,
+                                      double from, double to) {
   std::optional<Vector3d> contact;
   double most = 0.0;
-  for (double share = from; share <= to + 1e-9; share += kBearingStep) {
-    const auto place = border.at(share * length);
-    if (!place) continue;
-    const Vector3d point = border.position(*place);
+  for (double place = from; place <= to; place += kBearingStepMm) {
+    const auto reach = border.at(place);
+    if (!reach) continue;
+    const Vector3d point = border.position(*reach);
     if (point.x() <= ball.x() + 1.0) continue;
     const double bearing = sign * (point.y() - ball.y()) / (point.x() - ball.x());
     if (contact && bearing <= most) continue;
     contact = point;
     most = bearing;
   }
-  if (!contact) return std::nullopt;
-  return Landmark{*contact, 0.7, rule};
+  return contact;
+}
+
+/// Where the little toe near `contact` is furthest towards a ruler laid from `ball` to there.
+std::optional<Vector3d> crest_at_ruler(const FootOutline& outline, const Vector3d& ball,
+                                       const Vector3d& contact) {
+  const Vector3d up = Vector3d::UnitZ();
+  BorderView view;
+  view.along = Vector3d(contact.x() - ball.x(), contact.y() - ball.y(), 0.0).normalized();
+  view.outwards = view.along.cross(up);
+  view.across = up;
+  view.across_to_mm = kLandmarkOutlineHeightMm;
+  const SkinBorder::Place start{view.along.dot(contact), view.outwards.dot(contact), contact.z()};
+  const auto crest = crest_near(outline.points(), view, start, kLittleToePatch);
+  if (!crest) return std::nullopt;
+  return crest->along * view.along + crest->reach * view.outwards + crest->across * up;
 }
 
 }  // namespace
@@ -58,7 +77,7 @@ std::optional<Landmark> find_toe1_tip(const FootOutline& outline, const Landmark
       kToeSmoothingMm);
   const auto tip = front.furthest(inner_limit(tibiale, fibulare), tibiale.position_mm.y());
   if (!tip) return std::nullopt;
-  return Landmark{front.position(*tip), 0.7,
+  return Landmark{front.position(*tip), kConfidence,
                   "foremost point in the medial 0.30 of the ball's breadth"};
 }
 
@@ -70,20 +89,34 @@ std::optional<Landmark> find_toe1_top(const FootOutline& outline, const Landmark
                         kToeSmoothingMm);
   const auto top = back.at(tip.position_mm.x() - kBehindTipMm);
   if (!top) return std::nullopt;
-  return Landmark{back.position(*top), 0.7, "highest point 15 mm behind the first toe's tip"};
+  return Landmark{back.position(*top), kConfidence,
+                  "highest point 15 mm behind the first toe's tip"};
 }
 
 std::optional<Landmark> find_toe1_contact(const FootOutline& outline, const Landmark& tibiale) {
-  return ruler_contact(outline.medial(), tibiale.position_mm, 1.0, 0.80, 0.95, outline.length_mm(),
-                       "most medial bearing from metatarsale tibiale in 0.80-0.95 of the foot's "
-                       "length");
+  const double length = outline.length_mm();
+  const auto contact =
+      ruler_contact(outline.medial(), tibiale.position_mm, 1.0, 0.80 * length, 0.95 * length);
+  if (!contact) return std::nullopt;
+  return Landmark{*contact, kConfidence,
+                  "most medial bearing from metatarsale tibiale in 0.80-0.95 of the foot's length"};
 }
 
 std::optional<Landmark> find_toe5_contact(const FootOutline& outline, const Landmark& fibulare) {
-  return ruler_contact(outline.lateral(), fibulare.position_mm, -1.0, 0.70, 0.85,
-                       outline.length_mm(),
-                       "most lateral bearing from metatarsale fibulare in 0.70-0.85 of the foot's "
-                       "length");
+  const Vector3d& ball = fibulare.position_mm;
+  const double from = 0.70 * outline.length_mm();
+  const double to = 0.85 * outline.length_mm();
+  auto contact = ruler_contact(outline.lateral(), ball, -1.0, from, to);
+  if (!contact) return std::nullopt;
+  // The border is smoothed over the gap to the next toe, and so lies too far in before it.
+  for (int round = 0; round < kRulerRounds; ++round) {
+    const auto crest = crest_at_ruler(outline, ball, *contact);
+    if (!crest || crest->x() < from || crest->x() > to) break;
+    contact = crest;
+  }
+  return Landmark{*contact, kConfidence,
+                  "most lateral bearing from metatarsale fibulare in 0.70-0.85 of the foot's "
+                  "length"};
 }
 
 }  // namespace instep

@@ -4,41 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numbers>
 
-#include "tests/support/random_numbers.h"
+#include "tests/support/outline_of_borders.h"
 
 namespace instep {
 namespace {
 
-using Eigen::Vector3d;
+using test::Border;
+using test::outline_with;
 
 constexpr double kLength = 250.0;
 
-/// Walls round in height whose furthest places make a given border to either side of a foot: all
-/// that the points of the ball are told from.
-FootOutline outline_with(const std::function<double(double)>& medial,
-                         const std::function<double(double)>& lateral, double noise_mm,
-                         std::uint64_t seed, double length = kLength) {
-  test::RandomNumbers random(seed);
-  FootScan foot;
-  constexpr double kRoundMm = 12.0;
-  for (int i = 0; i < 20000; ++i) {
-    const double x = random.uniform(0.0, length);
-    const double angle = random.uniform(-0.5, 0.5) * std::numbers::pi;
-    const double in = kRoundMm * (1.0 - std::cos(angle)) - noise_mm * random.normal();
-    const bool is_medial = random.uniform() < 0.5;
-    foot.cloud.positions.emplace_back(x, is_medial ? medial(x) - in : in - lateral(x),
-                                      kRoundMm * (1.0 + std::sin(angle)));
-  }
-  foot.landmarks["pternion"].position_mm = Vector3d::Zero();
-  foot.landmarks["acropodion"].position_mm = Vector3d(length, 0.0, 10.0);
-  return FootOutline(foot);
-}
-
 /// A border that reaches furthest, by a parabola, at `place`.
-std::function<double(double)> bulging(double place, double bend) {
+Border bulging(double place, double bend) {
   return [=](double x) { return 45.0 - 0.5 * bend * std::pow(x - place, 2); };
 }
 
@@ -52,7 +30,7 @@ double weighed(double place, double bend, double usual) {
 TEST(BallPoints, StandWhereTheWeighedBorderReachesFurthest) {
   for (const double bend : {0.0, 0.003, 0.01, 0.03}) {
     SCOPED_TRACE(bend);
-    const auto outline = outline_with(bulging(178.0, bend), bulging(150.0, bend), 0.0, 1);
+    const auto outline = outline_with(bulging(178.0, bend), bulging(150.0, bend), kLength, 0.0, 1);
     const auto tibiale = find_metatarsale_tibiale(outline);
     ASSERT_TRUE(tibiale);
     const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
@@ -67,11 +45,11 @@ TEST(BallPoints, StandWhereTheWeighedBorderReachesFurthest) {
 
 TEST(BallPoints, SayWhereOnlyTheProportionPlacesThem) {
   const auto straight = [](double) { return 45.0; };
-  const auto flat = find_metatarsale_tibiale(outline_with(straight, straight, 0.0, 2));
+  const auto flat = find_metatarsale_tibiale(outline_with(straight, straight, kLength, 0.0, 2));
   ASSERT_TRUE(flat);
   EXPECT_TRUE(flat->is_placed_by_proportion());
   const auto round = bulging(170.0, 0.02);
-  const auto clear = find_metatarsale_tibiale(outline_with(round, round, 0.0, 2));
+  const auto clear = find_metatarsale_tibiale(outline_with(round, round, kLength, 0.0, 2));
   ASSERT_TRUE(clear);
   EXPECT_FALSE(clear->is_placed_by_proportion());
 }
@@ -79,7 +57,8 @@ TEST(BallPoints, SayWhereOnlyTheProportionPlacesThem) {
 TEST(BallPoints, DoNotJumpOnANearlyStraightBorder) {
   // The lateral border of some feet: hardly bent, and its furthest place near the end of the range.
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const auto outline = outline_with(bulging(172.0, 0.02), bulging(155.0, 0.004), 0.3, seed);
+    const auto outline =
+        outline_with(bulging(172.0, 0.02), bulging(155.0, 0.004), kLength, 0.3, seed);
     const auto tibiale = find_metatarsale_tibiale(outline);
     ASSERT_TRUE(tibiale);
     const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
@@ -95,7 +74,7 @@ TEST(BallPoints, OfASmallChildKeepTheirDistance) {
   const auto knuckle = [](double place) {
     return [=](double x) { return std::max(20.0, bulging(place, 0.3)(x)); };
   };
-  const auto outline = outline_with(knuckle(66.0), knuckle(65.0), 0.0, 7, kShort);
+  const auto outline = outline_with(knuckle(66.0), knuckle(65.0), kShort, 0.0, 7);
   const auto tibiale = find_metatarsale_tibiale(outline);
   ASSERT_TRUE(tibiale);
   ASSERT_LT(tibiale->position_mm.x(), 0.5 * kShort + 15.0);
