@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/foot/border_crest.h"
+#include "core/foot/hidden_crest.h"
 
 namespace instep {
 namespace {
@@ -27,11 +28,27 @@ constexpr double kPatchAcrossMm = 10.0;
 constexpr double kPriorConfidence = 0.3;  ///< where the border has no say
 constexpr double kMostConfidence = 0.95;  ///< where it alone decides
 
+// Where a wall was lost, as between two feet, what is put below the rim of what was seen reaches
+// less far the deeper it is.
+constexpr double kBelowRimMm = 6.0;
+constexpr double kUsualHalfShare = 0.085;  ///< of the foot's length, to either side
+
+/// A border round the usual place of a point of the ball, of a foot one unit long: the reach's
+/// first to third derivative by the place, and their spreads. Between those of drawn feet and of
+/// three real ones (tests/bench/feet); the spreads hold both.
+struct UsualShape {
+  Eigen::Vector3d derivatives;
+  Eigen::Vector3d spreads;
+};
+const UsualShape kUsuallyMedial{{0.07, -4.5, -85.0}, {0.08, 2.5, 25.0}};
+const UsualShape kUsuallyLateral{{-0.10, -4.0, 100.0}, {0.12, 2.0, 70.0}};
+
 struct Rule {
   double from;
   double to;
   double prior;
   double patch_mm;  ///< half-length of what is fitted at once
+  const UsualShape& shape;
   const char* name;
 };
 
@@ -48,6 +65,36 @@ std::optional<SkinBorder::Place> crest_in_range(const FootOutline& outline,
   return place;
 }
 
+/// The samples of a border that are on skin that was seen, or close under it.
+SkinBorder told_part(const FootOutline& outline, const SkinBorder& border) {
+  return border.where([&](const SkinBorder::Place& place) {
+    return outline.distance_to_seen(border.position(place)) <= kBelowRimMm;
+  });
+}
+
+UsualBorder usual_border(const Rule& rule, double length) {
+  const double spread = kPriorSpreadShare * length;
+  const Eigen::Vector3d scale(1.0, 1.0 / length, 1.0 / (length * length));
+  return {rule.prior, kUsualHalfShare * length, scale.cwiseProduct(rule.shape.derivatives),
+          scale.cwiseProduct(rule.shape.spreads), 2.0 * kPriorHandicapMm / (spread * spread)};
+}
+
+/// Where the border may be furthest in a stretch that was not seen.
+std::optional<Landmark> hidden_point(const FootOutline& outline, const SkinBorder& told,
+                                     const SkinBorder& border, const Rule& rule) {
+  const auto crest = hidden_crest(told, border, usual_border(rule, outline.length_mm()));
+  if (!crest || crest->place.along < rule.from || crest->place.along > rule.to) {
+    return std::nullopt;
+  }
+  const auto& view = border.view();
+  Landmark point{border.position(crest->place),
+                 kPriorConfidence + (kMostConfidence - kPriorConfidence) * crest->told_share,
+                 rule.name};
+  point.one_deviation_off_mm = crest->one_deviation_off_mm.x() * view.along +
+                               crest->one_deviation_off_mm.y() * view.outwards;
+  return point;
+}
+
 std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBorder& border,
                                         const Rule& rule) {
   const double spread = kPriorSpreadShare * outline.length_mm();
@@ -57,6 +104,13 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   const SkinBorder smooth = border.smoothed_over(kSmoothingMm);
   auto peak = smooth.furthest(rule.from, rule.to, handicap);
   if (!peak) return std::nullopt;
+  if (outline.has_unseen_points()) {
+    const SkinBorder told = told_part(outline, border);
+    const auto [first, last] = std::minmax(peak->along, rule.prior);
+    if (has_gap(told, first - rule.patch_mm, last + rule.patch_mm)) {
+      if (auto hidden = hidden_point(outline, told, border, rule)) return hidden;
+    }
+  }
   if (const auto crest = crest_in_range(outline, border, *peak, rule)) peak = crest;
   // What holds the place is how the border falls off to either side, and how the handicap does.
   const double by_shape = std::max(0.0, -peak->bend);
@@ -64,6 +118,28 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   const double share = by_shape / (by_shape + by_prior);
   return Landmark{border.position(*peak),
                   kPriorConfidence + (kMostConfidence - kPriorConfidence) * share, rule.name};
+}
+
+/// The highest point of the section over two points.
+std::optional<Eigen::Vector3d> top_over(const FootOutline& outline, const Eigen::Vector3d& medial,
+                                        const Eigen::Vector3d& lateral) {
+  constexpr double kSlabMm = 15.0;
+  constexpr double kSectionSmoothingMm = 9.0;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d across = medial - lateral;
+  across.z() = 0.0;
+  if (!(across.norm() > 1.0)) return std::nullopt;
+  across.normalize();
+  const Eigen::Vector3d along = across.cross(up);
+  const double place = along.dot(medial);
+  std::vector<Eigen::Vector3d> slab;
+  for (const auto& point : outline.points()) {
+    if (std::abs(along.dot(point) - place) < kSlabMm) slab.push_back(point);
+  }
+  const SkinBorder section(slab, {along, up, across, across.dot(lateral), across.dot(medial)},
+                           kSectionSmoothingMm);
+  const auto top = section.at(place);
+  return top ? std::optional(section.position(*top)) : std::nullopt;
 }
 
 std::optional<Landmark> broadest(const SkinBorder& border, double length) {
@@ -79,7 +155,7 @@ std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline) {
   const double length = outline.length_mm();
   return most_protruding(
       outline, outline.medial(),
-      {0.60 * length, 0.80 * length, 0.69 * length, kTibialePatchMm,
+      {0.60 * length, 0.80 * length, 0.69 * length, kTibialePatchMm, kUsuallyMedial,
        "most medial point of the outline in 0.60-0.80 of the foot's length, weighed by "
        "nearness to 0.69"});
 }
@@ -91,7 +167,7 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
   return most_protruding(
       outline, outline.lateral(),
       {std::min(0.50 * length, foremost), foremost, std::min(0.63 * length, foremost),
-       kFibularePatchMm,
+       kFibularePatchMm, kUsuallyLateral,
        "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
        "nearness to 0.63"});
 }
@@ -106,25 +182,19 @@ std::optional<Landmark> find_ball_lateral(const FootOutline& outline) {
 
 std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare) {
-  constexpr double kSlabMm = 15.0;
-  constexpr double kSectionSmoothingMm = 9.0;
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d across = tibiale.position_mm - fibulare.position_mm;
-  across.z() = 0.0;
-  if (!(across.norm() > 1.0)) return std::nullopt;
-  across.normalize();
-  const Eigen::Vector3d along = across.cross(up);
-  const double place = along.dot(tibiale.position_mm);
-  std::vector<Eigen::Vector3d> slab;
-  for (const auto& point : outline.points()) {
-    if (std::abs(along.dot(point) - place) < kSlabMm) slab.push_back(point);
-  }
-  const SkinBorder section(
-      slab, {along, up, across, across.dot(fibulare.position_mm), across.dot(tibiale.position_mm)},
-      kSectionSmoothingMm);
-  const auto top = section.at(place);
+  const auto top = top_over(outline, tibiale.position_mm, fibulare.position_mm);
   if (!top) return std::nullopt;
-  return Landmark{section.position(*top), 0.8, "highest point of the ball's section"};
+  Landmark found{*top, 0.8, "highest point of the ball's section"};
+  for (const Landmark* end : {&tibiale, &fibulare}) {
+    if (end->one_deviation_off_mm.isZero()) continue;
+    const Eigen::Vector3d moved = end->position_mm + end->one_deviation_off_mm;
+    const auto other = end == &tibiale ? top_over(outline, moved, fibulare.position_mm)
+                                       : top_over(outline, tibiale.position_mm, moved);
+    if (!other) continue;
+    double& rise = found.one_deviation_off_mm.z();
+    rise = std::hypot(rise, other->z() - top->z());
+  }
+  return found;
 }
 
 }  // namespace instep

@@ -22,8 +22,8 @@ struct Landmark {
   /// `one_deviation_off_mm` tell.
   std::optional<double> radius_mm = std::nullopt;
   /// Where it lies instead, as seen from there, if something that redraws share, and so do not
-  /// show, is one standard deviation off: of `heel_point` the edge of a standing foot's sole. Zero
-  /// of all others.
+  /// show, is one standard deviation off: of `heel_point` the edge of a standing foot's sole, of
+  /// the metatarsal points and `ball_top` a border that was not seen there. Zero of all others.
   Eigen::Vector3d one_deviation_off_mm = Eigen::Vector3d::Zero();
 
   /// The points hardly tell where it is. Of `toe2_tip` FootScan::has_seen_toes() tells instead.

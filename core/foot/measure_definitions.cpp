@@ -115,7 +115,7 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
        kFloorDoubtMm},
       {"ball_height",
        ball_height,
-       {"metatarsale_tibiale", "metatarsale_fibulare"},
+       {"metatarsale_tibiale", "metatarsale_fibulare", "ball_top"},
        "greatest height over the floor of the upright section over metatarsale tibiale and "
        "fibulare",
        LengthDefinition::Kind::kLength,

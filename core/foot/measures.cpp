@@ -72,23 +72,39 @@ std::optional<double> u95_of(const GirthDefinition& definition, const FootScan& 
   });
 }
 
-/// How far a girth moves where its landmarks lie elsewhere by what redraws share; nothing where no
-/// tape tells.
-std::optional<double> u95_of_shared(const GirthDefinition& definition, const TapePlane& tape,
-                                    const FootScan& foot) {
+/// How far a measure moves where its landmarks lie elsewhere by what redraws share; nothing where
+/// `taken` does not tell.
+template <typename Taker>
+std::optional<double> u95_of_shared(const std::vector<const char*>& names, const FootScan& foot,
+                                    const Taker& taken) {
   double squares = 0.0;
-  for (const char* name : definition.landmarks) {
+  for (const char* name : names) {
     const auto found = foot.landmarks.find(name);
     if (found == foot.landmarks.end() || found->second.one_deviation_off_mm.isZero()) continue;
     Landmarks moved = foot.landmarks;
     moved[name].position_mm += found->second.one_deviation_off_mm;
-    const auto other = definition.tape(moved);
-    const auto there = other ? rough_tape(foot.cloud.positions, *other) : std::nullopt;
-    const auto here = rough_tape(foot.cloud.positions, tape);
+    const std::optional<double> here = taken(foot.landmarks);
+    const std::optional<double> there = taken(moved);
     if (!here || !there) return std::nullopt;
     squares += std::pow(*there - *here, 2);
   }
   return kDeviations * std::sqrt(squares);
+}
+
+std::optional<double> u95_of_shared(const LengthDefinition& definition, const FootScan& foot) {
+  return u95_of_shared(definition.landmarks, foot,
+                       [&](const Landmarks& landmarks) -> std::optional<double> {
+                         const auto length = definition.length(landmarks);
+                         return length ? std::optional(*length) : std::nullopt;
+                       });
+}
+
+std::optional<double> u95_of_shared(const GirthDefinition& definition, const FootScan& foot) {
+  return u95_of_shared(definition.landmarks, foot,
+                       [&](const Landmarks& landmarks) -> std::optional<double> {
+                         const auto tape = definition.tape(landmarks);
+                         return tape ? rough_tape(foot.cloud.positions, *tape) : std::nullopt;
+                       });
 }
 
 /// Where the points were asked how sure a measure is and could not say, it hangs on a few of them,
@@ -128,6 +144,8 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   Measure measure;
   measure.id = definition.id;
   auto u95 = u95_of(definition, foot);
+  const auto by_shared = u95_of_shared(definition, foot);
+  u95 = u95 && by_shared ? std::optional(std::hypot(*u95, *by_shared)) : std::nullopt;
   if (auto known = check_known(u95, foot); !known) return tl::unexpected(known.error());
   if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
@@ -175,7 +193,7 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
   auto by_landmarks = u95_of(definition, foot);
-  const auto by_shared = u95_of_shared(definition, *plane, foot);
+  const auto by_shared = u95_of_shared(definition, foot);
   by_landmarks = by_landmarks && by_shared
                      ? std::optional(std::hypot(*by_landmarks, *by_shared, definition.own_doubt_mm))
                      : std::nullopt;

@@ -22,7 +22,8 @@ namespace instep {
 /// nobody saw a wall (close_sole()) is in no part.
 ///
 /// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
-/// meant, does not show; of an edge that no point shows Landmark::one_deviation_off_mm tells.
+/// meant, does not show; of an edge or a border that no point shows Landmark::one_deviation_off_mm
+/// tells.
 /// `foot` has its landmarks. One to four times the cost of landmarks; six times where parts are
 /// left out.
 Redraws redraw_landmarks(const FootScan& foot);

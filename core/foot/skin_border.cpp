@@ -209,6 +209,12 @@ SkinBorder SkinBorder::smoothed_over(double smoothing_mm) const {
   return other;
 }
 
+SkinBorder SkinBorder::where(const std::function<bool(const Place&)>& is_told) const {
+  SkinBorder other = *this;
+  std::erase_if(other.samples_, [&](const Place& sample) { return !is_told(sample); });
+  return other;
+}
+
 std::optional<double> SkinBorder::reach(double along) const {
   const auto place = at(along);
   return place ? std::optional(place->reach) : std::nullopt;

@@ -27,6 +27,13 @@ struct BorderView {
 /// the line by local quadratics.
 class SkinBorder {
  public:
+  struct Place {
+    double along = 0.0;
+    double reach = 0.0;   ///< outwards
+    double across = 0.0;  ///< where the reach is greatest
+    double bend = 0.0;    ///< second derivative of the reach, per mm; < 0 on a summit
+  };
+
   /// `smoothing_mm` is how far to either side of a place a sample has a say; where samples are
   /// missing, as over a hole, up to 2.5 times as far.
   SkinBorder(const std::vector<Eigen::Vector3d>& points, const BorderView& view,
@@ -35,14 +42,13 @@ class SkinBorder {
   /// The same border, smoothed over another length.
   SkinBorder smoothed_over(double smoothing_mm) const;
 
+  /// The same border without the samples that `is_told` denies.
+  SkinBorder where(const std::function<bool(const Place&)>& is_told) const;
+
   const BorderView& view() const { return view_; }
 
-  struct Place {
-    double along = 0.0;
-    double reach = 0.0;   ///< outwards
-    double across = 0.0;  ///< where the reach is greatest
-    double bend = 0.0;    ///< second derivative of the reach, per mm; < 0 on a summit
-  };
+  /// As fitted, before they are smoothed; by place.
+  const std::vector<Place>& samples() const { return samples_; }
 
   /// Smoothed; nothing where too few places near by have points.
   std::optional<Place> at(double along) const;

@@ -8,15 +8,22 @@
 namespace instep::test {
 
 FootOutline outline_with(const Border& medial, const Border& lateral, double length_mm,
-                         double noise_mm, std::uint64_t seed, std::size_t points) {
+                         double noise_mm, std::uint64_t seed, std::size_t points,
+                         const std::function<bool(double, bool)>& is_seen) {
   RandomNumbers random(seed);
   FootScan foot;
   constexpr double kRoundMm = 12.0;
+  constexpr double kGuessedTooFarInMm = 12.0;
   for (std::size_t i = 0; i < points; ++i) {
     const double x = random.uniform(0.0, length_mm);
     const double angle = random.uniform(-0.5, 0.5) * std::numbers::pi;
-    const double in = kRoundMm * (1.0 - std::cos(angle)) - noise_mm * random.normal();
+    double in = kRoundMm * (1.0 - std::cos(angle)) - noise_mm * random.normal();
     const bool is_medial = random.uniform() < 0.5;
+    if (is_seen) {
+      const bool was_seen = is_seen(x, is_medial);
+      if (!was_seen) in += kGuessedTooFarInMm;
+      foot.cloud.origins.push_back(was_seen ? PointOrigin::kSeen : PointOrigin::kPlatform);
+    }
     foot.cloud.positions.emplace_back(x, is_medial ? medial(x) - in : in - lateral(x),
                                       kRoundMm * (1.0 + std::sin(angle)));
   }

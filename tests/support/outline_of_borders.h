@@ -15,8 +15,9 @@ using Border = std::function<double(double)>;
 
 /// A foot that is nothing but walls round in height, whose furthest places make a given border to
 /// either side of it: all that the points of the ball and the sides of the toes are told from.
+/// `is_seen`, by x and whether medial: elsewhere the wall is put 12 mm too far in by a platform.
 FootOutline outline_with(const Border& medial, const Border& lateral, double length_mm,
-                         double noise_mm, std::uint64_t seed,
-                         std::size_t points = kPointsOfBorders);
+                         double noise_mm, std::uint64_t seed, std::size_t points = kPointsOfBorders,
+                         const std::function<bool(double, bool)>& is_seen = {});
 
 }  // namespace instep::test

@@ -83,5 +83,37 @@ TEST(BallPoints, OfASmallChildKeepTheirDistance) {
   EXPECT_NEAR(fibulare->position_mm.x(), tibiale->position_mm.x() - 15.0, 1e-6);
 }
 
+TEST(BallPoints, WhoseWallWasNotSeenAreNotAtTheEdgeOfWhatWas) {
+  // As between two feet: the medial wall is a guess behind the ball's furthest place.
+  const auto border = [](double x) {
+    const double off = x / kLength - 0.69;
+    return 45.0 + kLength * (0.04 * off - 2.5 * off * off - 14.0 * off * off * off);
+  };
+  const auto is_seen = [](double x, bool is_medial) { return !is_medial || x > 0.73 * kLength; };
+  double truth = 0.6 * kLength;
+  const auto weighed_reach = [&](double x) {
+    return border(x) - 0.5 * kHandicapBend * std::pow(x - 0.69 * kLength, 2);
+  };
+  for (double x = truth; x < 0.8 * kLength; x += 0.01) {
+    if (weighed_reach(x) > weighed_reach(truth)) truth = x;
+  }
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto tibiale = find_metatarsale_tibiale(outline_with(
+        border, bulging(155.0, 0.02), kLength, 0.3, seed, test::kPointsOfBorders, is_seen));
+    ASSERT_TRUE(tibiale);
+    const auto& deviation = tibiale->one_deviation_off_mm;
+    EXPECT_NEAR(tibiale->position_mm.x(), truth, 2.0 * std::abs(deviation.x()));
+    EXPECT_NEAR(tibiale->position_mm.y(), border(truth), 2.0 * std::abs(deviation.y()));
+    EXPECT_LT(std::abs(deviation.x()), 3.0);
+    EXPECT_LT(std::abs(deviation.y()), 2.0);
+    EXPECT_EQ(deviation.z(), 0.0);
+  }
+  const auto seen =
+      find_metatarsale_tibiale(outline_with(border, bulging(155.0, 0.02), kLength, 0.3, 1));
+  ASSERT_TRUE(seen);
+  EXPECT_TRUE(seen->one_deviation_off_mm.isZero());
+}
+
 }  // namespace
 }  // namespace instep

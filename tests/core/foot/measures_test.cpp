@@ -179,6 +179,25 @@ TEST(Measures, KnowWhatMovesAllRedrawsOfALandmark) {
   }
 }
 
+TEST(Measures, OfLengthKnowWhatMovesAllRedrawsOfALandmark) {
+  auto foot = prepared(FootBody{}.points());
+  auto& tibiale = foot.landmarks.at("metatarsale_tibiale");
+  auto& top = foot.landmarks.at("ball_top");
+  ASSERT_TRUE(tibiale.one_deviation_off_mm.isZero());
+  const auto sure = measure_foot(foot).value();
+  tibiale.one_deviation_off_mm = Vector3d(3.0, 2.0 * foot.medial_sign(), 0.0);
+  top.one_deviation_off_mm = Vector3d(0.0, 0.0, 1.5);
+  const auto unsure = measure_foot(foot).value();
+  const auto more = [&](const char* id) {
+    return std::sqrt(std::pow(unsure.find(id)->u95().value(), 2) -
+                     std::pow(sure.find(id)->u95().value(), 2));
+  };
+  EXPECT_NEAR(more("ball_length"), 1.96 * 3.0, 0.01);
+  EXPECT_NEAR(more("ball_height"), 1.96 * 1.5, 0.01);
+  EXPECT_GT(more("foot_breadth"), 1.96 * 1.5);
+  EXPECT_EQ(more("foot_length"), 0.0);
+}
+
 // Measured: at most 0.09 mm, of the long heel girth, whose interval is +- 0.6: it crosses the kink
 // of the body's walls, and patches start elsewhere in a mirror.
 TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {
