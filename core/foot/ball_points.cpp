@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "core/foot/border_crest.h"
@@ -89,7 +90,8 @@ std::optional<Landmark> hidden_point(const FootOutline& outline, const SkinBorde
   const auto& view = border.view();
   Landmark point{border.position(crest->place),
                  kPriorConfidence + (kMostConfidence - kPriorConfidence) * crest->told_share,
-                 rule.name};
+                 std::string(rule.name) +
+                     "; not seen there: told by what was seen beside it and what is usual of feet"};
   point.one_deviation_off_mm = crest->one_deviation_off_mm.x() * view.along +
                                crest->one_deviation_off_mm.y() * view.outwards;
   return point;
