@@ -73,50 +73,60 @@ SkinBorder told_part(const FootOutline& outline, const SkinBorder& border) {
   });
 }
 
-UsualBorder usual_border(const Rule& rule, double length) {
+/// Second derivative of the handicap.
+double handicap_bend_per_mm(double length) {
   const double spread = kPriorSpreadShare * length;
+  return 2.0 * kPriorHandicapMm / (spread * spread);
+}
+
+UsualBorder usual_border(const Rule& rule, double length) {
   const Eigen::Vector3d scale(1.0, 1.0 / length, 1.0 / (length * length));
-  return {rule.prior, kUsualHalfShare * length, scale.cwiseProduct(rule.shape.derivatives),
-          scale.cwiseProduct(rule.shape.spreads), 2.0 * kPriorHandicapMm / (spread * spread)};
+  UsualBorder usual;
+  usual.along = rule.prior;
+  usual.half_width_mm = kUsualHalfShare * length;
+  usual.from = rule.from;
+  usual.to = rule.to;
+  usual.derivatives = scale.cwiseProduct(rule.shape.derivatives);
+  usual.spreads = scale.cwiseProduct(rule.shape.spreads);
+  usual.handicap_bend_per_mm = handicap_bend_per_mm(length);
+  return usual;
 }
 
 /// Where the border may be furthest in a stretch that was not seen.
 std::optional<Landmark> hidden_point(const FootOutline& outline, const SkinBorder& told,
                                      const SkinBorder& border, const Rule& rule) {
   const auto crest = hidden_crest(told, border, usual_border(rule, outline.length_mm()));
-  if (!crest || crest->place.along < rule.from || crest->place.along > rule.to) {
-    return std::nullopt;
-  }
+  if (!crest) return std::nullopt;
   const auto& view = border.view();
   Landmark point{border.position(crest->place),
                  kPriorConfidence + (kMostConfidence - kPriorConfidence) * crest->told_share,
                  std::string(rule.name) +
                      "; not seen there: told by what was seen beside it and what is usual of feet"};
-  point.one_deviation_off_mm = crest->one_deviation_off_mm.x() * view.along +
-                               crest->one_deviation_off_mm.y() * view.outwards;
+  for (const Eigen::Vector2d& off : crest->deviations_off_mm) {
+    point.deviations_off_mm.emplace_back(off.x() * view.along + off.y() * view.outwards);
+  }
   return point;
 }
 
 std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBorder& border,
                                         const Rule& rule) {
-  const double spread = kPriorSpreadShare * outline.length_mm();
+  const double by_prior = handicap_bend_per_mm(outline.length_mm());
   const auto handicap = [&](double place) {
-    return kPriorHandicapMm * std::pow((place - rule.prior) / spread, 2);
+    return 0.5 * by_prior * std::pow(place - rule.prior, 2);
   };
   const SkinBorder smooth = border.smoothed_over(kSmoothingMm);
   auto peak = smooth.furthest(rule.from, rule.to, handicap);
-  if (!peak) return std::nullopt;
   if (outline.has_unseen_points()) {
     const SkinBorder told = told_part(outline, border);
-    const auto [first, last] = std::minmax(peak->along, rule.prior);
+    const auto [first, last] = std::minmax(peak ? peak->along : rule.prior, rule.prior);
     if (has_gap(told, first - rule.patch_mm, last + rule.patch_mm)) {
       if (auto hidden = hidden_point(outline, told, border, rule)) return hidden;
     }
   }
+  if (!peak) return std::nullopt;
   if (const auto crest = crest_in_range(outline, border, *peak, rule)) peak = crest;
   // What holds the place is how the border falls off to either side, and how the handicap does.
   const double by_shape = std::max(0.0, -peak->bend);
-  const double by_prior = 2.0 * kPriorHandicapMm / (spread * spread);
   const double share = by_shape / (by_shape + by_prior);
   return Landmark{border.position(*peak),
                   kPriorConfidence + (kMostConfidence - kPriorConfidence) * share, rule.name};
@@ -187,15 +197,18 @@ std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark
   const auto top = top_over(outline, tibiale.position_mm, fibulare.position_mm);
   if (!top) return std::nullopt;
   Landmark found{*top, 0.8, "highest point of the ball's section"};
-  for (const Landmark* end : {&tibiale, &fibulare}) {
-    if (end->one_deviation_off_mm.isZero()) continue;
-    const Eigen::Vector3d moved = end->position_mm + end->one_deviation_off_mm;
-    const auto other = end == &tibiale ? top_over(outline, moved, fibulare.position_mm)
-                                       : top_over(outline, tibiale.position_mm, moved);
-    if (!other) continue;
-    double& rise = found.one_deviation_off_mm.z();
-    rise = std::hypot(rise, other->z() - top->z());
+  double squares = 0.0;
+  const auto rise = [&](const Eigen::Vector3d& medial, const Eigen::Vector3d& lateral) {
+    const auto other = top_over(outline, medial, lateral);
+    if (other) squares += std::pow(other->z() - top->z(), 2);
+  };
+  for (const auto& off : tibiale.deviations_off_mm) {
+    rise(tibiale.position_mm + off, fibulare.position_mm);
   }
+  for (const auto& off : fibulare.deviations_off_mm) {
+    rise(tibiale.position_mm, fibulare.position_mm + off);
+  }
+  if (squares > 0.0) found.deviations_off_mm.emplace_back(0.0, 0.0, std::sqrt(squares));
   return found;
 }
 

@@ -11,7 +11,7 @@ namespace instep {
 /// where the outline has no points there. Where points were put for a border that was not seen, for
 /// 8 mm or more near the point or between it and its usual place, as between two feet, both points
 /// of the ball are told by what was seen beside them and by what is usual of feet
-/// (core/foot/hidden_crest.h), and carry Landmark::one_deviation_off_mm.
+/// (core/foot/hidden_crest.h), and carry Landmark::deviations_off_mm.
 std::optional<Landmark> find_metatarsale_tibiale(const FootOutline& outline);
 
 /// The head of the fifth metatarsal: the most lateral point of the ball, behind `tibiale`.
@@ -25,7 +25,7 @@ std::optional<Landmark> find_ball_medial(const FootOutline& outline);
 std::optional<Landmark> find_ball_lateral(const FootOutline& outline);
 
 /// The highest point of the upright section through the two points of the ball. Where these may be
-/// off, Landmark::one_deviation_off_mm holds what its height moves by.
+/// off, one of Landmark::deviations_off_mm holds what its height moves by.
 std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare);
 

@@ -19,12 +19,13 @@ struct Landmark {
   double confidence = 0.0;                                ///< 0 to 1; by proportion under 0.35
   std::string rule;                                       ///< how it was found, in a few words
   /// Within this of the true place with 95 % probability, as far as the points and
-  /// `one_deviation_off_mm` tell.
+  /// `deviations_off_mm` tell.
   std::optional<double> radius_mm = std::nullopt;
   /// Where it lies instead, as seen from there, if something that redraws share, and so do not
-  /// show, is one standard deviation off: of `heel_point` the edge of a standing foot's sole, of
-  /// the metatarsal points and `ball_top` a border that was not seen there. Zero of all others.
-  Eigen::Vector3d one_deviation_off_mm = Eigen::Vector3d::Zero();
+  /// show, is one standard deviation off; each for itself: of `heel_point` the edge of a standing
+  /// foot's sole, of the metatarsal points and `ball_top` a border that was not seen there. None of
+  /// all others.
+  std::vector<Eigen::Vector3d> deviations_off_mm = {};
 
   /// The points hardly tell where it is. Of `toe2_tip` FootScan::has_seen_toes() tells instead.
   bool is_placed_by_proportion() const { return confidence < 0.35; }

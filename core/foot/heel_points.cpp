@@ -139,7 +139,7 @@ std::optional<Landmark> find_heel_point(const FootOutline& outline, const Landma
     const auto fitted = furthest_of_standing_heel(outline.seen_points(), length, origin);
     const bool is_fitted = fitted && is_in_range(fitted->place);
     if (is_fitted) found.position_mm = fitted->place;
-    found.one_deviation_off_mm = is_fitted ? fitted->one_deviation_off_mm : kUsuallyOff;
+    found.deviations_off_mm = {is_fitted ? fitted->one_deviation_off_mm : kUsuallyOff};
     return found;
   }
   constexpr ReachPatch kWide{10.0, 16.0};

@@ -15,6 +15,8 @@ using Eigen::Vector4d;
 constexpr double kWidestGapMm = 8.0;
 constexpr int kRounds = 8;
 constexpr double kFurthestOff = 0.7;  ///< of half-widths
+/// Of all samples together: those on a guess below the rim are all too far in.
+constexpr double kAllOffMm = 0.5;
 /// Of a sample off the curve: by noise, by the guess below the rim of what was seen, and by the
 /// border's own bends; more than that of one alone, since those beside each other err alike.
 constexpr double kSampleOffMm = 1.5;
@@ -70,8 +72,10 @@ Curve most_likely(const std::vector<Sample>& samples, const UsualBorder& usual) 
     information += precision(off) * row * row.transpose();
     right += precision(off) * sample.reach * row;
   }
-  const Matrix4d covariance = information.inverse();
-  return {covariance * right, covariance};
+  Matrix4d covariance = information.inverse();
+  const Vector4d likely = covariance * right;
+  covariance(0, 0) += kAllOffMm * kAllOffMm;
+  return {likely, covariance};
 }
 
 Vector4d slopes(double t) {
@@ -84,13 +88,15 @@ double weighed_bend(const Vector4d& terms, double handicap, double t) {
 }
 
 /// Where the curve less its handicap is highest, by Newton from the usual place.
-std::optional<double> crest_of(const Vector4d& terms, double handicap) {
+std::optional<double> crest_of(const Vector4d& terms, const UsualBorder& usual, double handicap) {
+  const double from = std::max((usual.from - usual.along) / usual.half_width_mm, -kFurthestOff);
+  const double to = std::min((usual.to - usual.along) / usual.half_width_mm, kFurthestOff);
   double t = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     const double bend = weighed_bend(terms, handicap, t);
     if (!(bend < 0.0)) return std::nullopt;
     const double slope = terms.dot(slopes(t)) - handicap * t;
-    t = std::clamp(t - slope / bend, -kFurthestOff, kFurthestOff);
+    t = std::clamp(t - slope / bend, from, to);
   }
   return weighed_bend(terms, handicap, t) < 0.0 ? std::optional(t) : std::nullopt;
 }
@@ -115,7 +121,7 @@ std::optional<HiddenCrest> hidden_crest(const SkinBorder& told, const SkinBorder
   const auto [terms, covariance] = most_likely(samples, usual);
   const double unit = usual.half_width_mm;
   const double handicap = usual.handicap_bend_per_mm * unit * unit;
-  const auto t = crest_of(terms, handicap);
+  const auto t = crest_of(terms, usual, handicap);
   if (!t) return std::nullopt;
   HiddenCrest crest;
   crest.place.along = usual.along + *t * unit;
@@ -126,10 +132,10 @@ std::optional<HiddenCrest> hidden_crest(const SkinBorder& told, const SkinBorder
   // How far along and outwards the crest moves with each of the terms.
   const Vector4d along = slopes(*t) / -weighed_bend(terms, handicap, *t);
   const Vector4d outwards = powers(*t) + handicap * *t * along;
-  const double along_mm = unit * std::sqrt(along.dot(covariance * along));
-  const double outwards_mm = std::sqrt(outwards.dot(covariance * outwards));
-  crest.one_deviation_off_mm = {along_mm,
-                                std::copysign(outwards_mm, along.dot(covariance * outwards))};
+  Eigen::Matrix<double, 2, 4> moves;
+  moves << unit * along.transpose(), outwards.transpose();
+  const Eigen::Matrix2d root = (moves * covariance * moves.transpose()).llt().matrixL();
+  crest.deviations_off_mm = {root.col(0), root.col(1)};
   const double open_share = std::sqrt(covariance(1, 1)) / (usual.spreads(0) * unit);
   crest.told_share = std::clamp(1.0 - open_share, 0.0, 1.0);
   return crest;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "core/foot/skin_border.h"
@@ -11,6 +12,8 @@ namespace instep {
 struct UsualBorder {
   double along = 0.0;          ///< the usual place
   double half_width_mm = 0.0;  ///< > 0: the border is a curve of third order so far to either side
+  double from = 0.0;           ///< the crest is looked for from there
+  double to = 0.0;             ///< to there; the usual place is between
   /// Of the reach by the place, there: first to third, per mm each time, and their spreads between
   /// feet, > 0.
   Eigen::Vector3d derivatives = Eigen::Vector3d::Zero();
@@ -22,9 +25,9 @@ struct UsualBorder {
 /// Where a border of which a part was not seen is told to be furthest, less the handicap.
 struct HiddenCrest {
   SkinBorder::Place place;  ///< without its bend
-  /// Where it lies instead if what the samples leave open is one standard deviation off: along and
-  /// outwards, which hold each alone.
-  Eigen::Vector2d one_deviation_off_mm = Eigen::Vector2d::Zero();
+  /// Where it lies instead if what the samples leave open is one standard deviation off; each for
+  /// itself: along and outwards.
+  std::array<Eigen::Vector2d, 2> deviations_off_mm = {};
   /// 1 where the samples alone tell the border's slope, 0 where only what is usual does.
   double told_share = 0.0;
 };

@@ -32,7 +32,7 @@ class Marking {
     }
     Landmark own = *landmark;
     own.position_mm.y() *= foot_.medial_sign();
-    own.one_deviation_off_mm.y() *= foot_.medial_sign();
+    for (auto& off : own.deviations_off_mm) off.y() *= foot_.medial_sign();
     foot_.landmarks[name] = own;
     return landmark;
   }

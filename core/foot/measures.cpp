@@ -80,13 +80,15 @@ std::optional<double> u95_of_shared(const std::vector<const char*>& names, const
   double squares = 0.0;
   for (const char* name : names) {
     const auto found = foot.landmarks.find(name);
-    if (found == foot.landmarks.end() || found->second.one_deviation_off_mm.isZero()) continue;
-    Landmarks moved = foot.landmarks;
-    moved[name].position_mm += found->second.one_deviation_off_mm;
-    const std::optional<double> here = taken(foot.landmarks);
-    const std::optional<double> there = taken(moved);
-    if (!here || !there) return std::nullopt;
-    squares += std::pow(*there - *here, 2);
+    if (found == foot.landmarks.end()) continue;
+    for (const auto& off : found->second.deviations_off_mm) {
+      Landmarks moved = foot.landmarks;
+      moved[name].position_mm += off;
+      const std::optional<double> here = taken(foot.landmarks);
+      const std::optional<double> there = taken(moved);
+      if (!here || !there) return std::nullopt;
+      squares += std::pow(*there - *here, 2);
+    }
   }
   return kDeviations * std::sqrt(squares);
 }

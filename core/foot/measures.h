@@ -28,8 +28,8 @@ struct MeasureOptions {
 /// well.
 ///
 /// The part of the landmarks is how a measure scatters over FootScan::redraws, a girth's by tapes
-/// laid round the same points, widened for what all redraws share, and with what a girth moves by
-/// where a landmark lies Landmark::one_deviation_off_mm; that of the surface is Girth's
+/// laid round the same points, widened for what all redraws share, and with what it moves by where
+/// a landmark lies each of Landmark::deviations_off_mm; that of the surface is Girth's
 /// own, a length's what the cloud's shared errors do (core/foot/shared_doubt.h). Neither knows of a
 /// rule that is not what was meant.
 ///

@@ -147,8 +147,10 @@ void set_radii(FootScan& foot) {
       squared += std::pow(own.value_or(0.0), 2);
     }
     if (is_known) {
+      double shared = 0.0;
+      for (const auto& off : landmark.deviations_off_mm) shared += off.squaredNorm();
       landmark.radius_mm = std::hypot(kSharedDoubt * std::sqrt(squared), own_doubt_mm(name),
-                                      kDeviations * landmark.one_deviation_off_mm.norm());
+                                      kDeviations * std::sqrt(shared));
     }
   }
 }

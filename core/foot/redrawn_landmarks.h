@@ -22,7 +22,7 @@ namespace instep {
 /// nobody saw a wall (close_sole()) is in no part.
 ///
 /// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
-/// meant, does not show; of an edge or a border that no point shows Landmark::one_deviation_off_mm
+/// meant, does not show; of an edge or a border that no point shows Landmark::deviations_off_mm
 /// tells.
 /// `foot` has its landmarks. One to four times the cost of landmarks; six times where parts are
 /// left out.
@@ -38,7 +38,7 @@ std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& v
 /// drawn feet (tests/bench/feet) intervals so much wider hold about as often as they should.
 inline constexpr double kSharedDoubt = 1.6;
 
-/// The landmarks' 95 % radii, from FootScan::redraws and Landmark::one_deviation_off_mm.
+/// The landmarks' 95 % radii, from FootScan::redraws and Landmark::deviations_off_mm.
 void set_radii(FootScan& foot);
 
 }  // namespace instep

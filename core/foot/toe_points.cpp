@@ -111,7 +111,7 @@ std::optional<Landmark> find_toe5_contact(const FootOutline& outline, const Land
   // The border is smoothed over the gap to the next toe, and so lies too far in before it.
   for (int round = 0; round < kRulerRounds; ++round) {
     const auto crest = crest_at_ruler(outline, ball, *contact);
-    if (!crest || crest->x() < from || crest->x() > to) break;
+    if (!crest || crest->x() < std::max(from, ball.x() + 1.0) || crest->x() > to) break;
     contact = crest;
   }
   return Landmark{*contact, kConfidence,
