@@ -35,8 +35,10 @@ constexpr double kBelowRimMm = 6.0;
 constexpr double kUsualHalfShare = 0.085;  ///< of the foot's length, to either side
 
 /// A border round the usual place of a point of the ball, of a foot one unit long: the reach's
-/// first to third derivative by the place, and their spreads. Between those of drawn feet and of
-/// three real ones (tests/bench/feet); the spreads hold both.
+/// first to third derivative by the place, and their spreads. Cubics over 0.06 and 0.08 of the
+/// length to either side, of 23 drawn feet and three real ones, gave medial slopes of -0.07 to
+/// 0.16, bends of -7.6 to -1.6 and thirds of -186 to -61; lateral -0.27 to 0.09, -7.1 to -0.5, -34
+/// to 254.
 struct UsualShape {
   Eigen::Vector3d derivatives;
   Eigen::Vector3d spreads;
@@ -118,8 +120,10 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   auto peak = smooth.furthest(rule.from, rule.to, handicap);
   if (outline.has_unseen_points()) {
     const SkinBorder told = told_part(outline, border);
-    const auto [first, last] = std::minmax(peak ? peak->along : rule.prior, rule.prior);
-    if (has_gap(told, first - rule.patch_mm, last + rule.patch_mm)) {
+    const double place = peak ? peak->along : rule.prior;
+    const double from = std::min(place, rule.prior) - rule.patch_mm;
+    const double to = std::max(place, rule.prior) + rule.patch_mm;
+    if (has_gap(told, from, to)) {
       if (auto hidden = hidden_point(outline, told, border, rule)) return hidden;
     }
   }
