@@ -36,7 +36,7 @@ constexpr double kUsualHalfShare = 0.085;  ///< of the foot's length, to either 
 
 /// A border round the usual place of a point of the ball, of a foot one unit long: the reach's
 /// first to third derivative by the place, and their spreads. Cubics over 0.06 and 0.08 of the
-/// length to either side, of 23 drawn feet and three real ones, gave medial slopes of -0.07 to
+/// length to either side, of 23 drawn feet and three real ones, gave medial slopes of -0.05 to
 /// 0.16, bends of -7.6 to -1.6 and thirds of -186 to -61; lateral -0.27 to 0.09, -7.1 to -0.5, -34
 /// to 254.
 struct UsualShape {
