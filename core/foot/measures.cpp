@@ -56,19 +56,29 @@ std::optional<double> spread_over_redraws(const FootScan& foot, const Taker& tak
   return u95 ? std::optional(kSharedDoubt * *u95) : std::nullopt;
 }
 
+std::optional<double> taken_by(const LengthDefinition& definition, const Landmarks& landmarks) {
+  const auto length = definition.length(landmarks);
+  return length ? std::optional(*length) : std::nullopt;
+}
+
+/// `foot_from_landmarks`: the tape of any landmarks is laid round the same points.
+std::optional<double> taken_by(
+    const GirthDefinition& definition, const Landmarks& landmarks, const FootScan& foot,
+    const RigidTransform& foot_from_landmarks = RigidTransform::Identity()) {
+  const auto tape = definition.tape(landmarks);
+  if (!tape) return std::nullopt;
+  return rough_tape(foot.cloud.positions, tape->transformed(foot_from_landmarks));
+}
+
 std::optional<double> u95_of(const LengthDefinition& definition, const FootScan& foot) {
-  return spread_over_redraws(foot, [&](const RedrawnLandmarks& redrawn) -> std::optional<double> {
-    const auto length = definition.length(redrawn.landmarks);
-    return length ? std::optional(*length) : std::nullopt;
+  return spread_over_redraws(foot, [&](const RedrawnLandmarks& redrawn) {
+    return taken_by(definition, redrawn.landmarks);
   });
 }
 
-/// How far a girth moves with its landmarks: the tape of each redraw laid round the same points.
 std::optional<double> u95_of(const GirthDefinition& definition, const FootScan& foot) {
-  return spread_over_redraws(foot, [&](const RedrawnLandmarks& redrawn) -> std::optional<double> {
-    const auto tape = definition.tape(redrawn.landmarks);
-    if (!tape) return std::nullopt;
-    return rough_tape(foot.cloud.positions, tape->transformed(redrawn.foot_from_redrawn));
+  return spread_over_redraws(foot, [&](const RedrawnLandmarks& redrawn) {
+    return taken_by(definition, redrawn.landmarks, foot, redrawn.foot_from_redrawn);
   });
 }
 
@@ -95,25 +105,20 @@ std::optional<double> u95_of_shared(const std::vector<const char*>& names, const
 
 std::optional<double> u95_of_shared(const LengthDefinition& definition, const FootScan& foot) {
   return u95_of_shared(definition.landmarks, foot,
-                       [&](const Landmarks& landmarks) -> std::optional<double> {
-                         const auto length = definition.length(landmarks);
-                         return length ? std::optional(*length) : std::nullopt;
-                       });
+                       [&](const Landmarks& landmarks) { return taken_by(definition, landmarks); });
 }
 
 std::optional<double> u95_of_shared(const GirthDefinition& definition, const FootScan& foot) {
-  return u95_of_shared(definition.landmarks, foot,
-                       [&](const Landmarks& landmarks) -> std::optional<double> {
-                         const auto tape = definition.tape(landmarks);
-                         return tape ? rough_tape(foot.cloud.positions, *tape) : std::nullopt;
-                       });
+  return u95_of_shared(definition.landmarks, foot, [&](const Landmarks& landmarks) {
+    return taken_by(definition, landmarks, foot);
+  });
 }
 
 /// Where the points were asked how sure a measure is and could not say, it hangs on a few of them,
 /// as at the border of a hole.
 Result<void> check_known(const std::optional<double>& u95, const FootScan& foot) {
   if (u95 || foot.redraws.landmarks.empty()) return {};
-  return fail(ErrorCode::kInsufficientData, "no part of the points finds its landmarks again",
+  return fail(ErrorCode::kInsufficientData, "the points do not tell how sure its landmarks are",
               "scan again, with the foot in full view of all cameras");
 }
 

@@ -23,9 +23,8 @@ namespace instep {
 ///
 /// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
 /// meant, does not show; of an edge or a border that no point shows Landmark::deviations_off_mm
-/// tells.
-/// `foot` has its landmarks. One to four times the cost of landmarks; six times where parts are
-/// left out.
+/// tells. `foot` has its landmarks. One to four times the cost of landmarks; six times where parts
+/// are left out.
 Redraws redraw_landmarks(const FootScan& foot);
 
 /// Half-width of the 95 % interval of a value from what the redraws gave for it, in their order

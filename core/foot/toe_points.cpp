@@ -39,10 +39,10 @@ std::optional<Vector3d> ruler_contact(const SkinBorder& border, const Vector3d& 
                                       double from, double to) {
   std::optional<Vector3d> contact;
   double most = 0.0;
-  for (double place = from; place <= to; place += kBearingStepMm) {
-    const auto reach = border.at(place);
-    if (!reach) continue;
-    const Vector3d point = border.position(*reach);
+  for (double along = from; along <= to; along += kBearingStepMm) {
+    const auto place = border.at(along);
+    if (!place) continue;
+    const Vector3d point = border.position(*place);
     if (point.x() <= ball.x() + 1.0) continue;
     const double bearing = sign * (point.y() - ball.y()) / (point.x() - ball.x());
     if (contact && bearing <= most) continue;
