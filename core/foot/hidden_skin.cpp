@@ -98,8 +98,10 @@ double hidden_range(const Stretch& stretch, const Vector2d& up) {
 }  // namespace
 
 double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane) {
-  // As drawn feet without soles have it (tests/bench/feet).
-  constexpr double kDoubtShare = 0.035;
+  // So do ball, waist and instep of drawn feet without soles hold alike (tests/bench/feet --open);
+  // a share of the length would be too little for the ball's where it is enough for the waist's.
+  constexpr double kPieceMm = 10.0;
+  constexpr double kDoubtOfPieceMm = 0.5;
   constexpr double kBandMm = 2.0;
   const double spacing = SoleSettings{}.spacing_mm;
   double points = 0.0;
@@ -108,7 +110,8 @@ double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane) {
                             std::abs(plane.distance(cloud.positions[i])) < kBandMm;
     if (is_guessed) points += 1.0;
   }
-  return kDoubtShare * points * spacing * spacing / (2.0 * kBandMm);
+  const double length = points * spacing * spacing / (2.0 * kBandMm);
+  return kDoubtOfPieceMm * std::sqrt(length / kPieceMm);
 }
 
 HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth& girth) {

@@ -43,7 +43,7 @@ GirthDefinition ball_definition(const FootScan& foot) {
       ball_tape,
       {"metatarsale_tibiale", "metatarsale_fibulare"},
       "stretched tape in the upright plane over metatarsale tibiale and fibulare",
-      0.4};
+      0.2};
   if (foot.rules.ball_girth == BallGirthRule::kShortest) {
     definition.tape = [lean = shortest_lean_deg(foot)](const Landmarks& landmarks) {
       return leaning_ball_tape(landmarks, lean);
@@ -99,14 +99,14 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
        "from the pternion to metatarsale tibiale, parallel to the axis",
        LengthDefinition::Kind::kLength,
        0.0,
-       0.6},
+       0.4},
       {"outside_ball_length",
        outside_ball_length,
        {"metatarsale_fibulare"},
        "from the pternion to metatarsale fibulare, parallel to the axis",
        LengthDefinition::Kind::kLength,
        0.0,
-       0.4},
+       0.3},
       {"instep_height",
        instep_height,
        {},
@@ -162,8 +162,7 @@ std::vector<GirthDefinition> girth_definitions(const FootScan& foot) {
        short_heel_tape,
        {"heel_point", "junction"},
        "stretched tape round the heel point and over the junction of foot and leg, square to the "
-       "side view",
-       0.4},
+       "side view"},
       {"long_heel_girth",
        long_heel_tape,
        {"heel_point", "instep_point"},

@@ -49,6 +49,29 @@ struct Section {
   }
 };
 
+/// A skin, `length_mm` along a slope from the floor up in the plane x = 0 and beside it, of points
+/// 2 mm apart; what lies on the floor goes on for as long again.
+PointCloud guessed_slope(double length_mm, PointOrigin origin) {
+  PointCloud cloud;
+  for (double at = 1.0 - length_mm; at < length_mm; at += 2.0) {
+    for (double x = -9.0; x < 10.0; x += 2.0) {
+      cloud.positions.emplace_back(x, 0.8 * at, std::max(0.0, 0.6 * at));
+      cloud.origins.push_back(origin);
+    }
+  }
+  return cloud;
+}
+
+TEST(GuessedSkin, LeavesOpenHalfAMillimetreForEachPieceOfACentimetre) {
+  const TapePlane plane = *TapePlane::through({0, 0, 0}, {0, 50, 0}, {0, 0, 50});
+  for (const double pieces : {1.0, 4.0, 9.0}) {
+    const auto guessed = guessed_slope(10.0 * pieces, PointOrigin::kPlatform);
+    EXPECT_NEAR(doubt_of_guessed_skin(guessed, plane), 0.5 * std::sqrt(pieces), 1e-9) << pieces;
+    const auto seen = guessed_slope(10.0 * pieces, PointOrigin::kSeen);
+    EXPECT_EQ(doubt_of_guessed_skin(seen, plane), 0.0) << pieces;
+  }
+}
+
 TEST(HiddenWall, LeavesOpenAShareOfWhatLiesBetweenACornerAndAStraightWay) {
   for (const double height : {12.0, 20.0, 30.0}) {
     Section section(height);
