@@ -8,8 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastArchMm = 3.0;  ///< a lower one is not told from a sole closed by the scanner
-
 /// The vector from one landmark to another.
 Result<Vector3d> between(const Landmarks& landmarks, const char* from, const char* to) {
   const auto start = position_of(landmarks, from);
@@ -100,11 +98,7 @@ Result<double> arch_height(const Landmarks& landmarks) {
     return fail(ErrorCode::kInsufficientData, "the arch was not seen from below",
                 "scan with a camera under the glass");
   }
-  const double clearance = found->second.position_mm.z();
-  if (clearance >= kLeastArchMm) return clearance;
-  return fail(ErrorCode::kInsufficientData,
-              "the underside is flat: a flat foot, or a sole that was closed without being seen",
-              "scan with a camera under the glass");
+  return found->second.position_mm.z();
 }
 
 Result<double> toe1_angle(const Landmarks& landmarks) {

@@ -23,7 +23,7 @@ Result<double> foot_breadth(const Landmarks& landmarks);
 /// Extent of the outline at right angles to the axis over the ball (0.50-0.85 of the length).
 Result<double> foot_breadth_horizontal(const Landmarks& landmarks);
 
-/// Extent of the outline at right angles to the axis at a sixth of the length.
+/// Extent of the outline at right angles to the axis, where HeelBreadthRule has it.
 Result<double> heel_breadth(const Landmarks& landmarks);
 
 /// Pternion to metatarsale tibiale, and to metatarsale fibulare, along the axis.
@@ -35,8 +35,7 @@ Result<double> instep_height(const Landmarks& landmarks);
 Result<double> ball_height(const Landmarks& landmarks);
 Result<double> toe1_height(const Landmarks& landmarks);
 
-/// Fails as well where the underside is under 3 mm over the floor: a flat foot, and a sole that the
-/// scanner closed without seeing it, cannot be told apart.
+/// Of the arch point over the floor; fails where nobody saw the underside.
 Result<double> arch_height(const Landmarks& landmarks);
 
 /// By how many degrees the first toe turns towards the others: between the line from the heel's

@@ -25,6 +25,9 @@ constexpr double kWallMm = 4.0;
 constexpr double kLeastUpright = 0.1;
 /// A wall that leans inwards by so much a millimetre down is in its bend, which goes on.
 constexpr double kBending = 0.5;
+/// A wall that was lost high meets the floor so much further in, but for where the sole's edge is
+/// round, even where it is taken to stand right over it.
+constexpr double kMostInsetMm = 15.0;
 /// Of the range of hidden_range(). Cut off by so much at the ball or the waist, 24 simulated feet
 /// err by less than 0.33 of it (19 girths of 20), two scanned ones by up to 0.57 (9 of 10).
 constexpr double kRangeShare = 0.6;
@@ -81,18 +84,19 @@ std::vector<Stretch> hidden_stretches(const std::vector<Vector2d>& contour,
 
 /// Between the tape of a wall that goes on as it was seen last, but no further outwards, and bends
 /// at the floor only, and a tape straight across; less where the wall has begun to bend.
-double hidden_range(const Stretch& stretch, const Vector2d& up) {
+double hidden_range(const Stretch& stretch, const Vector2d& middle, const Vector2d& up) {
   const Vector2d level(up.y(), -up.x());
   const Vector2d way = stretch.course.back() - stretch.course.front();
-  const double sign = level.dot(way) > 0.0 ? 1.0 : -1.0;
+  const double sign = level.dot(middle - stretch.course.front()) > 0.0 ? 1.0 : -1.0;
   const double height = -up.dot(way);
-  const double breadth = sign * level.dot(way);
+  const double inset = std::min(kMostInsetMm, height - WallSettings{}.usual_edge_mm);
+  const double breadth = std::max({0.0, sign * level.dot(way), inset});
   const double falls = -up.dot(stretch.wall);
   const double leans = std::max(0.0, sign * level.dot(stretch.wall));
   if (!(height > 0.0) || leans >= kBending * falls) return 0.0;
   const double slope = leans / falls;
   const double corner = std::hypot(height, slope * height) + std::abs(breadth - slope * height);
-  return (1.0 - slope / kBending) * std::max(0.0, corner - way.norm());
+  return (1.0 - slope / kBending) * std::max(0.0, corner - std::hypot(height, breadth));
 }
 
 }  // namespace
@@ -120,13 +124,19 @@ HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth
   if (!(upwards.norm() > kLeastUpright)) return hidden;
   const Vector2d up = upwards.normalized();
   const auto is_hidden = hidden_corners(seen, plane, girth.contour);
+  Vector2d middle = Vector2d::Zero();
+  for (const auto& corner : girth.contour) middle += corner;
+  middle /= static_cast<double>(std::max<std::size_t>(1, girth.contour.size()));
   for (const auto& stretch : hidden_stretches(girth.contour, is_hidden, up)) {
     if (plane.lift(stretch.course.back()).z() > kDownMm) continue;
-    const double doubt = kRangeShare * hidden_range(stretch, up);
+    const double doubt = kRangeShare * hidden_range(stretch, middle, up);
     if (!(doubt > 0.0)) continue;
     hidden.doubt_mm += doubt;
     hidden.height_mm = std::max(hidden.height_mm, plane.lift(stretch.course.front()).z());
   }
+  double top = 0.0;
+  for (const auto& corner : girth.contour) top = std::max(top, plane.lift(corner).z());
+  if (top > 0.0) hidden.share = hidden.height_mm / top;
   return hidden;
 }
 

@@ -18,6 +18,7 @@ double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane);
 /// does: it may as well go down straight and bend at the floor only, or turn in at once.
 struct HiddenWall {
   double height_mm = 0.0;  ///< over the floor, of the highest that was lost so
+  double share = 0.0;      ///< that, of the section's height over the floor
   double doubt_mm = 0.0;   ///< 0 where the bend of all walls was seen
 };
 

@@ -140,11 +140,16 @@ std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const L
 
 std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
                                          const Landmark& lateral) {
+  // Where the medial side was not seen, what is left of a section ends on the lateral one.
+  const auto medial_at = [&](double along) {
+    const auto place = outline.medial().at(along);
+    return place && place->reach > instep.position_mm.y() ? place : std::nullopt;
+  };
   const auto midfoot =
       near_place(outline.points(), 0.45 * outline.length_mm(), 0.25 * outline.length_mm());
   std::vector<Vector2d> lengths;
   for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
-    const auto place = outline.medial().at(share * outline.length_mm());
+    const auto place = medial_at(share * outline.length_mm());
     if (!place) continue;
     const auto plane = TapePlane::through(instep.position_mm, on_floor(lateral.position_mm),
                                           on_floor(outline.medial().position(*place)));
@@ -154,7 +159,7 @@ std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landm
     }
   }
   const auto lowest = lowest_near(lengths, kArchWindow * outline.length_mm());
-  const auto place = outline.medial().at(lowest.value_or(kArchPrior * outline.length_mm()));
+  const auto place = medial_at(lowest.value_or(kArchPrior * outline.length_mm()));
   if (!place) return std::nullopt;
   const Vector3d point = outline.medial().position(*place);
   return lowest ? Landmark{point, 0.7,

@@ -113,6 +113,21 @@ TEST(HiddenWall, TakesSparsePointsForASeenWall) {
   EXPECT_LT(section.doubt(), 0.2);
 }
 
+/// As where nothing told how the skin goes on, and the floor was taken to begin below the wall.
+TEST(HiddenWall, LeavesOpenHowFarInItMeetsTheFloorWhereItIsTakenToStandUpright) {
+  Section section(40.0);
+  auto& contour = section.girth.contour;
+  for (auto& corner : contour) {
+    Vector3d place = section.plane.lift(corner);
+    const bool is_guessed = place.y() < 0.0 && place.z() < 39.5;
+    if (is_guessed) place.y() = -kHalfBreadthMm;
+    corner = section.plane.project(place);
+  }
+  // From 37.5 mm over the floor to 15 mm inside, at once or round the corner.
+  const double range = 37.2 + 15.0 - std::hypot(37.2, 15.0);
+  EXPECT_NEAR(section.doubt(), 0.6 * range, 0.05 * range);
+}
+
 TEST(HiddenWall, IsNoneWhereTheWallWasSeenDownToTheFloor) {
   EXPECT_LT(Section(1.0).doubt(), 0.2);
 }

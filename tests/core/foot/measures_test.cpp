@@ -238,6 +238,70 @@ TEST(Measures, WithholdAGirthThatCannotBeHad) {
   }
 }
 
+/// As between two feet: nobody saw the medial side below a height.
+FootScan with_hidden_side(FootScan foot, double below_mm) {
+  foot.cloud.origins.clear();
+  for (const auto& point : foot.cloud.positions) {
+    const bool is_hidden = point.z() < below_mm && (point.y() > 0.0 || point.z() < 1.0);
+    foot.cloud.origins.push_back(is_hidden ? PointOrigin::kPlatform : PointOrigin::kSeen);
+  }
+  return foot;
+}
+
+TEST(Measures, WithholdAGirthWhoseWallWasHardlySeen) {
+  const auto foot = prepared(FootBody{}.points());
+  const auto reason = [&](double below_mm) -> std::string {
+    const auto set = measure_foot(with_hidden_side(foot, below_mm));
+    if (!set) return set.error().line();
+    for (const auto& one : set->withheld) {
+      if (one.id == "instep_girth") return one.reason;
+    }
+    return "";
+  };
+  EXPECT_EQ(reason(10.0), "");
+  const std::string high = reason(0.8 * foot.landmarks.at("instep_point").position_mm.z());
+  EXPECT_NE(high.find("most of the way down"), std::string::npos) << high;
+  EXPECT_NE(high.find("one foot alone"), std::string::npos) << high;
+}
+
+TEST(Measures, KnowWhatAllRedrawsAreOffBy) {
+  MeasureOptions options;
+  options.girth = no_girth;
+  FootScan foot = prepared(FootBody{}.points());
+  const double u95 = measure_foot(foot, options)->find("foot_breadth_horizontal")->u95_mm.value();
+  ASSERT_LT(u95, 2.0);
+  for (auto& redrawn : foot.redraws.landmarks) {
+    redrawn.landmarks.at("ball_medial").position_mm.y() -= 9.0;
+  }
+  const auto set = measure_foot(foot, options);
+  ASSERT_TRUE(set);
+  EXPECT_NEAR(set->find("foot_breadth_horizontal")->u95_mm.value(), 9.0, 1.0);
+}
+
+/// Redraws in which it is under the least that is told are no less possible.
+TEST(Measures, OfAnArchKnowTheRedrawsThatFindItFlat) {
+  MeasureOptions options;
+  options.girth = no_girth;
+  FootScan foot = prepared(FootBody{}.points());
+  Landmark arch;
+  arch.position_mm = {120.0, 20.0, 3.6};
+  foot.landmarks["arch_point"] = arch;
+  double sign = 1.0;
+  for (auto& redrawn : foot.redraws.landmarks) {
+    redrawn.landmarks["arch_point"] = arch;
+    redrawn.landmarks["arch_point"].position_mm.z() += sign;
+    sign = -sign;
+  }
+  const auto told = measure_foot(foot, options);
+  ASSERT_TRUE(told);
+  ASSERT_NE(told->find("arch_height"), nullptr);
+  EXPECT_GT(told->find("arch_height")->u95_mm.value(), 1.0);
+  foot.landmarks["arch_point"].position_mm.z() = 2.5;
+  const auto flat = measure_foot(foot, options);
+  ASSERT_TRUE(flat);
+  EXPECT_EQ(flat->find("arch_height"), nullptr);
+}
+
 /// The heel's medial point scatters over the redraws, as where two feet stand close together.
 TEST(Measures, WithholdWhatNoDecisionCouldRestOn) {
   MeasureOptions options;

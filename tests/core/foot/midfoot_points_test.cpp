@@ -5,6 +5,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "tests/support/cases/drawn_feet.h"
+#include "tests/support/foot_body.h"
 
 namespace instep {
 namespace {
@@ -31,6 +32,29 @@ TEST(MidfootPoints, LieNoFurtherToTheHeelThanTheShortestTape) {
     off += (found.x() - drawn.truth.landmarks.at("medial_arch").x()) / kFeet;
   }
   EXPECT_NEAR(off, 0.0, 0.7);
+}
+
+/// What is left of a section is the lateral strip, whose inner end is no medial border.
+TEST(MidfootPoints, AreNotOnTheOtherSideWhereTheirOwnWasNotSeen) {
+  for (const bool is_left : {false, true}) {
+    auto cloud = test::FootBody{}.points();
+    if (is_left) cloud = test::mirrored(cloud);
+    const auto whole = align_foot(cloud);
+    ASSERT_TRUE(whole);
+    FootScan half = *whole;
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < half.cloud.size(); ++i) {
+      const auto& point = half.cloud.positions[i];
+      const bool is_midfoot = std::abs(point.x() - 0.45 * 260.0) < 0.25 * 260.0;
+      const bool is_lost = is_midfoot && point.z() < 40.0 && half.medial_sign() * point.y() > -15.0;
+      if (!is_lost) kept.push_back(i);
+    }
+    half.cloud = half.cloud.subset(kept);
+    mark(half);
+    EXPECT_TRUE(half.landmarks.contains("lateral_midfoot"));
+    EXPECT_FALSE(half.landmarks.contains("medial_arch"))
+        << half.landmarks.at("medial_arch").position_mm.transpose();
+  }
 }
 
 }  // namespace

@@ -57,6 +57,19 @@ TEST(Redraws, SayNothingFromTooFew) {
   EXPECT_FALSE(u95_of_redraws(Values{1.0, std::nullopt, 2.0, std::nullopt}, {4, true}));
 }
 
+TEST(Redraws, SayNothingWhereThereAreNone) {
+  EXPECT_FALSE(u95_of_redraws({}, {}));
+  EXPECT_FALSE(u95_by_redraws(1.0, {}, {}));
+}
+
+TEST(Redraws, ReachFromWhatWasToldToWhereTheyLie) {
+  const Values values{1.0, -1.0, 1.0, -1.0, -1.0, std::nullopt, 1.0, -1.0};
+  const double near = u95_by_redraws(0.0, values, {2, false}).value();
+  EXPECT_GT(near, u95_of_redraws(values, {2, false}).value());
+  EXPECT_NEAR(u95_by_redraws(7.0, values, {2, false}).value(), 7.0 + 1.0 / 7.0, 1e-9);
+  EXPECT_NEAR(u95_by_redraws(-7.0, values, {2, false}).value(), 7.0 - 1.0 / 7.0, 1e-9);
+}
+
 /// They were other draws wherever a processor rounds otherwise.
 TEST(Redraws, AreTheSameWhateverTheLastBitsOfPlaces) {
   const PointCloud cloud = test::FootBody{}.points();
