@@ -124,7 +124,8 @@ double median_distance(const Candidate& plane, const std::vector<Eigen::Vector3d
   return median(std::move(distances));
 }
 
-/// More points within its reach than in the layers of the same thickness on both sides together.
+/// More points within its reach than in the layers of the same thickness on both sides together, of
+/// all points: where a search ends within a wall, there are none beyond.
 bool stands_out(const Candidate& plane, const std::vector<Eigen::Vector3d>& points, double reach) {
   const auto inside = layer_of(plane, points, reach).count;
   const auto twice = layer_of(plane, points, 2.0 * reach).count;
@@ -167,7 +168,7 @@ std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& p
   }
   const bool supported =
       static_cast<double>(layer.count) >= settings.least_share * static_cast<double>(sample.size());
-  if (!supported || plane->normal.z() < least_cosine || !stands_out(*plane, layer_points, reach)) {
+  if (!supported || plane->normal.z() < least_cosine || !stands_out(*plane, sample, reach)) {
     return std::nullopt;
   }
   const double variance = plane->normal.dot(layer.covariance * plane->normal);

@@ -36,7 +36,8 @@ struct FoundPlatform {
 /// Finds the platform among points of the station frame: the plane within the limits that most
 /// points support (sampled triples from a fixed seed, each scored by a truncated squared
 /// distance), refined by least squares on the points within three of its own scatters. A plane is
-/// believed only if it stands out: it must hold more points than the layers beside it.
+/// believed only if it stands out: it must hold more points than the layers beside it, within the
+/// limits or not.
 ///
 /// No platform is an answer and not a fault: it may be out of view or cut away. Uses an even sample
 /// of 40,000 points at most; some 10 ms.

@@ -77,6 +77,22 @@ TEST(FindPlatform, FindsNoneWhereThereIsNone) {
   EXPECT_FALSE(find_platform(line, settings));
 }
 
+/// Where the search ends within a wall, there are points on one side of its end alone.
+TEST(FindPlatform, TakesNoWallForOneAtTheEndOfTheSearch) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Vector3d> wall;
+  for (int i = 0; i < 30000; ++i) {
+    const double turn = 2 * std::numbers::pi * uniform(random);
+    const double z = 90 * std::sqrt(uniform(random));
+    wall.emplace_back(120 * std::cos(turn), 50 * std::sin(turn), z);
+  }
+  PlatformSettings settings;
+  EXPECT_FALSE(find_platform(wall, settings));
+  settings.expected_height_mm = 0.0;
+  EXPECT_FALSE(find_platform(wall, settings));
+}
+
 TEST(FindPlatform, RespectsTheLimitsOfHeightAndTilt) {
   PlatformSettings settings;
   settings.expected_height_mm = 100.0;
