@@ -148,7 +148,6 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
   if (foot.empty() || !foot.has_normals()) return closure;
   const GroundPlan plan = GroundPlan::round(foot, settings.spacing_mm, 2.5 * settings.bridge_mm);
   const Mask print = footprint(plan, foot, standing_height_mm, settings);
-  const Mask inside = plan.shrunk(print, 0.5 * settings.spacing_mm);
   const Mask seen = seen_sole(plan, foot, standing_height_mm);
   const auto walls = find_wall_feet(foot, standing_height_mm, settings.walls);
   for (const auto& wall : walls) {
@@ -158,7 +157,7 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
   for (int row = 0; row < plan.rows; ++row) {
     for (int column = 0; column < plan.columns; ++column) {
       const std::size_t cell = plan.at(column, row);
-      if (!inside[cell] || seen[cell]) continue;
+      if (!print[cell] || seen[cell]) continue;
       heights[cell] = skin_height(walls, plan.centre(column, row), 0.5 * settings.spacing_mm);
     }
   }

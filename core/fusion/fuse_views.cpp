@@ -173,7 +173,7 @@ std::vector<ViewedCloud> pick_feet(const ViewedCloud& points, const FusionSettin
   return feet;
 }
 
-/// Without a platform: the lowest points of the feet.
+/// Without a platform, seen or given: the lowest points of the feet.
 void estimate_standing_height(const std::vector<ViewedCloud>& feet, FusedScene& scene) {
   std::vector<double> heights;
   for (const auto& foot : feet) {
@@ -181,7 +181,10 @@ void estimate_standing_height(const std::vector<ViewedCloud>& feet, FusedScene& 
   }
   scene.standing_height_mm = quantile(std::move(heights), kLowestShare);
   scene.warnings.push_back(
-      "no camera saw the platform; its height is taken from the lowest points of the feet");
+      "no camera saw the platform; its height is taken from the lowest points of the feet, and "
+      "what "
+      "they measure may be too little: give its height (platform_height_mm), or turn a camera to "
+      "it");
 }
 
 std::vector<ViewErrors> errors_of(const std::vector<WorkingView>& views) {
@@ -202,7 +205,8 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   scene.diagnostics.points.push_back(foot.size());
   scene.diagnostics.coverage.push_back(coverage);
   if (coverage < kLeastCoverage) {
-    scene.warnings.push_back(name + " was not seen from all sides");
+    scene.warnings.push_back(
+        name + " was not seen from all sides: scan it alone, or turn a camera to its hidden side");
   }
   const SoleClosure closure = settings.close_soles
                                   ? close_sole(foot, scene.standing_height_mm, settings.sole)
@@ -252,7 +256,9 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   const auto feet = pick_feet(*points, settings, scene);
   if (!go_on()) return cancelled();
   if (feet.empty()) return tl::make_unexpected(no_foot(points->cloud, scene));
-  if (!scene.diagnostics.platform_found) estimate_standing_height(feet, scene);
+  scene.is_standing_height_known =
+      scene.diagnostics.platform_found || settings.platform_height_mm.has_value();
+  if (!scene.is_standing_height_known) estimate_standing_height(feet, scene);
   for (const auto& foot : feet) {
     finish_foot(foot, working, settings, scene);
     if (!go_on()) return cancelled();

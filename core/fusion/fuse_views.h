@@ -87,6 +87,8 @@ struct FusionDiagnostics {
 struct FusedScene {
   std::vector<PointCloud> feet;  ///< one or two, the larger first
   double standing_height_mm = 0.0;
+  /// Given, or seen as a platform; else it is that of the lowest that was seen of the feet.
+  bool is_standing_height_known = false;
   FusionDiagnostics diagnostics;
   std::vector<std::string> warnings;
 };

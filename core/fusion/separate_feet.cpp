@@ -25,6 +25,7 @@ constexpr double kFootLikeLengthMm = 120.0;  // a piece as long as this may be a
 constexpr double kOutlineMarginMm = 6.0;     // a small piece may lie so far outside the outline
 constexpr double kSplitBandMm = 8.0;         // width of the strip that is searched for a waist
 constexpr double kLeastSplitShare = 0.25;    // of a piece on the smaller side of a split
+constexpr double kWaistShare = 0.7;          // of the most ground at a line, between two feet
 constexpr double kNotableShare = 0.05;       // of the larger foot's surface, of a part left out
 
 /// Connected cells, each standing for the points in it.
@@ -71,6 +72,11 @@ std::vector<Piece> find_pieces(const std::vector<Vector3d>& positions, double li
   return pieces;
 }
 
+bool is_too_broad(const Piece& piece) {
+  const auto sides = enclosing_rectangle(piece.hull());
+  return sides.width > kWidestFoot * sides.length;
+}
+
 bool fits_a_foot(const Piece& piece, const SeparationSettings& settings) {
   const auto sides = enclosing_rectangle(piece.hull());
   return sides.length <= settings.most_length_mm && sides.width <= settings.most_width_mm;
@@ -92,8 +98,7 @@ bool may_join(const Piece& a, const Piece& b, const SeparationSettings& settings
   if (!fits_a_foot(both, settings)) return false;
   const bool two_feet = enclosing_rectangle(a.hull()).length > kFootLikeLengthMm &&
                         enclosing_rectangle(b.hull()).length > kFootLikeLengthMm;
-  const auto sides = enclosing_rectangle(both.hull());
-  return !two_feet || sides.width <= kWidestFoot * sides.length;
+  return !two_feet || !is_too_broad(both);
 }
 
 /// Joins the nearest two pieces that can be one foot, until none can.
@@ -119,6 +124,7 @@ void join_pieces(std::vector<Piece>& pieces, const SeparationSettings& settings)
 struct SplitLine {
   Vector2d direction;
   double offset;
+  bool is_at_waist;  ///< much less ground lies near it than near other lines
 };
 
 /// The ground that a piece covers, as squares of `side_mm`.
@@ -146,11 +152,16 @@ std::optional<SplitLine> thinnest_line(const std::vector<Vector2d>& ground,
   std::sort(offsets.begin(), offsets.end());
   std::size_t past = 0;
   std::size_t fewest = count;
+  std::size_t most = 0;
   for (std::size_t first = share; first + share < count; ++first) {
     while (past < count && offsets[past] <= offsets[first] + kSplitBandMm) ++past;
+    most = std::max(most, past - first);
     if (past + share > count || past - first >= fewest) continue;
     fewest = past - first;
-    best = SplitLine{direction, offsets[first] + 0.5 * kSplitBandMm};
+    best = SplitLine{direction, offsets[first] + 0.5 * kSplitBandMm, false};
+  }
+  if (best) {
+    best->is_at_waist = static_cast<double>(fewest) < kWaistShare * static_cast<double>(most);
   }
   return best;
 }
@@ -180,16 +191,19 @@ double area_as_a_foot(const Piece& piece, const SeparationSettings& settings) {
 }
 
 /// Splits a piece that is too large for one foot, if that gives two feet: of the thinnest lines of
-/// all directions the one that leaves the two tightest rectangles.
+/// all directions the one that leaves the two tightest rectangles. One that is only too broad for
+/// its length may be a forefoot alone; it is split at a waist.
 void split_piece(std::vector<Piece>& pieces, std::size_t at, const std::vector<Vector3d>& positions,
                  const SeparationSettings& settings) {
+  const bool is_too_large = !fits_a_foot(pieces[at], settings);
+  if (!is_too_large && !is_too_broad(pieces[at])) return;
   std::optional<std::array<Piece, 2>> best;
   double least_area = std::numeric_limits<double>::infinity();
   const auto ground = covered_ground(pieces[at], settings.link_mm);
   for (int degree = 0; degree < 180; degree += 5) {
     const double angle = degree * std::numbers::pi / 180.0;
     const auto line = thinnest_line(ground, {std::cos(angle), std::sin(angle)});
-    if (!line) continue;
+    if (!line || !(is_too_large || line->is_at_waist)) continue;
     auto sides = split_along(pieces[at], *line, positions);
     const double area = area_as_a_foot(sides[0], settings) + area_as_a_foot(sides[1], settings);
     if (area >= least_area) continue;
@@ -271,7 +285,7 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
     (large.size() < kMostPieces && !is_small(piece) ? large : small).push_back(piece);
   }
   for (std::size_t i = 0, count = large.size(); i < count; ++i) {
-    if (!fits_a_foot(large[i], settings)) split_piece(large, i, positions, settings);
+    split_piece(large, i, positions, settings);
   }
   join_pieces(large, settings);
   std::stable_sort(large.begin(), large.end(), larger);
@@ -298,12 +312,14 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
   separated.warnings = named_parts(feet, left_out, standing_height_mm, settings);
   if (are_many) {
     separated.warnings.push_back(
-        "more than two foot-like things stand on the platform; the two largest are taken");
+        "more than two foot-like things stand on the platform; the two largest are taken: leave "
+        "nothing else on it");
   }
   std::size_t kept = 0;
   for (auto& foot : feet) {
     if (!fits_a_foot(foot, settings)) {
-      separated.warnings.push_back("something larger than a foot stands on the platform");
+      separated.warnings.push_back(
+          "something larger than a foot stands on the platform: leave nothing else on it");
     }
     std::sort(foot.points.begin(), foot.points.end());
     kept += foot.points.size();

@@ -29,7 +29,8 @@ struct SeparatedFeet {
 ///
 /// Points that touch form pieces; pieces are joined, nearest first, as long as the joined one still
 /// fits into a foot's rectangle (and two pieces that look like feet are never joined side by side);
-/// a piece too wide for a foot is split where it is thinnest. Then small pieces go to the foot
+/// a piece too wide for a foot, or for its own length and thin somewhere between two feet, is split
+/// where it is thinnest. Then small pieces go to the foot
 /// whose outline they lie in, and everything else is stray; where such a thing stands and could be
 /// a part of a foot, too far away to be joined, a warning says so. No foot gives an empty list.
 SeparatedFeet separate_feet(const std::vector<Eigen::Vector3d>& positions,

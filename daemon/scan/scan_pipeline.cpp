@@ -112,6 +112,14 @@ std::map<std::string, double> truth_of(const Capture& capture, const FootScan& f
   return own;
 }
 
+/// Whoever stands there gives no points and no millimetres.
+Error of_scan(Error failure) {
+  failure.advice =
+      "stand with both feet flat on the platform, a hand's breadth apart and nothing else on it, "
+      "then scan again";
+  return failure;
+}
+
 ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, FootScan foot,
                      MeasureSet measures) {
   ScanRecord record;
@@ -128,6 +136,15 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   return record;
 }
 
+/// The larger foot leads; where one was not measured, it may be the other.
+void note_one_sided(const char* id, const MeasureSet& left, const MeasureSet& right,
+                    ShoeSizes& sizes) {
+  const bool has_left = left.find(id) != nullptr;
+  if (has_left == (right.find(id) != nullptr)) return;
+  sizes.notes.push_back(std::string("by the ") + (has_left ? "left" : "right") + " foot's " + id +
+                        " alone: the other foot's is missing and may be more");
+}
+
 void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
   const bool are_pair = records.size() == 2 && records[0].foot.side == Side::kLeft &&
                         records[1].foot.side == Side::kRight;
@@ -135,8 +152,9 @@ void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
   const auto& left = records[0].measures;
   const auto& right = records[1].measures;
   const SizedFoot larger = larger_of(sized_foot(left), sized_foot(right));
-  const ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
-                         shoe_sizes(records[0].foot, larger, rules)};
+  ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
+                   shoe_sizes(records[0].foot, larger, rules)};
+  for (const char* id : {"foot_length", "ball_girth"}) note_one_sided(id, left, right, pair.sizes);
   for (auto& record : records) record.pair = pair;
 }
 
@@ -176,9 +194,13 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   AlignmentOptions alignment;
   alignment.side = settings.side;
   alignment.rules = settings.measures;
-  alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
+  if (scene->is_standing_height_known) {
+    alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
+  } else {
+    alignment.up = Eigen::Vector3d::UnitZ();
+  }
   auto feet = align_feet(scene->feet, alignment);
-  if (!feet) return tl::make_unexpected(with_what_was_noticed(feet.error(), warnings));
+  if (!feet) return tl::make_unexpected(with_what_was_noticed(of_scan(feet.error()), warnings));
 
   std::vector<ScanRecord> records;
   for (auto& aligned : *feet) {

@@ -139,6 +139,25 @@ TEST(FuseViews, LevelsATiltedStation) {
   EXPECT_LE(highest, settings.foot_ceiling_mm);
 }
 
+/// Glass that gives no depth; what lies lowest of the feet is not on it.
+TEST(FuseViews, TakesAGivenHeightThoughNoCameraSawThePlatform) {
+  auto on_glass = standing_person();
+  on_glass.pop_back();
+  const auto views =
+      views_of(on_glass, ring_of_cameras(4, 450, 330, {0, 0, 20}), {1.4e-6, 0.7, 0.01});
+  const auto given = fuse_views(views, at_zero());
+  ASSERT_TRUE(given) << given.error().line();
+  EXPECT_FALSE(given->diagnostics.platform_found);
+  EXPECT_TRUE(given->is_standing_height_known);
+  EXPECT_EQ(given->standing_height_mm, 0.0);
+  EXPECT_EQ(joined(given->warnings).find("no camera saw the platform"), std::string::npos);
+  const auto guessed = fuse_views(views);
+  ASSERT_TRUE(guessed) << guessed.error().line();
+  EXPECT_FALSE(guessed->is_standing_height_known);
+  EXPECT_GT(std::abs(guessed->standing_height_mm), 2.0);
+  EXPECT_NE(joined(guessed->warnings).find("platform_height_mm"), std::string::npos);
+}
+
 TEST(FuseViews, RefinesNominalPoses) {
   auto views = good_views();
   const Vector3d shifts[] = {{8, 3, -4}, {-6, 5, 3}, {2, -7, 5}, {-3, -3, -6}};

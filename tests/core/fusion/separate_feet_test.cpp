@@ -60,6 +60,35 @@ TEST(SeparateFeet, SplitsTwoFeetThatTouch) {
   }
 }
 
+/// Both together are no larger than one large foot, but too broad for one.
+TEST(SeparateFeet, SplitsAChildsFeetThatTouch) {
+  for (const double length : {150.0, 180.0, 210.0}) {
+    const double width = 0.39 * length;
+    std::vector<Vector3d> points;
+    add_foot(points, 0, 0, length, width, 45);
+    const std::size_t count = points.size();
+    add_foot(points, 5, width - 1, length - 3, width, 45);
+    const auto separated = separate_feet(points, 0.0);
+    ASSERT_EQ(separated.feet.size(), 2U) << length;
+    for (const auto& foot : separated.feet) {
+      const auto [a, b] = shares(foot, count);
+      EXPECT_LT(static_cast<double>(std::min(a, b)), 0.05 * static_cast<double>(std::max(a, b)));
+    }
+  }
+}
+
+TEST(SeparateFeet, DoesNotSplitAForefootAlone) {
+  std::vector<Vector3d> whole;
+  add_foot(whole, 0, 0, 260, 100);
+  std::vector<Vector3d> front;
+  for (const auto& point : whole) {
+    if (point.x() > -10.0) front.push_back(point);
+  }
+  const auto separated = separate_feet(front, 0.0);
+  ASSERT_EQ(separated.feet.size(), 1U);
+  EXPECT_EQ(separated.feet[0].size(), front.size());
+}
+
 TEST(SeparateFeet, TakesOneFootForOneFootEvenInPieces) {
   std::vector<Vector3d> whole;
   add_foot(whole, 0, 0, 260, 100);
