@@ -73,10 +73,12 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
   foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
   foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
                                   "foremost point of the toes along the axis"};
+  if (!axis.toe2_tip) return;
   foot.landmarks["toe2_tip"] =
       axis.is_second_toe_resolved
-          ? Landmark{axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
-          : Landmark{axis.toe2_tip, 0.4, "front border at 0.415 of the ball's breadth from medial"};
+          ? Landmark{*axis.toe2_tip, 0.9, "summit of the second toe on the front border"}
+          : Landmark{*axis.toe2_tip, 0.4,
+                     "front border at 0.415 of the ball's breadth from medial"};
 }
 
 /// A foot's cloud put into its own frame, if it stands on a plane.

@@ -29,8 +29,9 @@ struct AlignmentOptions {
 ///
 /// The axis is, unless the rules say otherwise, `pt_toe2` of the Japanese standard: from the
 /// pternion to the tip of the second toe, in floor projection. An axis whose marks the points do
-/// not show gives way to it, with a warning. The landmarks `pternion`, `acropodion` and `toe2_tip`
-/// are set; the others are find_landmarks()'s business.
+/// not show gives way to it, and it to that of the outline, with a warning. The landmarks
+/// `pternion`, `acropodion` and, where the front has a border, `toe2_tip` are set; the others are
+/// find_landmarks()'s business.
 ///
 /// Strays and what stands apart are left out; of large parts of one foot a warning tells. A sole
 /// that was not seen is closed on the floor (close_open_sole()), with a warning. A leg above the

@@ -114,21 +114,28 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
     axis.acropodion = foremost(points, rear.x() + 0.75 * start.length_mm) - heel;
     const auto toe =
         find_second_toe(outline_of_right_foot(points, heel, medial_sign), start.length_mm);
-    if (!toe) break;
-    axis.is_second_toe_resolved = toe->is_resolved;
-    const Vector2d tip(toe->tip.x(), medial_sign * toe->tip.y());
-    const double height = tip_height(points, tip + heel.head<2>(), axis.acropodion.z());
-    axis.toe2_tip = {tip.x(), tip.y(), height};
-    double wanted = std::atan2(axis.toe2_tip.y(), axis.toe2_tip.x());
-    if (axis.rule != AxisRule::kSecondToe) {
-      const auto by_rule =
-          axis_turn(axis.rule, as_right_foot(points, heel, medial_sign), axis.acropodion.x());
-      if (by_rule) wanted = medial_sign * *by_rule;
-      if (!by_rule) axis.rule = AxisRule::kSecondToe;
+    axis.toe2_tip.reset();
+    axis.is_second_toe_resolved = toe && toe->is_resolved;
+    if (toe) {
+      const Vector2d tip(toe->tip.x(), medial_sign * toe->tip.y());
+      const double height = tip_height(points, tip + heel.head<2>(), axis.acropodion.z());
+      axis.toe2_tip = {tip.x(), tip.y(), height};
     }
+    const auto by_rule = [&]() -> std::optional<double> {
+      if (axis.rule == AxisRule::kSecondToe) {
+        return toe ? std::optional(std::atan2(toe->tip.y(), toe->tip.x())) : std::nullopt;
+      }
+      return axis_turn(axis.rule, as_right_foot(points, heel, medial_sign), axis.acropodion.x());
+    };
+    auto wanted = by_rule();
+    while (!wanted && axis.rule != AxisRule::kOutline) {
+      axis.rule = axis.rule == AxisRule::kSecondToe ? AxisRule::kOutline : AxisRule::kSecondToe;
+      wanted = by_rule();
+    }
+    if (!wanted) break;
     // Where the tip jumps to and fro between two toes or rules, the axis comes to rest between.
-    if (wanted * turn < 0.0) share *= 0.5;
-    turn = share * wanted;
+    if (medial_sign * *wanted * turn < 0.0) share *= 0.5;
+    turn = share * medial_sign * *wanted;
     if (std::abs(turn) < kStandsStillRad) break;
     axis.foot_from_standing =
         RigidTransform(Eigen::AngleAxisd(-turn, Vector3d::UnitZ())) * axis.foot_from_standing;

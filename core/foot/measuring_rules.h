@@ -55,7 +55,7 @@ struct MeasuringRules {
 std::string in_words(const MeasuringRules& rules);
 
 /// By which choice a measure was taken, where that is not the default: "shortest" of `ball_girth`,
-/// "axis brannock" of `foot_length`, on which the axis tells most. Else empty.
+/// "axis brannock" of `foot_length`, which all look at first. Else empty.
 std::string own_choice(std::string_view measure_id, const MeasuringRules& rules);
 
 /// The names of the choices in files and on the command line.

@@ -32,7 +32,7 @@ std::optional<Eigen::Vector2d> long_direction(const std::vector<Eigen::Vector3d>
 /// the low one (toes). Good to a few degrees: the start for a foot axis by landmarks.
 ///
 /// `points` stand on z = 0. Fails, saying why, where the body has no foot's length (120-360 mm), no
-/// foot's breadth, or no end that is clearly lower than the other, as toes are.
+/// foot's breadth, or not the heights of toes at its lower end and of an instep behind them.
 Result<OutlineAxis> find_outline_axis(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace instep

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/principal_frame.h"
 #include "core/geometry/voxel_grid.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
@@ -15,18 +17,41 @@ using Eigen::Vector3d;
 constexpr double kLeastLinkMm = 8.0;
 constexpr double kPartShare = 0.25;        ///< of the largest piece, from which on one is a part
 constexpr double kFewPointsShare = 0.002;  ///< a piece smaller than this is a handful of strays
+constexpr double kBeyondBoxShare = 0.02;   ///< of the points, to each side of the box of most
 
-/// Points spread over a body about as large as their box lie this far apart.
+/// Points spread over a body about as large as the box of most of them lie this far apart; a stray
+/// may be metres away.
 double rough_spacing(const std::vector<Vector3d>& points) {
-  AlignedBox3d box;
-  for (const auto& point : points) box.extend(point);
-  return box.diagonal().norm() / std::sqrt(static_cast<double>(points.size()));
+  double squared = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    for (const auto& point : points) places.push_back(point(axis));
+    const double from = quantile(places, kBeyondBoxShare);
+    squared += std::pow(quantile(std::move(places), 1.0 - kBeyondBoxShare) - from, 2);
+  }
+  return std::sqrt(squared / static_cast<double>(points.size()));
 }
 
-struct Piece {
-  std::size_t points = 0;
+/// The box of a piece along its own principal axes, however it lies in the cloud.
+struct TurnedBox {
+  RigidTransform box_from_cloud;
   AlignedBox3d box;
+
+  explicit TurnedBox(const std::vector<Vector3d>& points)
+      : box_from_cloud(principal_from_input(points)) {
+    for (const auto& point : points) box.extend(box_from_cloud * point);
+  }
+
+  bool contains(const Vector3d& point) const { return box.contains(box_from_cloud * point); }
 };
+
+using Piece = std::vector<Vector3d>;
+
+Vector3d middle_of(const Piece& piece) {
+  AlignedBox3d box;
+  for (const auto& point : piece) box.extend(point);
+  return box.center();
+}
 
 }  // namespace
 
@@ -36,30 +61,28 @@ StandingBody standing_body(const std::vector<Vector3d>& points, bool is_one_foot
   const VoxelGrid grid(points, std::max(kLeastLinkMm, 2.0 * rough_spacing(points)));
   const auto piece_of = grid.clusters_of_points();
   std::vector<Piece> pieces(1 + *std::max_element(piece_of.begin(), piece_of.end()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    ++pieces[piece_of[i]].points;
-    pieces[piece_of[i]].box.extend(points[i]);
-  }
+  for (std::size_t i = 0; i < points.size(); ++i) pieces[piece_of[i]].push_back(points[i]);
   const auto largest =
       std::max_element(pieces.begin(), pieces.end(),
-                       [](const Piece& a, const Piece& b) { return a.points < b.points; });
+                       [](const Piece& a, const Piece& b) { return a.size() < b.size(); });
+  const TurnedBox box(*largest);
   const auto few = kFewPointsShare * static_cast<double>(points.size());
+  const auto share_of = [&](const Piece& piece) {
+    return static_cast<double>(piece.size()) / static_cast<double>(largest->size());
+  };
   const auto is_part = [&](const Piece& piece) {
-    return is_one_foot &&
-           static_cast<double>(piece.points) >= kPartShare * static_cast<double>(largest->points);
+    return is_one_foot && share_of(piece) >= kPartShare;
   };
-  const auto belongs = [&](const Piece& piece) {
-    return &piece == &*largest || is_part(piece) ||
-           (static_cast<double>(piece.points) > few && largest->box.contains(piece.box.center()));
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (belongs(pieces[piece_of[i]])) body.points.push_back(i);
-  }
+  std::vector<bool> belongs;
   for (const auto& piece : pieces) {
+    const bool is_within =
+        static_cast<double>(piece.size()) > few && box.contains(middle_of(piece));
+    belongs.push_back(&piece == &*largest || is_part(piece) || is_within);
     if (&piece != &*largest && is_part(piece)) ++body.parts;
-    if (belongs(piece)) continue;
-    body.next_share = std::max(
-        body.next_share, static_cast<double>(piece.points) / static_cast<double>(largest->points));
+    if (!belongs.back()) body.next_share = std::max(body.next_share, share_of(piece));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (belongs[piece_of[i]]) body.points.push_back(i);
   }
   body.apart_share =
       1.0 - static_cast<double>(body.points.size()) / static_cast<double>(points.size());

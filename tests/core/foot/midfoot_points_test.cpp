@@ -46,7 +46,7 @@ TEST(MidfootPoints, AreNotOnTheOtherSideWhereTheirOwnWasNotSeen) {
     for (std::size_t i = 0; i < half.cloud.size(); ++i) {
       const auto& point = half.cloud.positions[i];
       const bool is_midfoot = std::abs(point.x() - 0.45 * 260.0) < 0.25 * 260.0;
-      const bool is_lost = is_midfoot && point.z() < 40.0 && half.medial_sign() * point.y() > -15.0;
+      const bool is_lost = is_midfoot && point.z() < 40.0 && half.medial_sign() * point.y() > -35.0;
       if (!is_lost) kept.push_back(i);
     }
     half.cloud = half.cloud.subset(kept);

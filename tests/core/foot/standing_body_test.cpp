@@ -27,6 +27,28 @@ TEST(StandingBody, LeavesOutWhatStandsApart) {
   EXPECT_TRUE(standing_body({}, false).points.empty());
 }
 
+TEST(StandingBody, IsPartedFromTheNextWhateverStraysAreFarAway) {
+  auto points = FootBody{260.0, 3.0}.points().positions;
+  const std::size_t of_foot = points.size();
+  for (int i = 0; i < 400; ++i) points.emplace_back(100.0 + i % 20, 110.0 + i / 20, 5.0);
+  points.emplace_back(3000.0, 0.0, 30.0);
+  EXPECT_EQ(standing_body(points, false).points.size(), of_foot);
+}
+
+TEST(StandingBody, IsTheSameHoweverItLies) {
+  const auto foot = FootBody{}.points().positions;
+  auto both = foot;
+  for (const auto& point : foot) {
+    if (point.x() < 90.0) both.push_back(point - Vector3d(0.0, 160.0, 0.0));
+  }
+  for (const double turn : {0.0, 0.4, 0.8, 1.2, 2.4}) {
+    auto turned = both;
+    const Eigen::AngleAxisd by(turn, Vector3d(0.1, 0.2, 1.0).normalized());
+    for (auto& point : turned) point = by * point;
+    EXPECT_EQ(standing_body(turned, false).points.size(), foot.size()) << turn;
+  }
+}
+
 /// A strip that no camera saw parts the heel from the forefoot; a roll of tape stands behind it.
 TEST(StandingBody, OfOneFootHoldsItsPartsButNothingSmall) {
   const auto foot = FootBody{}.points();

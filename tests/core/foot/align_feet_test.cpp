@@ -1,0 +1,127 @@
+#include "core/foot/align_feet.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <string>
+
+#include "tests/support/foot_body.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Two feet side by side, their toes on +x: of a person who looks that way, the left one has the
+/// greater y.
+constexpr double kBesideMm = 75.0;
+
+PointCloud at(PointCloud cloud, double y, double turn = 0.0) {
+  RigidTransform move(Eigen::AngleAxisd(turn, Vector3d::UnitZ()));
+  move.pretranslate(Vector3d(0.0, y, 0.0));
+  return transformed(move, cloud);
+}
+
+PointCloud right_foot() {
+  return test::FootBody{}.points();
+}
+PointCloud left_foot() {
+  return test::mirrored(test::FootBody{}.points());
+}
+
+bool says(const FootScan& foot, const std::string& words) {
+  for (const auto& warning : foot.warnings) {
+    if (warning.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+AlignmentOptions on_the_floor() {
+  AlignmentOptions options;
+  options.standing_plane = StandingPlane{};
+  return options;
+}
+
+TEST(AlignFeet, ReturnsTheLeftOneFirst) {
+  const std::vector<PointCloud> both{at(right_foot(), -kBesideMm), at(left_foot(), kBesideMm)};
+  for (const bool are_swapped : {false, true}) {
+    const auto feet =
+        align_feet(are_swapped ? std::vector{both[1], both[0]} : both, on_the_floor());
+    ASSERT_TRUE(feet) << feet.error().line();
+    ASSERT_EQ(feet->size(), 2U);
+    EXPECT_EQ((*feet)[0].side, Side::kLeft);
+    EXPECT_EQ((*feet)[1].side, Side::kRight);
+    for (const auto& foot : *feet) {
+      EXPECT_GE(foot.side_confidence, 0.85);
+      EXPECT_FALSE(says(foot, "crossed"));
+    }
+  }
+}
+
+/// A side that was forced is for a foot alone.
+TEST(AlignFeet, TellsTwoFeetBySideWhateverSideIsForced) {
+  auto options = on_the_floor();
+  options.side = Side::kRight;
+  const auto feet = align_feet({at(right_foot(), -kBesideMm), at(left_foot(), kBesideMm)}, options);
+  ASSERT_TRUE(feet) << feet.error().line();
+  EXPECT_EQ(feet->front().side, Side::kLeft);
+  const auto alone = align_feet({left_foot()}, options);
+  ASSERT_TRUE(alone) << alone.error().line();
+  EXPECT_EQ(alone->front().side, Side::kRight);
+}
+
+TEST(AlignFeet, GoesByThePlaceOfCrossedFeetAndSaysSo) {
+  const auto feet =
+      align_feet({at(left_foot(), -kBesideMm), at(right_foot(), kBesideMm)}, on_the_floor());
+  ASSERT_TRUE(feet) << feet.error().line();
+  ASSERT_EQ(feet->size(), 2U);
+  EXPECT_EQ((*feet)[0].side, Side::kLeft);
+  EXPECT_EQ((*feet)[1].side, Side::kRight);
+  for (const auto& foot : *feet) EXPECT_TRUE(says(foot, "not crossed"));
+}
+
+TEST(AlignFeet, KeepsTheShapesOfFeetThatPointDifferentWays) {
+  const auto feet =
+      align_feet({at(right_foot(), -kBesideMm), at(right_foot(), kBesideMm, 3.0)}, on_the_floor());
+  ASSERT_TRUE(feet) << feet.error().line();
+  ASSERT_EQ(feet->size(), 2U);
+  for (const auto& foot : *feet) {
+    EXPECT_EQ(foot.side, Side::kRight);
+    EXPECT_TRUE(says(foot, "same side"));
+  }
+}
+
+/// A box of 100 x 60 x 40 mm: as long as what may be a foot, but none.
+PointCloud box() {
+  PointCloud cloud;
+  for (double x = 0.0; x <= 100.0; x += 2.0) {
+    for (double y = 0.0; y <= 60.0; y += 2.0) cloud.positions.emplace_back(x, y, 40.0);
+    for (double z = 0.0; z <= 40.0; z += 2.0) {
+      cloud.positions.emplace_back(x, 0.0, z);
+      cloud.positions.emplace_back(x, 60.0, z);
+    }
+  }
+  return cloud;
+}
+
+TEST(AlignFeet, LeavesOutWhatIsNoFootBesideOne) {
+  for (const bool is_first : {false, true}) {
+    std::vector<PointCloud> clouds{right_foot(), at(box(), 120.0)};
+    if (is_first) std::swap(clouds[0], clouds[1]);
+    const auto feet = align_feet(clouds, on_the_floor());
+    ASSERT_TRUE(feet) << feet.error().line();
+    ASSERT_EQ(feet->size(), 1U);
+    EXPECT_EQ(feet->front().side, Side::kRight);
+    EXPECT_TRUE(says(feet->front(), "was left out: this is not a foot"));
+  }
+}
+
+TEST(AlignFeet, FailsWhereThereIsNone) {
+  const auto feet = align_feet({box(), at(box(), 120.0)}, on_the_floor());
+  ASSERT_FALSE(feet);
+  EXPECT_NE(feet.error().message.find("not a foot"), std::string::npos);
+  EXPECT_TRUE(align_feet({})->empty());
+}
+
+}  // namespace
+}  // namespace instep
