@@ -150,11 +150,9 @@ struct Crest {
   Vector3d reach;             ///< coefficients of 1, x, x^2
 
   Crest(const Terms& c, double from, double to) {
-    const auto reach_at = [&](double y) { return (c(2) + c(5) * y) * y; };
-    const double end = reach_at(to) > reach_at(from) ? to : from;
-    const double vertex = c(5) < 0.0 ? -c(2) / (2.0 * c(5)) : end;
+    const double vertex = c(5) < 0.0 ? -c(2) / (2.0 * c(5)) : (c(2) > 0.0 ? to : from);
     across = std::clamp(vertex, from, to);
-    if (c(5) < 0.0 && across == vertex) across_slope = -c(4) / (2.0 * c(5));
+    if (across == vertex) across_slope = -c(4) / (2.0 * c(5));
     const double y = across;
     const double s = across_slope;
     reach = {c(0) + (c(2) + c(5) * y) * y, c(1) + c(4) * y + (c(2) + 2.0 * c(5) * y) * s,

@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 constexpr double kLeastLinkMm = 8.0;
 constexpr double kPartShare = 0.25;        ///< of the largest piece, from which on one is a part
 constexpr double kFewPointsShare = 0.002;  ///< a piece smaller than this is a handful of strays
+constexpr double kBesideMm = 15.0;         ///< as far outside the box a piece may lie
 constexpr double kBeyondBoxShare = 0.02;   ///< of the points, to each side of the box of most
 
 /// Points spread over a body about as large as the box of most of them lie this far apart; a stray
@@ -32,7 +33,8 @@ double rough_spacing(const std::vector<Vector3d>& points) {
   return std::sqrt(squared / static_cast<double>(points.size()));
 }
 
-/// The box of a piece along its own principal axes, however it lies in the cloud.
+/// The box of a piece along its own principal axes, however it lies in the cloud, and some more: a
+/// side that was seen apart from the rest lies beside the others.
 struct TurnedBox {
   RigidTransform box_from_cloud;
   AlignedBox3d box;
@@ -40,6 +42,8 @@ struct TurnedBox {
   explicit TurnedBox(const std::vector<Vector3d>& points)
       : box_from_cloud(principal_from_input(points)) {
     for (const auto& point : points) box.extend(box_from_cloud * point);
+    box.min().array() -= kBesideMm;
+    box.max().array() += kBesideMm;
   }
 
   bool contains(const Vector3d& point) const { return box.contains(box_from_cloud * point); }

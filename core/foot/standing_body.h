@@ -16,7 +16,7 @@ struct StandingBody {
 
 /// Parts the points into pieces that touch, within twice their spacing or 8 mm, whichever is more.
 /// The largest piece is the body, with those pieces that lie within its box, along its principal
-/// axes: a scan with unseen
+/// axes, or by 15 mm beside it: a scan with unseen
 /// strips comes in pieces. Strays and the remains of another foot are left out; but where the
 /// points are known to be of one foot, a piece of at least a quarter of the largest one is a part
 /// of it: a heel with its leg, or a forefoot, but nothing small that stands there. O(n log n).

@@ -14,6 +14,13 @@
 namespace instep {
 namespace {
 
+std::string why_withheld(const MeasureSet& set, const std::string& id) {
+  for (const auto& one : set.withheld) {
+    if (one.id == id) return one.reason;
+  }
+  return "";
+}
+
 /// One camera carried round two standing feet in 8 steps; one frame each, nominal poses.
 class FuseViewsOfARealCamera : public testing::Test {
  protected:
@@ -68,7 +75,7 @@ TEST_F(FuseViewsOfARealCamera, GivesEverySectionOfBothFeetAsOneSkinWithoutSpurs)
     ASSERT_TRUE(measured) << measured.error().line();
     for (const char* id : {"ball_girth", "waist_girth", "instep_girth"}) {
       const auto* measure = measured->find(id);
-      ASSERT_NE(measure, nullptr) << id;
+      ASSERT_NE(measure, nullptr) << id << ": " << why_withheld(*measured, id);
       // A foot has hardly a hollow there; a spur is walked up and down again.
       EXPECT_LT(measure->girth->contact_mm, 1.01 * measure->girth->stretched_mm) << id;
     }
