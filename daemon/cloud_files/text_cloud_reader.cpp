@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "daemon/cloud_files/text_columns.h"
 #include "daemon/cloud_files/text_tokens.h"
 
 namespace instep {
@@ -13,7 +14,8 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t,;\v\f";
 constexpr std::string_view kSeparatorsButCommas = " \t;\v\f";
-constexpr std::size_t kMostColumns = 6;
+constexpr std::size_t kMostColumns = 64;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// The numbers of one line.
 struct Row {
@@ -25,6 +27,14 @@ struct Row {
 bool is_empty_or_comment(std::string_view line) {
   const auto start = line.find_first_not_of(" \t");
   return start == line.npos || line[start] == '#' || line.substr(start, 2) == "//";
+}
+
+std::string_view without_comment_sign(std::string_view line) {
+  return line.substr(std::min(line.size(), line.find_first_not_of(" \t#/")));
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
 }
 
 bool is_digit(char letter) {
@@ -69,14 +79,79 @@ Row parse_row(std::string_view line) {
   return row;
 }
 
-bool is_point(const Row& row) {
-  return row.all_numbers && (row.words == 3 || row.words == 6);
-}
-
 tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
                                const std::string& what) {
   return fail(ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
-              "give 3 or 6 numbers in each line, parted by blanks, commas or semicolons");
+              "give 3 or 6 numbers in each line, parted by blanks, commas or semicolons, or name "
+              "the columns in a heading: x, y, z, nx, ny, nz");
+}
+
+/// The columns of a file, from its lines before the first point and from that one.
+class Columns {
+ public:
+  /// A comment may name them, or speak of anything.
+  void hear_comment(std::string_view line) {
+    if (!columns_) remarked_ = columns_named_by(without_comment_sign(line));
+  }
+
+  /// Whether the line is taken for a heading, which stands once and before all points.
+  bool is_heading(std::string_view line, const Row& row) {
+    const bool may_be = !columns_ && !heading_seen_ && (!row.all_numbers || row.words == 1);
+    if (!may_be) return false;
+    heading_seen_ = true;
+    named_ = columns_named_by(line);
+    return true;
+  }
+
+  /// Of a line of so many numbers.
+  Result<TextColumns> of(std::size_t words, const std::string& file, std::size_t number) {
+    if (!columns_ && named_) columns_ = named_;
+    if (!columns_ && remarked_ && remarked_->count == words) columns_ = remarked_;
+    if (!columns_) columns_ = usual_columns(words);
+    if (!columns_) return bad_line(file, number, "is no point");
+    if (columns_->count == words) return *columns_;
+    return bad_line(file, number,
+                    fmt::format("has {} numbers, {} {}", words,
+                                named_ ? "its heading" : "the first", columns_->count));
+  }
+
+ private:
+  std::optional<TextColumns> columns_;
+  std::optional<TextColumns> named_;
+  std::optional<TextColumns> remarked_;
+  bool heading_seen_ = false;
+};
+
+/// How the commas of a file are meant: alike in all its lines that have commas or points.
+class Commas {
+ public:
+  Result<void> check(std::string_view line, const std::string& file, std::size_t number) {
+    if (line.find_first_of(",.") == line.npos) return {};
+    const bool decimal = has_decimal_commas(line);
+    if (are_decimal_.value_or(decimal) != decimal) {
+      return bad_line(file, number,
+                      "has decimal commas and others none, or none and others have them");
+    }
+    are_decimal_ = decimal;
+    if (!decimal && has_commas_and_semicolons(line)) {
+      return bad_line(file, number, "has commas and semicolons, so the numbers cannot be told");
+    }
+    return {};
+  }
+
+ private:
+  std::optional<bool> are_decimal_;
+};
+
+void add_point(const Row& row, const TextColumns& columns, PointCloud& cloud) {
+  const auto& v = row.values;
+  const auto& [x, y, z] = columns.position;
+  cloud.positions.emplace_back(v[x], v[y], v[z]);
+  if (columns.normal) {
+    const auto& [nx, ny, nz] = *columns.normal;
+    cloud.normals.emplace_back(v[nx], v[ny], v[nz]);
+  }
+  if (columns.sigma_mm) cloud.sigma_mm.push_back(v[*columns.sigma_mm]);
 }
 
 }  // namespace
@@ -84,50 +159,35 @@ tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
 Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file) {
   RawCloud raw;
   raw.format = "text";
-  TextLines lines(text);
+  TextLines lines(without_byte_order_mark(text));
   std::size_t number = 0;
-  std::size_t columns = 0;
-  bool heading_seen = false;
-  std::optional<bool> decimal_commas;
+  Columns columns;
+  Commas commas;
   while (const auto line = lines.next()) {
     ++number;
-    if (is_empty_or_comment(*line)) continue;
-    const Row row = parse_row(*line);
-    const bool may_be_heading = columns == 0 && !heading_seen;
-    if (may_be_heading && (!row.all_numbers || row.words == 1)) {
-      heading_seen = true;
+    if (is_empty_or_comment(*line)) {
+      columns.hear_comment(*line);
       continue;
     }
-    if (!is_point(row)) return bad_line(file, number, "is no point");
-    if (line->find_first_of(",.") != line->npos) {
-      const bool decimal = has_decimal_commas(*line);
-      if (decimal_commas.value_or(decimal) != decimal) {
-        return bad_line(file, number,
-                        "has decimal commas and others none, or none and others have them");
-      }
-      decimal_commas = decimal;
-      if (!decimal && has_commas_and_semicolons(*line)) {
-        return bad_line(file, number, "has commas and semicolons, so the numbers cannot be told");
-      }
-    }
-    if (columns == 0) columns = row.words;
-    if (row.words != columns) {
-      return bad_line(file, number,
-                      fmt::format("has {} numbers, the first {}", row.words, columns));
+    const Row row = parse_row(*line);
+    if (columns.is_heading(*line, row)) continue;
+    if (!row.all_numbers || row.words > kMostColumns) return bad_line(file, number, "is no point");
+    const auto own = columns.of(row.words, file, number);
+    if (!own) return tl::unexpected(own.error());
+    if (auto clear = commas.check(*line, file, number); !clear) {
+      return tl::unexpected(clear.error());
     }
     if (raw.cloud.size() >= kMostFilePoints) {
       return fail(ErrorCode::kUnsupported,
                   fmt::format("{} has more than {} points", file, kMostFilePoints), "thin it out");
     }
-    const auto& v = row.values;
-    raw.cloud.positions.emplace_back(v[0], v[1], v[2]);
-    if (columns == 6) raw.cloud.normals.emplace_back(v[3], v[4], v[5]);
+    add_point(row, *own, raw.cloud);
   }
   return raw;
 }
 
 bool looks_like_text_cloud(std::string_view text) {
-  TextLines lines(text);
+  TextLines lines(without_byte_order_mark(text));
   int looked_at = 0;
   while (const auto line = lines.next()) {
     if (is_empty_or_comment(*line)) continue;

@@ -11,10 +11,12 @@ namespace instep {
 /// Reads points from lines of text: x y z, or x y z nx ny nz, parted by spaces, tabs, commas or
 /// semicolons, with decimal points or, where no commas part them and there are no decimal points,
 /// decimal commas. A semicolon may end a line. Empty lines, comments (# or //) and one heading line
-/// before the first point are passed over; so is a lone count of points there.
+/// before the first point are passed over; so is a lone count of points there. A heading, or a
+/// comment before the first point with as many words as it has numbers, that names x, y and z says
+/// which columns count (columns_named_by()).
 ///
 /// Fails with kCorruptData and the number of the line where another line is no point or has another
-/// number of columns than the first, and where it cannot be told what commas mean.
+/// number of columns than the heading or the first, and where it cannot be told what commas mean.
 Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file);
 
 /// True if the first line that is not a comment or a heading begins with numbers: to tell a cloud

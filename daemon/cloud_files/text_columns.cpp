@@ -1,0 +1,80 @@
+#include "daemon/cloud_files/text_columns.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <vector>
+
+#include "daemon/cloud_files/text_tokens.h"
+
+namespace instep {
+namespace {
+
+/// In lower case; what stands in brackets and quotes left out, a bracket after a blank as well.
+std::vector<std::string> names_in(std::string_view heading) {
+  std::string plain;
+  int depth = 0;
+  for (const char letter : heading) {
+    const bool opens = letter == '(' || letter == '[';
+    const bool closes = letter == ')' || letter == ']';
+    depth = std::max(0, depth + (opens ? 1 : 0) - (closes ? 1 : 0));
+    if (depth > 0 || closes || letter == '"' || letter == '\'') continue;
+    plain += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  }
+  std::vector<std::string> names;
+  std::string_view rest = plain;
+  for (auto name = take_word(rest, " \t,;\v\f"); !name.empty();
+       name = take_word(rest, " \t,;\v\f")) {
+    names.emplace_back(name);
+  }
+  return names;
+}
+
+/// Where one of two names stands; nothing if nowhere, or at two places.
+std::optional<std::size_t> place_of(const std::vector<std::string>& names, const std::string& name,
+                                    const std::string& other) {
+  std::optional<std::size_t> place;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] != name && names[i] != other) continue;
+    if (place) return std::nullopt;
+    place = i;
+  }
+  return place;
+}
+
+std::optional<std::array<std::size_t, 3>> places_of(const std::vector<std::string>& names,
+                                                    const std::string& before,
+                                                    const std::string& before_other) {
+  std::array<std::size_t, 3> places{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string letter(1, "xyz"[axis]);
+    const auto place = place_of(names, before + letter, before_other + letter);
+    if (!place) return std::nullopt;
+    places[axis] = *place;
+  }
+  return places;
+}
+
+}  // namespace
+
+std::optional<TextColumns> usual_columns(std::size_t count) {
+  if (count != 3 && count != 6) return std::nullopt;
+  TextColumns columns;
+  columns.count = count;
+  if (count == 6) columns.normal = {3, 4, 5};
+  return columns;
+}
+
+std::optional<TextColumns> columns_named_by(std::string_view heading) {
+  const auto names = names_in(heading);
+  const auto position = places_of(names, "", "");
+  if (!position) return std::nullopt;
+  TextColumns columns;
+  columns.count = names.size();
+  columns.position = *position;
+  columns.normal = places_of(names, "n", "normal_");
+  columns.sigma_mm = place_of(names, "sigma_mm", "sigma_mm");
+  return columns;
+}
+
+}  // namespace instep

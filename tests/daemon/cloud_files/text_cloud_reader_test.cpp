@@ -1,0 +1,90 @@
+#include "daemon/cloud_files/text_cloud_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d kFirst(1.5, -2.0, 3.0);
+const Vector3d kSecond(4.0, 5.0, 6.0);
+
+void expect_both(const std::string& text) {
+  const auto raw = read_text_cloud(text, "t.csv");
+  ASSERT_TRUE(raw) << text << raw.error().line();
+  ASSERT_EQ(raw->cloud.size(), 2U) << text;
+  EXPECT_EQ(raw->cloud.positions[0], kFirst) << text;
+  EXPECT_EQ(raw->cloud.positions[1], kSecond) << text;
+}
+
+TEST(TextCloudReader, TakesColumnsByTheirNames) {
+  for (const char* text :
+       {"y,z,x\n-2,3,1.5\n5,6,4\n", "Z;X;Y\n3;1,5;-2\n6;4;5\n",
+        "x y z r g b\n1.5 -2 3 200 10 10\n4 5 6 10 10 10\n",
+        "id,time,x,y,z,q\n1,0.1,1.5,-2,3,0\n2,0.2,4,5,6,0\n",
+        "\"x [mm]\",\"y [mm]\",\"z [mm]\",\"c\"\n1.5,-2,3,9\n4,5,6,9\n",
+        "X (mm) Y (mm) Z (mm)\n1.5 -2 3\n4 5 6\n", "//X Y Z Intensity\n1.5 -2 3 7\n4 5 6 7\n",
+        "# z, y, x\n3, -2, 1.5\n6, 5, 4\n"}) {
+    expect_both(text);
+  }
+}
+
+TEST(TextCloudReader, TakesColoursForNoNormals) {
+  const auto raw = read_text_cloud("x,y,z,r,g,b\n1,2,3,10,20,30\n", "t.csv");
+  ASSERT_TRUE(raw);
+  EXPECT_FALSE(raw->cloud.has_normals());
+}
+
+TEST(TextCloudReader, TakesNormalsAndNoiseByTheirNames) {
+  for (const char* text : {"nx,ny,nz,x,y,z,sigma_mm\n0,0,1,1.5,-2,3,0.25\n",
+                           "sigma_mm Normal_X Normal_Y Normal_Z z x y\n0.25 0 0 1 3 1.5 -2\n"}) {
+    const auto raw = read_text_cloud(text, "t.csv");
+    ASSERT_TRUE(raw) << raw.error().line();
+    EXPECT_EQ(raw->cloud.positions[0], kFirst);
+    ASSERT_EQ(raw->cloud.normals.size(), 1U);
+    EXPECT_EQ(raw->cloud.normals[0], Vector3d::UnitZ());
+    ASSERT_EQ(raw->cloud.sigma_mm.size(), 1U);
+    EXPECT_EQ(raw->cloud.sigma_mm[0], 0.25);
+  }
+}
+
+/// A heading or a remark that names no columns says nothing of them.
+TEST(TextCloudReader, TakesUnnamedColumnsInTheirUsualOrder) {
+  for (const char* text : {"foot of Anna\n1.5 -2 3\n4 5 6\n", "2\n1.5 -2 3\n4 5 6\n",
+                           "# x y z as the scanner gave them\n1.5 -2 3\n4 5 6\n",
+                           "x x y z\n1.5 -2 3\n4 5 6\n", "1.5 -2 3\n4 5 6\n"}) {
+    expect_both(text);
+  }
+}
+
+TEST(TextCloudReader, LosesNoPointToAByteOrderMark) {
+  expect_both(
+      "\xEF\xBB\xBF"
+      "1.5 -2 3\n4 5 6\n");
+  expect_both(
+      "\xEF\xBB\xBF"
+      "y,z,x\n-2,3,1.5\n5,6,4\n");
+  EXPECT_TRUE(
+      looks_like_text_cloud("\xEF\xBB\xBF"
+                            "1.5 -2 3\n"));
+}
+
+TEST(TextCloudReader, RefusesLinesThatAreNotAsTheHeadingSays) {
+  const auto more = read_text_cloud("x,y,z\n1,2,3,0,0,1\n", "t.csv");
+  ASSERT_FALSE(more);
+  EXPECT_NE(more.error().line().find("line 2 of t.csv has 6 numbers, its heading 3"),
+            std::string::npos)
+      << more.error().line();
+  const auto fewer = read_text_cloud("x,y,z,q\n1,2,3,4\n1,2,3\n", "t.csv");
+  ASSERT_FALSE(fewer);
+  EXPECT_NE(fewer.error().message.find("line 3"), std::string::npos);
+  const auto unnamed = read_text_cloud("1 2 3 4\n", "t.csv");
+  ASSERT_FALSE(unnamed);
+  EXPECT_NE(unnamed.error().advice.find("heading"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace instep
