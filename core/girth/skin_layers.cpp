@@ -29,6 +29,8 @@ constexpr double kScatterOfLayers = 3e-4;
 constexpr double kLayersMore = 1.1;
 /// So many points at most are asked, an even part of more.
 constexpr std::size_t kMostHeights = 800;
+constexpr std::size_t kMostSectors = 8;
+constexpr std::size_t kHeightsOfSector = 50;
 
 /// Into the first `count` and the rest.
 struct Parting {
@@ -61,6 +63,69 @@ double count_within(const std::vector<double>& heights, double middle, double ha
   return static_cast<double>(last - first);
 }
 
+/// Of a point over the surface.
+struct PlacedHeight {
+  Eigen::Vector2d place;  ///< on the tape plane
+  double height = 0.0;
+};
+
+std::vector<PlacedHeight> heights_near_plane(const PlaneBand& band, const BlendedSurface& surface,
+                                             double near) {
+  std::vector<PlacedHeight> heights;
+  const std::size_t stride = stride_to_at_most(kMostHeights, band.points.size());
+  for (std::size_t i = 0; i < band.points.size(); i += stride) {
+    const Eigen::Vector3d& position = band.points[i].position;
+    if (std::abs(position.z()) > near) continue;
+    const auto field = surface.at(position);
+    if (!field || std::abs(field->value) >= kFurthestLayer) continue;
+    heights.push_back({position.head<2>(), field->value});
+  }
+  return heights;
+}
+
+struct LayeredSectors {
+  std::size_t count = 0;
+  std::optional<SkinLayers> widest;
+};
+
+/// The first of `count` sectors round `middle` begins so many of them past the x axis.
+LayeredSectors layered_sectors(const std::vector<PlacedHeight>& heights,
+                               const Eigen::Vector2d& middle, std::size_t count, double past) {
+  std::vector<std::vector<double>> sectors(count);
+  for (const auto& one : heights) {
+    const Eigen::Vector2d from = one.place - middle;
+    const double turns = std::atan2(from.y(), from.x()) / (2.0 * std::numbers::pi) + 1.0;
+    const auto sector = static_cast<std::size_t>(turns * static_cast<double>(count) + past);
+    sectors[sector % count].push_back(one.height);
+  }
+  LayeredSectors layered;
+  for (auto& sector : sectors) {
+    const auto layers = layers_among(std::move(sector));
+    if (!layers) continue;
+    ++layered.count;
+    const auto& widest = layered.widest;
+    const bool is_wider = !widest || layers->outer - layers->inner > widest->outer - widest->inner;
+    if (is_wider) layered.widest = layers;
+  }
+  return layered;
+}
+
+/// Seen from the middle of all, by the sectors of two partings that show more. The layers may reach
+/// into the sectors beside those that show them.
+std::optional<SkinLayers> layers_in_sectors(const std::vector<PlacedHeight>& heights) {
+  const std::size_t count = std::min(kMostSectors, heights.size() / kHeightsOfSector);
+  if (count < 2) return std::nullopt;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& one : heights) middle += one.place / static_cast<double>(heights.size());
+  const auto one = layered_sectors(heights, middle, count, 0.0);
+  const auto other = layered_sectors(heights, middle, count, 0.5);
+  auto [layered, widest] = one.count >= other.count ? one : other;
+  if (!widest) return std::nullopt;
+  const double share = static_cast<double>(layered + 2) / static_cast<double>(count);
+  widest->turn *= std::min(1.0, share);
+  return widest;
+}
+
 }  // namespace
 
 std::optional<SkinLayers> layers_among(std::vector<double> heights) {
@@ -82,21 +147,17 @@ std::optional<SkinLayers> layers_among(std::vector<double> heights) {
 std::optional<SkinLayers> layers_near_plane(const PlaneBand& band, const BlendedSurface& surface,
                                             double near) {
   if (band.shown_sigma < kScatterOfLayers) return std::nullopt;
+  const auto places = heights_near_plane(band, surface, near);
   std::vector<double> heights;
-  const std::size_t stride = stride_to_at_most(kMostHeights, band.points.size());
-  for (std::size_t i = 0; i < band.points.size(); i += stride) {
-    const Eigen::Vector3d& position = band.points[i].position;
-    if (std::abs(position.z()) > near) continue;
-    const auto field = surface.at(position);
-    if (field && std::abs(field->value) < kFurthestLayer) heights.push_back(field->value);
-  }
-  const auto layers = layers_among(std::move(heights));
+  for (const auto& place : places) heights.push_back(place.height);
+  auto layers = layers_among(std::move(heights));
+  if (!layers) layers = layers_in_sectors(places);
   if (!layers || layers->outer - layers->inner < kNearestLayers) return std::nullopt;
   return layers;
 }
 
 double reach_of(const SkinLayers& layers) {
-  return kLayersMore * 2.0 * std::numbers::pi * std::max(layers.outer, -layers.inner);
+  return kLayersMore * layers.turn * std::max(layers.outer, -layers.inner);
 }
 
 }  // namespace instep

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace instep {
 struct SkinLayers {
   double inner = 0.0;  ///< the lower one
   double outer = 0.0;
+  double turn = 2.0 * std::numbers::pi;  ///< the directions round the section in which they lie
 };
 
 /// Whether heights of points over one surface fall into two heaps, as those of a skin and of a sock
@@ -26,13 +28,14 @@ struct SkinLayers {
 /// points in ten: they look like one. O(n log n).
 std::optional<SkinLayers> layers_among(std::vector<double> heights);
 
-/// Those of the points within `near` of the tape plane, of which some hundreds are asked; nothing
-/// for layers so near to each other that it does not matter. In the unit of the band.
+/// Those of the points within `near` of the tape plane, of which some hundreds are asked: all
+/// round, or in some of up to eight sectors, as where two cameras that both see a side do not fit;
+/// nothing for layers so near to each other that it does not matter. In the unit of the band.
 std::optional<SkinLayers> layers_near_plane(const PlaneBand& band, const BlendedSurface& surface,
                                             double near);
 
 /// A tape on either layer is longer or shorter than one between them by at most this: by its height
-/// times a whole turn, and some more, for what is between follows where there are more of either.
+/// times their turn, and some more, for what is between follows where there are more of either.
 double reach_of(const SkinLayers& layers);
 
 }  // namespace instep
