@@ -93,12 +93,13 @@ struct Girth {
 /// depth map, is not in them, but for the shared errors that the cloud tells of
 /// (shared_doubt_of()).
 ///
-/// Points in two layers (core/girth/skin_layers.h), all round as of a skin and a sock or over a good
-/// part of the section, are named in a warning, and the interval reaches both. Those of cameras with wrong poses hardly ever are, for
-/// they lie apart as the cosine of the direction, and where views overlap only: of 573 girths of
-/// which each view was up to 1 mm off 68 % held. Points that lead away from the section though no
-/// skin through them was found (core/girth/unfollowed_skin.h), as of a part too thin for them or of
-/// what touches the body, are named too, and the interval reaches round them.
+/// Points in two layers (core/girth/skin_layers.h), all round as of a skin and a sock or over a
+/// good part of the section, are named in a warning, and the interval reaches both. Those of
+/// cameras with wrong poses are where they lie plainly apart, by some five of their own deviations:
+/// they do so as the cosine of the direction, and where views overlap only. Points that lead away
+/// from the section though no skin through them was found (core/girth/unfollowed_skin.h), as of a
+/// part too thin for them or of what touches the body, are named too, and the interval reaches
+/// round them.
 ///
 /// A section that turns to and fro within a few points (core/girth/contour_zigzags.h), as where it
 /// goes through a clump of strays that reaches the skin, or from one view to another one that does

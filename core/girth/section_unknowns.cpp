@@ -56,7 +56,8 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
       folds_by_noise(band, section.contour),
       doubt_of_edge(band, section.index)};
   // What lies off the one layer is the other one, which counts already.
-  if (!unknowns.layers) unknowns.skin = unfollowed_skin(band, loops);
+  const bool is_layered = unknowns.layers && unknowns.layers->are_all_round();
+  if (!is_layered) unknowns.skin = unfollowed_skin(band, loops);
   return unknowns;
 }
 
@@ -67,8 +68,8 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   // Noise that is not what was told of it is hardly independent from point to point either.
   const double distrust = std::min(band.told_scale, kMostDistrust);
   // What scatters in a part may be ribs, or two layers and the skin either of them.
-  const double reach = unknowns.layers ? reach_of(*unknowns.layers)
-                                       : 2.0 * std::numbers::pi * mean_scatter(band.scattered);
+  const double scatter = 2.0 * std::numbers::pi * mean_scatter(band.scattered);
+  const double reach = unknowns.layers ? std::max(reach_of(*unknowns.layers), scatter) : scatter;
   const auto with_bends = [&](double told, double UnseenBends::*length) {
     double squares = std::pow(distrust * told, 2) + std::pow(unknowns.edge, 2) +
                      std::pow(std::min(told, unknowns.between_points.*length), 2);

@@ -100,7 +100,8 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
           "many points near the plane lie off the skin and were left out: take away what shines or "
           "moves before the cameras");
   for (auto& disbelief : disbelief_of(band)) warnings.push_back(std::move(disbelief));
-  if (!layers && !band.scattered.empty()) {
+  const bool is_layered = layers && layers->are_all_round();
+  if (!is_layered && !band.scattered.empty()) {
     warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) warnings.push_back(warning_of(*layers, band.unit_mm));

@@ -85,7 +85,7 @@ std::vector<PlacedHeight> heights_near_plane(const PlaneBand& band, const Blende
 
 struct LayeredSectors {
   std::size_t count = 0;
-  std::optional<SkinLayers> widest;
+  std::optional<SkinLayers> furthest;  ///< from the surface
 };
 
 /// The first of `count` sectors round `middle` begins so many of them past the x axis.
@@ -103,9 +103,9 @@ LayeredSectors layered_sectors(const std::vector<PlacedHeight>& heights,
     const auto layers = layers_among(std::move(sector));
     if (!layers) continue;
     ++layered.count;
-    const auto& widest = layered.widest;
-    const bool is_wider = !widest || layers->outer - layers->inner > widest->outer - widest->inner;
-    if (is_wider) layered.widest = layers;
+    if (!layered.furthest || reach_of(*layers) > reach_of(*layered.furthest)) {
+      layered.furthest = layers;
+    }
   }
   return layered;
 }
@@ -119,11 +119,11 @@ std::optional<SkinLayers> layers_in_sectors(const std::vector<PlacedHeight>& hei
   for (const auto& one : heights) middle += one.place / static_cast<double>(heights.size());
   const auto one = layered_sectors(heights, middle, count, 0.0);
   const auto other = layered_sectors(heights, middle, count, 0.5);
-  auto [layered, widest] = one.count >= other.count ? one : other;
-  if (!widest) return std::nullopt;
+  auto [layered, furthest] = one.count >= other.count ? one : other;
+  if (!furthest) return std::nullopt;
   const double share = static_cast<double>(layered + 2) / static_cast<double>(count);
-  widest->turn *= std::min(1.0, share);
-  return widest;
+  furthest->turn *= std::min(1.0, share);
+  return furthest;
 }
 
 }  // namespace

@@ -14,6 +14,8 @@ struct SkinLayers {
   double inner = 0.0;  ///< the lower one
   double outer = 0.0;
   double turn = 2.0 * std::numbers::pi;  ///< the directions round the section in which they lie
+
+  bool are_all_round() const { return turn >= 2.0 * std::numbers::pi; }
 };
 
 /// Whether heights of points over one surface fall into two heaps, as those of a skin and of a sock

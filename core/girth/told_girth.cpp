@@ -166,7 +166,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.girth.points = slabs.cloud().size();
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.is_bridged = has_notable_gap(band, evidence);
-  told.has_layers = unknowns.layers.has_value();
+  told.has_layers = unknowns.layers && unknowns.layers->are_all_round();
   const double unexplained = unexplained_share(band, loops, evidence);
   told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
   told.of_few = unexplained > kMostUnexplained;

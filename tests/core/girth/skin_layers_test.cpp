@@ -81,6 +81,15 @@ TEST(SkinLayers, AreNotFoundInAFewStraysNorInAFewHeights) {
   EXPECT_FALSE(layers_among(std::vector<double>(100, 3.0)));
 }
 
+TEST(SkinLayers, ReachFurtherTheFurtherRoundTheyGo) {
+  const SkinLayers all_round{-1.0, 0.5};
+  EXPECT_TRUE(all_round.are_all_round());
+  EXPECT_GT(reach_of(all_round), 2.0 * std::numbers::pi);
+  const SkinLayers half_round{-1.0, 0.5, std::numbers::pi};
+  EXPECT_FALSE(half_round.are_all_round());
+  EXPECT_DOUBLE_EQ(reach_of(half_round), 0.5 * reach_of(all_round));
+}
+
 bool names_layers(const Girth& girth) {
   for (const auto& warning : girth.warnings) {
     if (warning.find("two layers") != std::string::npos) return true;
