@@ -81,9 +81,10 @@ Row parse_row(std::string_view line) {
 
 tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
                                const std::string& what) {
-  return fail(ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
-              "give 3 or 6 numbers in each line, parted by blanks, commas or semicolons, or name "
-              "the columns in a heading: x, y, z, nx, ny, nz");
+  return fail(
+      ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
+      "give 3 or 6 numbers in each line, parted by blanks, commas or semicolons; of up to 64 "
+      "columns of numbers, name those that count in a heading: x, y, z, nx, ny, nz");
 }
 
 /// The columns of a file, from its lines before the first point and from that one.
@@ -91,7 +92,8 @@ class Columns {
  public:
   /// A comment may name them, or speak of anything.
   void hear_comment(std::string_view line) {
-    if (!columns_) remarked_ = columns_named_by(without_comment_sign(line));
+    if (columns_) return;
+    if (auto named = columns_named_by(without_comment_sign(line))) remarked_ = named;
   }
 
   /// Whether the line is taken for a heading, which stands once and before all points.

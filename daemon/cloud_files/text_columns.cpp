@@ -10,7 +10,9 @@
 namespace instep {
 namespace {
 
-/// In lower case; what stands in brackets and quotes left out, a bracket after a blank as well.
+constexpr std::string_view kBlanks = " \t\v\f";
+
+/// In lower case; what stands in brackets, and quotes, left out.
 std::vector<std::string> names_in(std::string_view heading) {
   std::string plain;
   int depth = 0;
@@ -21,11 +23,12 @@ std::vector<std::string> names_in(std::string_view heading) {
     if (depth > 0 || closes || letter == '"' || letter == '\'') continue;
     plain += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   }
+  const bool are_parted = plain.find_first_of(",;\t") != plain.npos;
   std::vector<std::string> names;
   std::string_view rest = plain;
-  for (auto name = take_word(rest, " \t,;\v\f"); !name.empty();
-       name = take_word(rest, " \t,;\v\f")) {
-    names.emplace_back(name);
+  for (auto column = take_word(rest, are_parted ? ",;\t" : kBlanks); !column.empty();
+       column = take_word(rest, are_parted ? ",;\t" : kBlanks)) {
+    names.emplace_back(take_word(column, kBlanks));
   }
   return names;
 }

@@ -21,7 +21,9 @@ std::optional<TextColumns> usual_columns(std::size_t count);
 
 /// As a heading names them, in any order and with others between: x, y, z, and where it has them
 /// nx, ny, nz (or normal_x ...) and sigma_mm. Case, quotes and what stands in brackets, such as a
-/// unit, do not matter. Nothing for a heading that does not name each of x, y and z once.
+/// unit, do not matter; where commas, semicolons or tabs part the columns, nor do words after the
+/// first. All columns hold numbers. Nothing for a heading that does not name each of x, y and z
+/// once.
 std::optional<TextColumns> columns_named_by(std::string_view heading);
 
 }  // namespace instep

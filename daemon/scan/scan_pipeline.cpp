@@ -115,8 +115,10 @@ std::map<std::string, double> truth_of(const Capture& capture, const FootScan& f
 /// Whoever stands there gives no points and no millimetres.
 Error of_scan(Error failure) {
   failure.advice =
-      "stand with both feet flat on the platform, a hand's breadth apart and nothing else on it, "
-      "then scan again";
+      "stand with the whole foot flat on the platform, two feet a hand's breadth apart and nothing "
+      "else on it, then scan again; where that does not help, check platform_height_mm and "
+      "calibrate "
+      "the cameras";
   return failure;
 }
 
@@ -154,7 +156,8 @@ void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
   const SizedFoot larger = larger_of(sized_foot(left), sized_foot(right));
   ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
                    shoe_sizes(records[0].foot, larger, rules)};
-  for (const char* id : {"foot_length", "ball_girth"}) note_one_sided(id, left, right, pair.sizes);
+  for (const char* id : {"foot_length", "ball_girth", "foot_breadth"})
+    note_one_sided(id, left, right, pair.sizes);
   for (auto& record : records) record.pair = pair;
 }
 

@@ -26,8 +26,10 @@ TEST(TextCloudReader, TakesColumnsByTheirNames) {
         "x y z r g b\n1.5 -2 3 200 10 10\n4 5 6 10 10 10\n",
         "id,time,x,y,z,q\n1,0.1,1.5,-2,3,0\n2,0.2,4,5,6,0\n",
         "\"x [mm]\",\"y [mm]\",\"z [mm]\",\"c\"\n1.5,-2,3,9\n4,5,6,9\n",
-        "X (mm) Y (mm) Z (mm)\n1.5 -2 3\n4 5 6\n", "//X Y Z Intensity\n1.5 -2 3 7\n4 5 6 7\n",
-        "# z, y, x\n3, -2, 1.5\n6, 5, 4\n"}) {
+        "X (mm) Y (mm) Z (mm)\n1.5 -2 3\n4 5 6\n", "X Coord,Y Coord,Z Coord\n1.5,-2,3\n4,5,6\n",
+        "x mm;y mm;z mm\n1.5;-2;3\n4;5;6\n", "Point ID,z,x,y,q\n1,3,1.5,-2,0\n2,6,4,5,0\n",
+        "# z, y, x\n\n# 2 points\n3, -2, 1.5\n6, 5, 4\n",
+        "//X Y Z Intensity\n1.5 -2 3 7\n4 5 6 7\n", "# z, y, x\n3, -2, 1.5\n6, 5, 4\n"}) {
     expect_both(text);
   }
 }
