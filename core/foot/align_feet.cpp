@@ -1,8 +1,6 @@
 #include "core/foot/align_feet.h"
 
 #include <algorithm>
-#include <optional>
-#include <string>
 #include <utility>
 
 namespace instep {
@@ -37,14 +35,6 @@ Result<FootScan> with_side(FootScan foot, const PointCloud& cloud, Side side,
   return again;
 }
 
-std::vector<FootScan> alone(std::vector<FootScan> feet, const Error& of_other) {
-  for (auto& foot : feet) {
-    foot.warnings.push_back("what else stands on the platform was left out: " + of_other.message +
-                            "; leave nothing beside the feet, and turn both into view");
-  }
-  return feet;
-}
-
 }  // namespace
 
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
@@ -53,17 +43,11 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
   each.is_one_foot = true;
   if (clouds.size() > 1) each.side.reset();
   std::vector<FootScan> feet;
-  std::optional<Error> failure;
   for (const auto& cloud : clouds) {
     auto foot = align_foot(cloud, each);
-    if (foot) {
-      feet.push_back(std::move(*foot));
-    } else if (!failure) {
-      failure = foot.error();
-    }
+    if (!foot) return tl::make_unexpected(foot.error());
+    feet.push_back(std::move(*foot));
   }
-  if (failure && feet.empty()) return tl::make_unexpected(*failure);
-  if (failure) return alone(std::move(feet), *failure);
   if (feet.size() != 2) return feet;
 
   const RigidTransform first_from_second =

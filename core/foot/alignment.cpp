@@ -48,7 +48,9 @@ std::vector<std::string> doubts(const FootScan& foot) {
   if (foot.side_confidence < kSureSide) {
     warnings.emplace_back("the shape hardly tells left from right: check the side");
   }
-  if (!foot.has_seen_toes()) {
+  if (!foot.landmarks.contains("toe2_tip")) {
+    warnings.emplace_back("the toes were not seen: scan the foot again, in full view");
+  } else if (!foot.has_seen_toes()) {
     warnings.emplace_back(
         "the toes cannot be told apart: the second toe's tip is placed by proportion");
   }

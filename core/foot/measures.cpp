@@ -53,7 +53,8 @@ struct FootDoubts {
   SharedDoubt shared;
 };
 
-/// From what the landmarks as found and each redraw of them give; nothing where one gives nothing.
+/// From what the landmarks as found and each redraw of them give, those left out that give nothing;
+/// nothing where the landmarks as found do, or too few redraws are left.
 template <typename Taker>
 std::optional<double> spread_over_redraws(const FootScan& foot, const Taker& taken) {
   const std::optional<double> told =
@@ -206,14 +207,6 @@ Result<void> check_wall(const HiddenWall& hidden) {
               not_seen_below(hidden.height_mm) + ", most of the way down", kShowThatSide);
 }
 
-/// Whoever scans a foot moves no tape plane.
-Error of_foot(Error error) {
-  if (error.code == ErrorCode::kInsufficientData) {
-    error.advice = "scan one foot alone, in full view of all cameras";
-  }
-  return error;
-}
-
 Result<void> check_share(double girth_mm, const FootScan& foot) {
   const auto length = foot_length(foot.landmarks);
   if (!length) return tl::unexpected(length.error());
@@ -228,7 +221,7 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   const auto plane = definition.tape(foot.landmarks);
   if (!plane) return tl::unexpected(plane.error());
   auto girth = options.girth(foot.cloud, *plane, options.girth_options);
-  if (!girth) return tl::unexpected(of_foot(girth.error()));
+  if (!girth) return tl::unexpected(girth.error());
   const bool is_standing = foot.cloud.stands_on_platform();
   if (is_standing) girth = standing_girth(*std::move(girth), *plane);
   if (auto sane = check_share(girth->stretched_mm, foot); !sane) {

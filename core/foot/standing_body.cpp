@@ -46,16 +46,14 @@ struct TurnedBox {
     box.max().array() += kBesideMm;
   }
 
-  bool contains(const Vector3d& point) const { return box.contains(box_from_cloud * point); }
+  bool holds_middle_of(const std::vector<Vector3d>& piece) const {
+    AlignedBox3d own;
+    for (const auto& point : piece) own.extend(box_from_cloud * point);
+    return box.contains(own.center());
+  }
 };
 
 using Piece = std::vector<Vector3d>;
-
-Vector3d middle_of(const Piece& piece) {
-  AlignedBox3d box;
-  for (const auto& point : piece) box.extend(point);
-  return box.center();
-}
 
 }  // namespace
 
@@ -79,8 +77,7 @@ StandingBody standing_body(const std::vector<Vector3d>& points, bool is_one_foot
   };
   std::vector<bool> belongs;
   for (const auto& piece : pieces) {
-    const bool is_within =
-        static_cast<double>(piece.size()) > few && box.contains(middle_of(piece));
+    const bool is_within = static_cast<double>(piece.size()) > few && box.holds_middle_of(piece);
     belongs.push_back(&piece == &*largest || is_part(piece) || is_within);
     if (&piece != &*largest && is_part(piece)) ++body.parts;
     if (!belongs.back()) body.next_share = std::max(body.next_share, share_of(piece));

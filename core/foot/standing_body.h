@@ -15,11 +15,11 @@ struct StandingBody {
 };
 
 /// Parts the points into pieces that touch, within twice their spacing or 8 mm, whichever is more.
-/// The largest piece is the body, with those pieces that lie within its box, along its principal
-/// axes, or by 15 mm beside it: a scan with unseen
-/// strips comes in pieces. Strays and the remains of another foot are left out; but where the
-/// points are known to be of one foot, a piece of at least a quarter of the largest one is a part
-/// of it: a heel with its leg, or a forefoot, but nothing small that stands there. O(n log n).
+/// The largest piece is the body, with those pieces whose middle lies within its box, along its
+/// principal axes, or by 15 mm beside it: a scan with unseen strips comes in pieces. Strays and the
+/// remains of another foot are left out; but where the points are known to be of one foot, a piece
+/// of at least a quarter of the largest one is a part of it: a heel with its leg, or a forefoot,
+/// but nothing small that stands there. O(n log n).
 StandingBody standing_body(const std::vector<Eigen::Vector3d>& points, bool is_one_foot);
 
 }  // namespace instep

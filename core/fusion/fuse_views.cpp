@@ -72,8 +72,8 @@ void drop_blind_views(std::vector<WorkingView>& views, const FusionSettings& set
   });
 }
 
-/// Finds the platform and turns the station until it is level. Without one the lowest points stand
-/// for it.
+/// Finds the platform and turns the station until it is level. Without one the given height or the
+/// lowest points stand for it.
 void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& settings,
                          FusedScene& scene) {
   std::vector<Vector3d> points;
@@ -182,9 +182,8 @@ void estimate_standing_height(const std::vector<ViewedCloud>& feet, FusedScene& 
   scene.standing_height_mm = quantile(std::move(heights), kLowestShare);
   scene.warnings.push_back(
       "no camera saw the platform; its height is taken from the lowest points of the feet, and "
-      "what "
-      "they measure may be too little: give its height (platform_height_mm), or turn a camera to "
-      "it");
+      "heights over it may be too small: give it (platform_height_mm in the settings, "
+      "platform.height_mm in a recording), or turn a camera to it");
 }
 
 std::vector<ViewErrors> errors_of(const std::vector<WorkingView>& views) {

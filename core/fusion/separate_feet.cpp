@@ -247,7 +247,14 @@ bool stands(const Piece& piece, double standing_height_mm, const SeparationSetti
   return piece.lowest_mm < standing_height_mm + settings.stands_below_mm;
 }
 
-/// What stands beside a foot and could be a part of it, a heel without the arch before it.
+/// Whether it is large enough, beside the larger foot, to be the other one.
+bool is_fair(const Piece& piece, const Piece& larger_foot, const SeparationSettings& settings) {
+  return static_cast<double>(piece.cells.size()) >=
+         settings.least_share * static_cast<double>(larger_foot.cells.size());
+}
+
+/// What stands beside a foot and could be a part of it, a heel without the arch before it, or is as
+/// large as the other foot may be, but too short.
 std::vector<std::string> named_parts(const std::vector<Piece>& feet,
                                      const std::vector<Piece>& left_out, double standing_height_mm,
                                      const SeparationSettings& settings) {
@@ -256,6 +263,7 @@ std::vector<std::string> named_parts(const std::vector<Piece>& feet,
     const bool notable = static_cast<double>(piece.cells.size()) >=
                          kNotableShare * static_cast<double>(feet.front().cells.size());
     if (!notable || !stands(piece, standing_height_mm, settings)) continue;
+    const auto beside = warnings.size();
     for (std::size_t i = 0; i < feet.size(); ++i) {
       if (!may_join(feet[i], piece, settings)) continue;
       const auto gap_mm = std::lround(gap_between(feet[i], piece));
@@ -263,6 +271,12 @@ std::vector<std::string> named_parts(const std::vector<Piece>& feet,
           "what stands some " + std::to_string(gap_mm) + " mm from foot " + std::to_string(i + 1) +
           " was left out: if it is a part of it, turn a camera to what lies between");
       break;
+    }
+    const double length = enclosing_rectangle(piece.hull()).length;
+    if (warnings.size() == beside && is_fair(piece, feet.front(), settings)) {
+      warnings.push_back("something " + std::to_string(std::lround(length)) +
+                         " mm long was left out, which is too short for a foot: leave nothing else "
+                         "on the platform, and have both feet in full view");
     }
   }
   return warnings;
@@ -293,9 +307,7 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
   std::vector<Piece> feet;
   for (auto& piece : large) {
     const bool long_enough = enclosing_rectangle(piece.hull()).length >= settings.least_length_mm;
-    const bool fair =
-        feet.empty() || static_cast<double>(piece.cells.size()) >=
-                            settings.least_share * static_cast<double>(feet.front().cells.size());
+    const bool fair = feet.empty() || is_fair(piece, feet.front(), settings);
     if (stands(piece, standing_height_mm, settings) && long_enough && fair) {
       feet.push_back(std::move(piece));
     } else {

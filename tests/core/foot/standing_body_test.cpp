@@ -49,6 +49,20 @@ TEST(StandingBody, IsTheSameHoweverItLies) {
   }
 }
 
+/// A side seen apart from the rest, and a thing that stands beside it.
+TEST(StandingBody, HoldsAPieceJustBesideItsBox) {
+  const auto foot = FootBody{}.points().positions;
+  double widest = 0.0;
+  for (const auto& point : foot) widest = std::max(widest, point.y());
+  for (const bool is_near : {true, false}) {
+    auto points = foot;
+    for (int i = 0; i < 200; ++i) {
+      points.emplace_back(80.0 + i % 20, widest + (is_near ? 11.0 : 25.0), 5.0 + i / 20);
+    }
+    EXPECT_EQ(standing_body(points, false).points.size(), foot.size() + (is_near ? 200 : 0));
+  }
+}
+
 /// A strip that no camera saw parts the heel from the forefoot; a roll of tape stands behind it.
 TEST(StandingBody, OfOneFootHoldsItsPartsButNothingSmall) {
   const auto foot = FootBody{}.points();

@@ -119,6 +119,21 @@ TEST(SeparateFeet, NamesAHeelThatNoCameraJoinsToTheFoot) {
   EXPECT_TRUE(separate_feet(whole, 0.0).warnings.empty());
 }
 
+/// A bag's corner, or the heel of a foot half out of view: as a foot it would spoil the other's
+/// scan.
+TEST(SeparateFeet, LeavesOutAndNamesWhatIsTooShortForAFoot) {
+  std::vector<Vector3d> points;
+  add_foot(points, 0, 0, 255, 98);
+  const std::size_t count = points.size();
+  add_foot(points, 0, 160, 105, 70);
+  const auto separated = separate_feet(points, 0.0);
+  ASSERT_EQ(separated.feet.size(), 1U);
+  EXPECT_EQ(separated.feet[0].size(), count);
+  ASSERT_EQ(separated.warnings.size(), 1U);
+  EXPECT_NE(separated.warnings[0].find("too short for a foot"), std::string::npos)
+      << separated.warnings[0];
+}
+
 TEST(SeparateFeet, DropsLegBackgroundAndFloor) {
   std::vector<Vector3d> points;
   add_foot(points, 0, 0, 255, 98);
