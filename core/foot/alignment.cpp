@@ -97,7 +97,7 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   foot.side = options.side.value_or(guess.side);
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 
-  foot.is_floor_known = options.standing_plane.has_value();
+  foot.is_floor_known = options.standing_plane && !options.is_plane_guessed;
   const FootAxis axis = find_foot_axis(standing, *outline, foot.side, options.rules.axis);
   take_axis(foot, axis, standing_from_input);
   foot.rules = options.rules;

@@ -15,6 +15,9 @@ struct AlignmentOptions {
   std::optional<Side> side;
   /// The floor, where the station knows it: the pose is then not searched at all.
   std::optional<StandingPlane> standing_plane;
+  /// Nobody saw that floor nor gave its height: heights over it are as doubtful as over one that is
+  /// told by the sole.
+  bool is_plane_guessed = false;
   /// Which way is up, where only that is known: the floor is then under the lowest points.
   std::optional<Eigen::Vector3d> up;
   /// The cloud was told from other things: large parts of it that lie apart are of one foot, of

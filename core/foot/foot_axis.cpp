@@ -94,6 +94,21 @@ std::vector<Vector2d> outline_of_right_foot(const Points& points, const Vector3d
   return outline;
 }
 
+/// How far the axis is off what the rule has, on a right foot. Where its points do not show what
+/// that needs, the rule becomes that of the second toe, or without one that of the outline.
+std::optional<double> turn_by(AxisRule& rule, const std::optional<SecondToe>& toe,
+                              const Points& right_foot, double length) {
+  const auto turn_of = [&](AxisRule one) {
+    if (one != AxisRule::kSecondToe) return axis_turn(one, right_foot, length);
+    return toe ? std::optional(std::atan2(toe->tip.y(), toe->tip.x())) : std::nullopt;
+  };
+  for (const AxisRule next : {AxisRule::kSecondToe, AxisRule::kOutline}) {
+    if (const auto turn = turn_of(rule)) return turn;
+    rule = next;
+  }
+  return turn_of(rule);
+}
+
 }  // namespace
 
 FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start, Side side,
@@ -121,17 +136,8 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
       const double height = tip_height(points, tip + heel.head<2>(), axis.acropodion.z());
       axis.toe2_tip = {tip.x(), tip.y(), height};
     }
-    const auto by_rule = [&]() -> std::optional<double> {
-      if (axis.rule == AxisRule::kSecondToe) {
-        return toe ? std::optional(std::atan2(toe->tip.y(), toe->tip.x())) : std::nullopt;
-      }
-      return axis_turn(axis.rule, as_right_foot(points, heel, medial_sign), axis.acropodion.x());
-    };
-    auto wanted = by_rule();
-    while (!wanted && axis.rule != AxisRule::kOutline) {
-      axis.rule = axis.rule == AxisRule::kSecondToe ? AxisRule::kOutline : AxisRule::kSecondToe;
-      wanted = by_rule();
-    }
+    const auto wanted =
+        turn_by(axis.rule, toe, as_right_foot(points, heel, medial_sign), axis.acropodion.x());
     if (!wanted) break;
     // Where the tip jumps to and fro between two toes or rules, the axis comes to rest between.
     if (medial_sign * *wanted * turn < 0.0) share *= 0.5;

@@ -110,6 +110,20 @@ SizedFoot larger_of(const SizedFoot& one, const SizedFoot& other) {
           larger(one.breadth_mm, other.breadth_mm)};
 }
 
+std::vector<std::string> notes_of_one_foot(const SizedFoot& left, const SizedFoot& right) {
+  std::vector<std::string> notes;
+  const auto compare = [&](const char* what, const std::optional<double> SizedFoot::*measure) {
+    const bool has_left = (left.*measure).has_value();
+    if (has_left == (right.*measure).has_value()) return;
+    notes.push_back(std::string("by the ") + what + " of the " + (has_left ? "left" : "right") +
+                    " foot alone: that of the other one is missing and may be more; scan it again");
+  };
+  compare("length", &SizedFoot::length_mm);
+  compare("ball girth", &SizedFoot::ball_girth_mm);
+  compare("breadth", &SizedFoot::breadth_mm);
+  return notes;
+}
+
 ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules) {
   ShoeSizes sizes;
   sizes.foot = foot;

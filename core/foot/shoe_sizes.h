@@ -23,6 +23,9 @@ SizedFoot sized_foot(const MeasureSet& measures);
 /// has is that foot's.
 SizedFoot larger_of(const SizedFoot& one, const SizedFoot& other);
 
+/// A note for each of the three that only one foot of a pair has: the other one may be larger.
+std::vector<std::string> notes_of_one_foot(const SizedFoot& left, const SizedFoot& right);
+
 /// One row of a shop's own table: a shoe that takes feet up to these measures.
 struct ShopSize {
   std::string size;                             ///< as it stands on the box

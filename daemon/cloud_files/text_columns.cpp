@@ -11,6 +11,7 @@ namespace instep {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\v\f";
+constexpr std::string_view kMarks = ",;\t";
 
 /// In lower case; what stands in brackets, and quotes, left out.
 std::vector<std::string> names_in(std::string_view heading) {
@@ -23,11 +24,12 @@ std::vector<std::string> names_in(std::string_view heading) {
     if (depth > 0 || closes || letter == '"' || letter == '\'') continue;
     plain += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
   }
-  const bool are_parted = plain.find_first_of(",;\t") != plain.npos;
+  plain.resize(plain.find_last_not_of(" ,;\t\v\f") + 1);
+  const std::string_view separators = plain.find_first_of(kMarks) == plain.npos ? kBlanks : kMarks;
   std::vector<std::string> names;
   std::string_view rest = plain;
-  for (auto column = take_word(rest, are_parted ? ",;\t" : kBlanks); !column.empty();
-       column = take_word(rest, are_parted ? ",;\t" : kBlanks)) {
+  for (auto column = take_word(rest, separators); !column.empty();
+       column = take_word(rest, separators)) {
     names.emplace_back(take_word(column, kBlanks));
   }
   return names;

@@ -117,8 +117,8 @@ Error of_scan(Error failure) {
   failure.advice =
       "stand with the whole foot flat on the platform, two feet a hand's breadth apart and nothing "
       "else on it, then scan again; where that does not help, check platform_height_mm and "
-      "calibrate "
-      "the cameras";
+      "calibrate"
+      " the cameras";
   return failure;
 }
 
@@ -138,15 +138,6 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   return record;
 }
 
-/// The larger foot leads; where one was not measured, it may be the other.
-void note_one_sided(const char* id, const MeasureSet& left, const MeasureSet& right,
-                    ShoeSizes& sizes) {
-  const bool has_left = left.find(id) != nullptr;
-  if (has_left == (right.find(id) != nullptr)) return;
-  sizes.notes.push_back(std::string("by the ") + (has_left ? "left" : "right") + " foot's " + id +
-                        " alone: the other foot's is missing and may be more");
-}
-
 void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
   const bool are_pair = records.size() == 2 && records[0].foot.side == Side::kLeft &&
                         records[1].foot.side == Side::kRight;
@@ -156,8 +147,9 @@ void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
   const SizedFoot larger = larger_of(sized_foot(left), sized_foot(right));
   ScannedPair pair{records[0].id, records[1].id, pair_feet(left, right),
                    shoe_sizes(records[0].foot, larger, rules)};
-  for (const char* id : {"foot_length", "ball_girth", "foot_breadth"})
-    note_one_sided(id, left, right, pair.sizes);
+  for (auto& note : notes_of_one_foot(sized_foot(left), sized_foot(right))) {
+    pair.sizes.notes.push_back(std::move(note));
+  }
   for (auto& record : records) record.pair = pair;
 }
 
@@ -197,11 +189,8 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   AlignmentOptions alignment;
   alignment.side = settings.side;
   alignment.rules = settings.measures;
-  if (scene->is_standing_height_known) {
-    alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
-  } else {
-    alignment.up = Eigen::Vector3d::UnitZ();
-  }
+  alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
+  alignment.is_plane_guessed = !scene->is_standing_height_known;
   auto feet = align_feet(scene->feet, alignment);
   if (!feet) return tl::make_unexpected(with_what_was_noticed(of_scan(feet.error()), warnings));
 

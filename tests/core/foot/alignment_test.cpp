@@ -228,5 +228,18 @@ TEST(Alignment, RefusesNumbersThatAreNone) {
   EXPECT_FALSE(align_foot(FootBody{}.points(), options));
 }
 
+/// As where no camera saw the platform: the foot stands there, and its heights are doubtful.
+TEST(AlignFoot, StandsOnAGuessedFloorThatItDoesNotTakeForKnown) {
+  AlignmentOptions options;
+  options.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), 3.0};
+  const auto known = align_foot(FootBody{}.points(), options);
+  options.is_plane_guessed = true;
+  const auto guessed = align_foot(FootBody{}.points(), options);
+  ASSERT_TRUE(known && guessed);
+  EXPECT_TRUE(known->is_floor_known);
+  EXPECT_FALSE(guessed->is_floor_known);
+  EXPECT_EQ(guessed->foot_from_input.matrix(), known->foot_from_input.matrix());
+}
+
 }  // namespace
 }  // namespace instep

@@ -16,6 +16,15 @@ SizedFoot foot(double length_mm, std::optional<double> girth_mm = {}) {
   return {length_mm, girth_mm, std::nullopt};
 }
 
+TEST(ShoeSizes, OfAPairSayWhatIsOfOneFootAlone) {
+  EXPECT_TRUE(notes_of_one_foot(foot(262.0, 240.0), foot(268.0, 250.0)).empty());
+  const SizedFoot without_length{std::nullopt, 250.0, 101.0};
+  const auto notes = notes_of_one_foot(without_length, foot(262.0, 240.0));
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_THAT(notes[0], HasSubstr("by the length of the right foot alone"));
+  EXPECT_THAT(notes[1], HasSubstr("by the breadth of the left foot alone"));
+}
+
 TEST(ShoeSizes, EuCountsTwoThirdsOfACentimetreOfLast) {
   // A last of 28 cm is 42 Paris points by their definition; with 15 mm of allowance it is made for
   // a foot of 265 mm.

@@ -65,6 +65,7 @@ TEST_F(FuseViewsOfARealCamera, GivesTwoCleanFeetThatAgree) {
 TEST_F(FuseViewsOfARealCamera, GivesEverySectionOfBothFeetAsOneSkinWithoutSpurs) {
   AlignmentOptions options;
   options.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene.standing_height_mm};
+  options.is_plane_guessed = !scene.is_standing_height_known;
   auto feet = align_feet(scene.feet, options);
   ASSERT_TRUE(feet) << feet.error().line();
   ASSERT_EQ(feet->size(), 2U);

@@ -22,8 +22,8 @@ void expect_both(const std::string& text) {
 
 TEST(TextCloudReader, TakesColumnsByTheirNames) {
   for (const char* text :
-       {"y,z,x\n-2,3,1.5\n5,6,4\n", "Z;X;Y\n3;1,5;-2\n6;4;5\n",
-        "x y z r g b\n1.5 -2 3 200 10 10\n4 5 6 10 10 10\n",
+       {"y,z,x\n-2,3,1.5\n5,6,4\n", "y;z;x; \n-2;3;1.5;\n5;6;4;\n", "y z x\t\n-2 3 1.5\n5 6 4\n",
+        "Z;X;Y\n3;1,5;-2\n6;4;5\n", "x y z r g b\n1.5 -2 3 200 10 10\n4 5 6 10 10 10\n",
         "id,time,x,y,z,q\n1,0.1,1.5,-2,3,0\n2,0.2,4,5,6,0\n",
         "\"x [mm]\",\"y [mm]\",\"z [mm]\",\"c\"\n1.5,-2,3,9\n4,5,6,9\n",
         "X (mm) Y (mm) Z (mm)\n1.5 -2 3\n4 5 6\n", "X Coord,Y Coord,Z Coord\n1.5,-2,3\n4,5,6\n",
