@@ -137,6 +137,21 @@ void largest_first(std::vector<SectionLoop>& loops) {
   });
 }
 
+/// Of the points near the plane that lie on no loop.
+std::vector<Eigen::Vector2d> unexplained_places(const PlaneBand& band,
+                                                const std::vector<SectionLoop>& loops) {
+  const double near = evidence_reach(band);
+  std::vector<Eigen::Vector2d> places;
+  for (const auto& point : band.points) {
+    if (std::abs(point.position.z()) > near) continue;
+    const bool is_on_one = std::any_of(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
+      return may_run_to(loop.index, point, near);
+    });
+    if (!is_on_one) places.emplace_back(point.position.head<2>());
+  }
+  return places;
+}
+
 }  // namespace
 
 std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface) {
@@ -148,18 +163,20 @@ std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface
 
 double unexplained_share(const PlaneBand& band, const std::vector<SectionLoop>& loops,
                          const SectionEvidence& of_first) {
-  const double near = evidence_reach(band);
-  auto unexplained = static_cast<double>(of_first.beside);
-  if (loops.size() > 1) {
-    unexplained = static_cast<double>(
-        std::count_if(band.points.begin(), band.points.end(), [&](const OrientedPoint& point) {
-          if (std::abs(point.position.z()) > near) return false;
-          return std::none_of(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
-            return may_run_to(loop.index, point, near);
-          });
-        }));
-  }
+  const auto unexplained = static_cast<double>(
+      loops.size() > 1 ? unexplained_places(band, loops).size() : of_first.beside);
   return unexplained / static_cast<double>(of_first.beside + of_first.along);
+}
+
+bool has_larger_beside(const PlaneBand& band, const std::vector<SectionLoop>& loops) {
+  auto outline = convex_hull(unexplained_places(band, loops));
+  const auto& section = loops.front().contour.points;
+  const double area = signed_area(outline);
+  if (!is_ring(outline) || !(area > signed_area(section))) return false;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const auto& corner : section) middle += corner / static_cast<double>(section.size());
+  outline.push_back(middle);
+  return signed_area(convex_hull(std::move(outline))) > area;
 }
 
 }  // namespace instep

@@ -31,4 +31,8 @@ std::vector<SectionLoop> loops_on(const PlaneBand& band, BlendedSurface& surface
 double unexplained_share(const PlaneBand& band, const std::vector<SectionLoop>& loops,
                          const SectionEvidence& of_first);
 
+/// Whether those points enclose more than the first loop does, and do not go round it: as of a
+/// larger body beside it whose section does not close.
+bool has_larger_beside(const PlaneBand& band, const std::vector<SectionLoop>& loops);
+
 }  // namespace instep

@@ -13,6 +13,7 @@
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_gaps.h"
 #include "core/girth/section_loops.h"
+#include "core/girth/section_neck.h"
 #include "core/girth/section_probe.h"
 #include "core/girth/section_unknowns.h"
 #include "core/girth/section_warnings.h"
@@ -35,6 +36,8 @@ constexpr double kWinding = 1.05;
 /// scanned: of lines as thick with noise as they are near, a loop of a few millimetres between two
 /// of them passed for the section. A wall beside a body is as much.
 constexpr double kMostUnexplained = 0.67;
+/// The same of those that may be of a larger body.
+constexpr double kOfALargerOne = 0.3;
 /// A share of the patches that left out strays, with which these are looked for beforehand. Of
 /// 8,363 girths of bodies without strays one has more, of cylinders with 5 % of their points some 5
 /// mm off all do.
@@ -150,6 +153,20 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
                         "more than a quarter of the section at the tape plane has no points",
                         "scan the body all round"));
   }
+  if (may_be_two_bodies(band, contour)) {
+    return refused(band, contour,
+                   fail(ErrorCode::kInvalidInput,
+                        "the section at the tape plane is pinched between two parts, as where two "
+                        "bodies touch: nothing tells whether the tape goes round both",
+                        "move them apart and scan again, or give the points of one alone"));
+  }
+  const double unexplained = unexplained_share(band, loops, evidence);
+  if (unexplained > kOfALargerOne && has_larger_beside(band, loops)) {
+    return refused(band, contour,
+                   fail(ErrorCode::kInvalidInput,
+                        "beside what closes at the tape plane lies something larger that does not",
+                        "move them apart and scan again, or give the points of one alone"));
+  }
   auto section = measured(slabs, band, loops, surface, evidence);
   const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence, section.contour);
   widen(band, unknowns, section);
@@ -167,7 +184,6 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.is_bridged = has_notable_gap(band, evidence);
   told.has_layers = unknowns.layers && unknowns.layers->are_all_round();
-  const double unexplained = unexplained_share(band, loops, evidence);
   told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
   told.of_few = unexplained > kMostUnexplained;
   told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);

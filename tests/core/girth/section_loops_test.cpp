@@ -72,5 +72,46 @@ TEST(SectionLoops, LeaveSheetsUnexplained) {
   EXPECT_NEAR(beside.unexplained(), 1.0 / 3.0, 0.05);
 }
 
+/// Without what lies behind a plane across the x axis, nothing closes round the larger one.
+PointCloud half_of(PointCloud cloud, double least_x) {
+  std::erase_if(cloud.positions, [&](const auto& position) { return position.x() < least_x; });
+  return cloud;
+}
+
+TEST(SectionLoops, HaveALargerOneBesideThatDoesNotClose) {
+  PointCloud cloud = half_of(test::cylinder(8000), -10.0);
+  add_pole(15.0, 80.0, 3000, cloud);
+  const auto pole = traced(cloud);
+  ASSERT_EQ(pole.loops.size(), 1U);
+  EXPECT_NEAR(pole.length_mm(0), 2.0 * std::numbers::pi * 15.0, 0.05);
+  EXPECT_TRUE(has_larger_beside(pole.band, pole.loops));
+}
+
+/// Nor is a wall one, however many points it has, nor what goes round the section.
+TEST(SectionLoops, HaveNoLargerOneBeside) {
+  const auto alone = traced(test::cylinder(8000));
+  EXPECT_FALSE(has_larger_beside(alone.band, alone.loops));
+  PointCloud beside_wall = test::cylinder(8000);
+  test::RandomNumbers random(3);
+  for (int i = 0; i < 20000; ++i) {
+    beside_wall.positions.emplace_back(-60.0, random.uniform(-150.0, 150.0),
+                                       random.uniform(-30.0, 30.0));
+  }
+  const auto one = traced(beside_wall);
+  ASSERT_EQ(one.loops.size(), 1U);
+  EXPECT_FALSE(has_larger_beside(one.band, one.loops));
+
+  PointCloud in_shell;
+  add_pole(15.0, 0.0, 3000, in_shell);
+  for (const double side : {-1.0, 1.0}) {
+    PointCloud half = half_of(test::cylinder(8000), 32.0);
+    for (auto& position : half.positions) position.head<2>() *= side;
+    in_shell.append(half);
+  }
+  const auto inner = traced(in_shell);
+  ASSERT_EQ(inner.loops.size(), 1U);
+  EXPECT_FALSE(has_larger_beside(inner.band, inner.loops));
+}
+
 }  // namespace
 }  // namespace instep
