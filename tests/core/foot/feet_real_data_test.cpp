@@ -166,6 +166,7 @@ TEST_F(RealFeet, AreToldFromLasts) {
     EXPECT_EQ(sizes.notes.size(), 1U) << name;
     EXPECT_NE(last.set.find("ball_girth"), nullptr) << name;
     // Points taken away leave the last standing as it stood.
+    ASSERT_NE(last.set.find("foot_length"), nullptr) << name;
     EXPECT_LT(last.set.find("foot_length")->u95_mm.value(), 5.0) << name;
     EXPECT_LT(last.set.find("ball_girth")->u95_mm.value(), 3.0) << name;
     EXPECT_EQ(last.set.find("heel_breadth"), nullptr) << name;
