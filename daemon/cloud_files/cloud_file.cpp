@@ -175,6 +175,12 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
     read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
                                      to_string(*settled), *extent * scale));
   }
+  if (raw->surplus_bytes > 0) {
+    read.notes.push_back(fmt::format(
+        "the file goes on for {} bytes after the {} points that its header names, which "
+        "were not read: if any are missing, export it again",
+        raw->surplus_bytes, read.cloud.size()));
+  }
   if (const auto doubt = doubt_of_unit(*settled, *extent)) read.notes.push_back(*doubt);
   settle_normals(read);
   if (!read.cloud.has_normals())

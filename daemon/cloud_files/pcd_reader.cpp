@@ -151,7 +151,8 @@ bool want_vectors(const PcdHeader& header, const std::array<const char*, 3>& nam
   return true;
 }
 
-Result<void> read_ascii(std::string_view text, const PcdHeader& header, std::size_t count,
+/// Takes the points off the front of `text`.
+Result<void> read_ascii(std::string_view& text, const PcdHeader& header, std::size_t count,
                         const std::vector<Target>& targets, const std::string& file) {
   std::vector<double> row(header.columns);
   for (std::size_t point = 0; point < count; ++point) {
@@ -182,7 +183,7 @@ Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
         "convert it with pcl_convert_pcd_ascii_binary to ascii (0) or binary (1)");
   }
   const bool ascii = header->data == "ascii";
-  const auto rest = bytes.substr(header->size_bytes);
+  auto rest = bytes.substr(header->size_bytes);
   const double wanted = header->points.value_or(header->width * header->height);
   const std::size_t least = std::max<std::size_t>(ascii ? 2 * header->columns : header->stride, 1);
   if (wanted > static_cast<double>((rest.size() + 1) / least)) {
@@ -207,6 +208,7 @@ Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
     if (auto good = read_ascii(rest, *header, count, targets, file); !good) {
       return tl::make_unexpected(good.error());
     }
+    raw.surplus_bytes = without_blanks_at_end(rest).size();
     return raw;
   }
   if (rest.size() / least < count) return damaged_file(file, "it is cut short");
@@ -215,6 +217,7 @@ Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
     copy_column(rest.data() + target.field.offset, header->stride, count, target.type, kSwapped,
                 target.out);
   }
+  raw.surplus_bytes = without_blanks_at_end(rest.substr(count * header->stride)).size();
   return raw;
 }
 

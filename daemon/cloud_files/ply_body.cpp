@@ -64,6 +64,8 @@ class BinaryBody final : public PlyBody {
     return {};
   }
 
+  std::size_t unread_bytes() const override { return without_blanks_at_end(rest_).size(); }
+
  private:
   /// The size of a record whose lists are empty.
   static std::size_t least_bytes(const PlyElement& element) {
@@ -166,6 +168,8 @@ class AsciiBody final : public PlyBody {
     }
     return {};
   }
+
+  std::size_t unread_bytes() const override { return without_blanks_at_end(rest_).size(); }
 
  private:
   bool take_list(std::size_t property, double length, Plan& plan) {

@@ -40,6 +40,9 @@ class PlyBody {
   /// saying how, with kCorruptData.
   virtual Result<void> read(const PlyElement& element, const std::vector<PlyColumn>& columns,
                             PlyLists* lists) = 0;
+
+  /// Bytes that were not read yet, without blanks at the end.
+  virtual std::size_t unread_bytes() const = 0;
 };
 
 /// Borrows `bytes` (the whole file).

@@ -159,6 +159,7 @@ Result<RawCloud> read_ply(std::string_view bytes, const std::string& file) {
     if (!good) return tl::make_unexpected(good.error());
   }
   if (!has_vertices) return damaged_file(file, "it has no vertices");
+  raw.surplus_bytes = body->unread_bytes();
   return raw;
 }
 

@@ -27,6 +27,11 @@ std::string_view take_word(std::string_view& text, std::string_view separators) 
   return word;
 }
 
+std::string_view without_blanks_at_end(std::string_view text) {
+  const auto last = text.find_last_not_of(std::string_view(" \t\r\n\v\f\0", 7));
+  return text.substr(0, last == text.npos ? 0 : last + 1);
+}
+
 std::optional<double> number_in(std::string_view word) {
   if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
   double value = 0.0;

@@ -23,6 +23,9 @@ class TextLines {
 /// the end.
 std::string_view take_word(std::string_view& text, std::string_view separators = " \t\r\n\v\f");
 
+/// Spaces, tabs, ends of lines and bytes of zero.
+std::string_view without_blanks_at_end(std::string_view text);
+
 /// The number that the whole word is, or nothing. Independent of the locale; knows "nan" and "inf".
 std::optional<double> number_in(std::string_view word);
 
