@@ -114,11 +114,15 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
   const bool scattered = !layers && band.shown_sigma > kNotableNoise * band.usual_share;
   warn_if(scattered,
           "the points scatter so much that they may be two layers of skin; the middle was taken");
-  warn_if(
-      !scattered && !layers && band.told_scale == 1.0 &&
-          band.sigma > kNotableNoise * band.usual_share,
-      "so much noise is told of the points that what is skin may be smoothed away: they scatter "
-      "far less; leave --sigma-mm out, or give a smaller one");
+  const bool is_overtold = !scattered && !layers && band.told_scale == 1.0 &&
+                           band.sigma > kNotableNoise * band.usual_share;
+  if (is_overtold) {
+    warnings.push_back(
+        std::string("so much noise is told of the points that what is skin may be smoothed away: "
+                    "they scatter far less; ") +
+        (band.own_sigma ? "have the file's sigma_mm made anew, or leave it out"
+                        : "leave --sigma-mm out, or give a smaller one"));
+  }
   // Of a folded one the contact length was warned of.
   const double doubt = unknowns.folds > 0.0 ? section.stretched_u95
                                             : std::max(section.stretched_u95, section.contact_u95);

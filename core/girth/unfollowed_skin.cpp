@@ -19,8 +19,8 @@ constexpr double kOffInDeviations = 5.0;
 constexpr double kAsideBeyondEdge = 2.0;
 /// Skin that leans more, against upright, does not tell where it meets the plane.
 constexpr double kTooLeaning = 2.5;
-/// Skin that hangs together with the section begins this near to it, in grains, or, where its
-/// points are sparser than the section's, in their reaches.
+/// Skin that hangs together with the section begins this near to it beyond the noise, in grains,
+/// or, where its points are sparser than the section's, in their reaches.
 constexpr double kBegins = 1.5;
 constexpr double kSparseBegins = 1.25;
 /// So many neighbours lie within the reach of a point on it; of strays, which fill the air, they
@@ -37,14 +37,18 @@ constexpr std::size_t kFewest = 8;
 struct Beside {
   Eigen::Vector3d position;
   double off = 0.0;       ///< from the section
+  double noise = 0.0;     ///< may have moved it by so much
   bool followed = false;  ///< by another loop
   double reach = 0.0;     ///< to its neighbours, a grain at least
 };
 
+double most_noise_of(const OrientedPoint& point) {
+  return kOffInDeviations * std::sqrt(point.variance);
+}
+
 bool may_lie_on(const ContourIndex& contour, const OrientedPoint& point, double grain) {
-  const double noise = kOffInDeviations * std::sqrt(point.variance);
   const double aside = kAsideBeyondEdge * std::abs(point.position.z());
-  return may_run_to(contour, point, kOffInGrains * grain + noise + aside);
+  return may_run_to(contour, point, kOffInGrains * grain + most_noise_of(point) + aside);
 }
 
 std::vector<Beside> off_the_section(const PlaneBand& band, const std::vector<SectionLoop>& loops) {
@@ -57,7 +61,7 @@ std::vector<Beside> off_the_section(const PlaneBand& band, const std::vector<Sec
         loops.begin() + 1, loops.end(),
         [&](const SectionLoop& other) { return may_lie_on(other.index, point, band.grain); });
     const double off = section.foot_of(point.position.head<2>()).distance;
-    beside.push_back({point.position, off, followed});
+    beside.push_back({point.position, off, most_noise_of(point), followed});
   }
   return beside;
 }
@@ -105,7 +109,7 @@ bool begins_at_section(const std::vector<Beside>& chained, double grain) {
   return chained.size() >= kFewest &&
          std::any_of(chained.begin(), chained.end(), [&](const Beside& point) {
            return !point.followed &&
-                  point.off <= std::max(kBegins * grain, kSparseBegins * point.reach);
+                  point.off - point.noise <= std::max(kBegins * grain, kSparseBegins * point.reach);
          });
 }
 

@@ -145,6 +145,18 @@ TEST(ToldNoise, IsDisbelievedWithARemedyOfWhoeverToldIt) {
   EXPECT_FALSE(says(*by_cloud, "--sigma-mm"));
 }
 
+/// Nor where it is far more than the points show.
+TEST(ToldNoise, OfFarTooMuchIsWarnedOfWithARemedyOfWhoeverToldIt) {
+  PointCloud cloud = noisy_ellipse(8000, 0.1, 3);
+  const auto by_option = girth_by_rbf(cloud, oblique_plane(), {3.0});
+  cloud.sigma_mm.assign(cloud.size(), 3.0);
+  const auto by_cloud = girth_by_rbf(cloud, oblique_plane());
+  ASSERT_TRUE(by_option && by_cloud);
+  EXPECT_TRUE(says(*by_option, "they scatter far less; leave --sigma-mm out"));
+  EXPECT_TRUE(says(*by_cloud, "they scatter far less; have the file's sigma_mm made anew"));
+  EXPECT_FALSE(says(*by_cloud, "--sigma-mm"));
+}
+
 /// It is measured with what it shows; telling of it at every scan would only tire.
 TEST(ToldNoise, IsNotSpokenOfWhereAThirdScattersLittleMore) {
   constexpr double kTold = 0.2;

@@ -86,6 +86,16 @@ TEST(UnfollowedSkin, IsNothingThatNoiseExplains) {
   EXPECT_TRUE(skin_of(points).is_any());
 }
 
+/// Of noisy points those next to the section count for its own: a fin of them never began.
+TEST(UnfollowedSkin, BeginsBeyondTheNoise) {
+  const auto noisy = [](std::vector<OrientedPoint> points) {
+    for (auto& point : points) point.variance = 0.005 * 0.005;
+    return points;
+  };
+  EXPECT_GT(skin_of(noisy(line_out(0.01, 0.15))).contact, 0.28);
+  EXPECT_FALSE(skin_of(noisy(line_out(0.08, 0.15))).is_any());
+}
+
 TEST(UnfollowedSkin, CountsEachPartAndAllOfAFlap) {
   auto fins = line_out(0.01, 0.15);
   for (auto point : line_out(0.01, 0.15)) {
