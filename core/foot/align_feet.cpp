@@ -65,6 +65,7 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
       foot.warnings.emplace_back("both feet look like the same side: check the sides");
     }
   }
+  for (std::size_t i = 0; i < 2; ++i) feet[i].number = i;
   std::stable_sort(feet.begin(), feet.end(), [](const FootScan& a, const FootScan& b) {
     return a.side == Side::kLeft && b.side == Side::kRight;
   });

@@ -199,24 +199,25 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   thinning.view_sigma_mm = scene.diagnostics.unexplained_mm / std::numbers::sqrt2;  // of each view
   auto [foot, shares] = thin(points, views.size(), thinning);
   foot.shared_errors_mm = shared_errors_of(foot, shares, errors_of(views));
-  const std::string name = "foot " + std::to_string(scene.feet.size() + 1);
+  std::vector<std::string> warnings;
   const double coverage = coverage_of(foot);
   scene.diagnostics.points.push_back(foot.size());
   scene.diagnostics.coverage.push_back(coverage);
   if (coverage < kLeastCoverage) {
-    scene.warnings.push_back(
-        name + " was not seen from all sides: scan it alone, or turn a camera to its hidden side");
+    warnings.emplace_back(
+        "it was not seen from all sides: scan it alone, or turn a camera to its hidden side");
   }
   const SoleClosure closure = settings.close_soles
                                   ? close_sole(foot, scene.standing_height_mm, settings.sole)
                                   : SoleClosure{};
   if (closure.points_added > 0) {
-    scene.warnings.push_back("no camera saw the sole of " + name +
-                             "; it is closed by the platform, which it is taken to meet up to " +
-                             in_millimetres(closure.widest_inset_mm) + " inside the seen skin");
+    warnings.push_back(
+        "no camera saw the sole; it is closed by the platform, which it is taken to meet up to " +
+        in_millimetres(closure.widest_inset_mm) + " inside the seen skin");
   }
   scene.diagnostics.platform_points.push_back(closure.points_added);
   scene.feet.push_back(std::move(foot));
+  scene.foot_warnings.push_back(std::move(warnings));
 }
 
 /// What stands there and is no foot may be one that cameras see in wrong places.

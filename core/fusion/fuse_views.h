@@ -90,7 +90,8 @@ struct FusedScene {
   /// Given, or seen as a platform; else it is that of the lowest that was seen of the feet.
   bool is_standing_height_known = false;
   FusionDiagnostics diagnostics;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;                    ///< of the scene as a whole
+  std::vector<std::vector<std::string>> foot_warnings;  ///< of each foot
 };
 
 /// From one depth image a camera to the clouds of the feet, each with normals, sigma, view

@@ -41,7 +41,7 @@ tl::unexpected<Error> does_not_close(const PlaneBand& band) {
   std::snprintf(figure, sizeof figure, "%.0f mm", band.unit_mm * side.across);
   return fail(ErrorCode::kInsufficientData,
               what + ": there are no points over some " + figure + " of it",
-              "scan the body from there too, or move the plane");
+              "scan the body from there too");
 }
 
 }  // namespace instep

@@ -149,7 +149,7 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
   if (!is_most_of(unknowns.skin.stretched, section)) return too_few_or_noisy();
   return fail(ErrorCode::kInsufficientData,
               std::string("points lead away from the section at the tape plane") + kNoSkinFound,
-              "take it away, scan from nearer, or move the plane");
+              "take it away, or scan from nearer");
 }
 
 }  // namespace instep

@@ -196,6 +196,8 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
 
   std::vector<ScanRecord> records;
   for (auto& aligned : *feet) {
+    const auto& own = scene->foot_warnings[aligned.number];
+    aligned.warnings.insert(aligned.warnings.begin(), own.begin(), own.end());
     if (!clock.begin("landmarks", 0.7)) return cancelled();
     auto foot = find_landmarks(std::move(aligned));
     if (!foot) return tl::make_unexpected(with_what_was_noticed(foot.error(), warnings));

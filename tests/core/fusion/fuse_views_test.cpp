@@ -109,7 +109,10 @@ TEST(FuseViews, ClosesTheSoleInsideTheFootOnly) {
     }
     EXPECT_GT(closing, 500U);
   }
-  EXPECT_NE(joined(scene->warnings).find("sole"), std::string::npos);
+  ASSERT_EQ(scene->foot_warnings.size(), 2U);
+  for (const auto& own : scene->foot_warnings) {
+    EXPECT_NE(joined(own).find("no camera saw the sole"), std::string::npos);
+  }
   auto open = at_zero();
   open.close_soles = false;
   const auto unclosed = fuse_views(good_views(), open);
@@ -256,7 +259,8 @@ TEST(FuseViews, WorksWithOneCameraAndSaysWhatItMissed) {
   const auto scene = fuse_views({good_views()[0]}, at_zero());
   ASSERT_TRUE(scene) << scene.error().line();
   EXPECT_GE(scene->feet.size(), 1U);
-  EXPECT_NE(joined(scene->warnings).find("not seen from all sides"), std::string::npos);
+  ASSERT_EQ(scene->foot_warnings.size(), scene->feet.size());
+  EXPECT_NE(joined(scene->foot_warnings[0]).find("not seen from all sides"), std::string::npos);
 }
 
 TEST(FuseViews, TellsTheOperatorWhenNobodyStandsThere) {

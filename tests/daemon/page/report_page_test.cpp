@@ -248,7 +248,7 @@ TEST(ReportPage, StandsWhateverItIsGiven) {
 }
 
 TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
-  const std::string text = "no camera saw the sole of foot 1; it is closed by the platform";
+  const std::string text = "no camera saw the sole; it is closed by the platform";
   const auto lines = paper::wrapped(text, 300.0, 20.0);
   ASSERT_GT(lines.size(), 1U);
   std::string joined;

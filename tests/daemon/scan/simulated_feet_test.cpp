@@ -295,6 +295,8 @@ TEST(SimulatedPair, IsPutSideBySideAndLedByTheLongerFoot) {
     ASSERT_NE(length, nullptr);
     EXPECT_NEAR(length->difference_mm(), true_right - true_left, 1.0);
     EXPECT_EQ(record.pair->sizes.mondopoint_mm, records->front().sizes.mondopoint_mm);
+    EXPECT_TRUE(is_said("no camera saw the sole", record.foot.warnings));
+    EXPECT_FALSE(is_said("the sole", record.warnings)) << "of one foot, with both";
   }
 }
 
