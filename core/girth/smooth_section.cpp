@@ -9,6 +9,7 @@
 #include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_turns.h"
 #include "core/girth/fair_line.h"
+#include "core/girth/finer_skin.h"
 #include "core/girth/length_doubt.h"
 #include "core/surface/ribbon_spline.h"
 
@@ -150,9 +151,10 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
       ways_along(*line, static_cast<std::size_t>(std::lround(line->length() / kKnotsApart)));
   const bool asks_line = band.points.size() >= kManyPoints;
   if (asks_line && sharpest_turn(*line, knots) > kSharpestTurn) return std::nullopt;
-  const auto ribbon = RibbonSpline::through(ribbon_of(slabs, band, *line), line->length(),
-                                            static_cast<int>(knots.size()));
+  const auto points = ribbon_of(slabs, band, *line);
+  const auto ribbon = RibbonSpline::through(points, line->length(), static_cast<int>(knots.size()));
   if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;
+  if (shows_finer_skin(points, *ribbon, line->length(), knots.size())) return std::nullopt;
 
   const auto ways = ways_along(*line, contour.points.size());
   MeasuredSection section{moved(*line, *ribbon, ways)};

@@ -27,8 +27,9 @@ struct MeasuredSection {
 ///
 /// The patches' contour, made fair, is the line that heights are seen from (FairLine); the heights
 /// are a RibbonSpline. That holds for even skin alone: nothing if it bends more from place to place
-/// than a tape round it does, turns sharply somewhere (noise blunts a crease, but does not hide it)
-/// or scatters more round the spline than the noise, or if there is no noise to speak of.
+/// than a tape round it does, turns sharply somewhere (noise blunts a crease, but does not hide
+/// it), scatters more round the spline than the noise or in waves finer than the spline can follow
+/// (core/girth/finer_skin.h), or if there is no noise to speak of.
 ///
 /// `contour` as traced in the band of these slabs; the points need no normals. O(points of the
 /// cloud).

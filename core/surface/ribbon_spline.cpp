@@ -293,7 +293,7 @@ RibbonSpline::Evidence RibbonSpline::without_strays(Evidence evidence,
   std::vector<double> off;
   off.reserve(points.size());
   for (const auto& point : points) {
-    off.push_back(std::abs(point.height - height(point.way, point.off).value) *
+    off.push_back(std::abs(point.height - at(point.way, point.off).value) *
                   std::sqrt(point.certainty));
   }
   const double sigma = kSigmaInMedians * median(off);
@@ -324,11 +324,7 @@ std::optional<RibbonSpline> RibbonSpline::through(const std::vector<RibbonPoint>
   return spline;
 }
 
-RibbonSpline::Height RibbonSpline::at(double way) const {
-  return height(way, 0.0);
-}
-
-RibbonSpline::Height RibbonSpline::height(double way, double off) const {
+RibbonSpline::Height RibbonSpline::at(double way, double off) const {
   const auto [knot, part] = basis_.place_of(way);
   const Eigen::Vector4d cubic = pieces_[static_cast<std::size_t>(knot)] * powers_of<kColumns>(off);
   const double slope = cubic[1] + part * (2.0 * cubic[2] + part * 3.0 * cubic[3]);

@@ -42,8 +42,8 @@ class RibbonSpline {
     double value = 0.0;
     double slope = 0.0;  ///< along the line
   };
-  /// On the plane.
-  Height at(double way) const;
+  /// On the plane, or so far off it as RibbonPoint has it.
+  Height at(double way, double off = 0.0) const;
 
   /// Variance of a sum of heights on the plane, each times its share.
   double variance_of_sum(const std::vector<double>& ways, const std::vector<double>& shares) const;
@@ -114,7 +114,6 @@ class RibbonSpline {
   std::optional<Fit> likeliest(const Evidence& evidence) const;
   bool settle(std::optional<Fit> fit, double count);
   void set_pieces();
-  Height height(double way, double off) const;
   Evidence without_strays(Evidence evidence, const std::vector<RibbonPoint>& points) const;
 
   ClosedSplineBasis basis_;
