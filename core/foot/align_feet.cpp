@@ -46,6 +46,7 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
   for (const auto& cloud : clouds) {
     auto foot = align_foot(cloud, each);
     if (!foot) return tl::make_unexpected(foot.error());
+    foot->cloud_number = feet.size();
     feet.push_back(std::move(*foot));
   }
   if (feet.size() != 2) return feet;
@@ -58,6 +59,7 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
       const Side side = (i == 1) == second_is_left ? Side::kLeft : Side::kRight;
       auto settled = with_side(std::move(feet[i]), clouds[i], side, each);
       if (!settled) return tl::make_unexpected(settled.error());
+      settled->cloud_number = i;
       feet[i] = std::move(*settled);
     }
   } else if (feet[0].side == feet[1].side) {
@@ -65,7 +67,6 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
       foot.warnings.emplace_back("both feet look like the same side: check the sides");
     }
   }
-  for (std::size_t i = 0; i < 2; ++i) feet[i].number = i;
   std::stable_sort(feet.begin(), feet.end(), [](const FootScan& a, const FootScan& b) {
     return a.side == Side::kLeft && b.side == Side::kRight;
   });

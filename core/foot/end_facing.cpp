@@ -5,6 +5,7 @@
 
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
+#include "core/geometry/voxel_grid.h"
 #include "core/median.h"
 
 namespace instep {
@@ -16,6 +17,7 @@ constexpr double kDepthMm = 2.5;
 constexpr double kBesideMm = 15.0;
 constexpr double kNeighbourhoodMm = 5.0;
 constexpr std::size_t kFewestNeighbours = 8;
+constexpr double kCellMm = 1.0;
 
 std::vector<PointIndex::Neighbour> neighbours_of(const Vector3d& point, const PointIndex& index) {
   auto near = index.around(point, kNeighbourhoodMm);
@@ -30,27 +32,49 @@ Vector3d normal_at(const Vector3d& point, const PointIndex& index) {
   return moments.flattest();
 }
 
+/// The means over cells of a millimetre.
+std::vector<Vector3d> thinned(const std::vector<Vector3d>& points) {
+  const VoxelGrid grid(points, kCellMm);
+  std::vector<Vector3d> means;
+  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+    Vector3d sum = Vector3d::Zero();
+    for (const auto member : grid.members(cell)) sum += points[member];
+    means.push_back(sum / static_cast<double>(grid.members(cell).size()));
+  }
+  return means;
+}
+
+/// Of points seen from the end.
+struct Offset {
+  double depth;
+  double beside;
+
+  Offset(const Vector3d& from_end, const Vector3d& direction)
+      : depth(-direction.dot(from_end)), beside((from_end + depth * direction).norm()) {}
+
+  bool is_within(double most_depth, double most_beside) const {
+    return depth <= most_depth && beside <= most_beside;
+  }
+};
+
 }  // namespace
 
-double end_facing(const std::vector<Vector3d>& points, const Vector3d& end,
-                  const Vector3d& direction) {
+std::optional<double> end_facing(const std::vector<Vector3d>& points, const Vector3d& end,
+                                 const Vector3d& direction) {
   std::vector<Vector3d> near;
-  std::vector<Vector3d> last;
   for (const auto& point : points) {
-    const Vector3d offset = point - end;
-    const double depth = -direction.dot(offset);
-    const double beside = (offset + depth * direction).norm();
-    if (depth > kDepthMm + kNeighbourhoodMm || beside > kBesideMm + kNeighbourhoodMm) continue;
-    near.push_back(point);
-    if (depth <= kDepthMm && beside <= kBesideMm) last.push_back(point);
+    const Offset offset(point - end, direction);
+    if (offset.is_within(kDepthMm + kNeighbourhoodMm, kBesideMm + kNeighbourhoodMm)) {
+      near.push_back(point);
+    }
   }
-  if (last.empty()) return 0.0;
-  const PointIndex index(std::move(near));
+  const PointIndex index(thinned(near));
   std::vector<double> facings;
-  facings.reserve(last.size());
-  for (const auto& point : last) {
+  for (const auto& point : index.points()) {
+    if (!Offset(point - end, direction).is_within(kDepthMm, kBesideMm)) continue;
     facings.push_back(std::abs(normal_at(point, index).dot(direction)));
   }
+  if (facings.empty()) return std::nullopt;
   return median(std::move(facings));
 }
 

@@ -61,8 +61,8 @@ struct Redraws {
 /// of a left foot y < 0). Left feet are not mirrored here; a rule that needs "medial" asks
 /// medial_sign().
 struct FootScan {
-  PointCloud cloud;        ///< foot frame
-  std::size_t number = 0;  ///< of its cloud among those it was aligned with (align_feet())
+  PointCloud cloud;              ///< foot frame
+  std::size_t cloud_number = 0;  ///< among those that align_feet() was given
   Side side = Side::kRight;
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();

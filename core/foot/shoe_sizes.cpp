@@ -101,8 +101,10 @@ ShopChoice choose(const ShopTable& table, const SizedFoot& foot) {
 }  // namespace
 
 SizedFoot sized_foot(const MeasureSet& measures) {
-  return {value_of(measures, "foot_length"), value_of(measures, "ball_girth"),
-          value_of(measures, "foot_breadth")};
+  const Measure* length = measures.find("foot_length");
+  const bool tells_size = length == nullptr || !length->u95_mm || *length->u95_mm <= kParisPointMm;
+  return {tells_size ? value_of(measures, "foot_length") : std::nullopt,
+          value_of(measures, "ball_girth"), value_of(measures, "foot_breadth")};
 }
 
 SizedFoot larger_of(const SizedFoot& one, const SizedFoot& other) {
@@ -129,7 +131,8 @@ ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules) {
   sizes.foot = foot;
   sizes.allowance_mm = rules.allowance_mm;
   if (!foot.length_mm) {
-    sizes.notes.emplace_back("the foot length is missing: there is no size without it");
+    sizes.notes.emplace_back(
+        "the foot length is missing, or told to no better than a size: there is none without it");
     return sizes;
   }
   const double foot_mm = *foot.length_mm;

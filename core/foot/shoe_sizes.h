@@ -16,7 +16,8 @@ struct SizedFoot {
   std::optional<double> breadth_mm;  ///< metatarsale tibiale to fibulare, in floor projection
 };
 
-/// What a set of measures has of them; a value that is no positive number counts as missing.
+/// What a set of measures has of them. A value that is no positive number counts as missing, and so
+/// does a length whose interval holds more than a size of the EU to either side.
 SizedFoot sized_foot(const MeasureSet& measures);
 
 /// The foot that a pair of shoes must take: of each measure the larger one. One that only one foot

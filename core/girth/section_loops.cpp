@@ -27,6 +27,9 @@ constexpr double kLeastFounded = 0.25;
 /// Of a loop, on which it runs along another of the same body, and how long it is against that at
 /// least. Of 320 girths with strays on one side 7 are over two intervals off, and 10 with both.
 constexpr double kOneBody = 0.5;
+/// Of what points enclose, against the square of its outline: ten times as long as it is wide, a
+/// noisy wall.
+constexpr double kLeastWide = 0.02;
 constexpr int kMostLoops = 8;
 constexpr int kMostStarts = 40;
 /// One in so many points, the nearest to the plane, is a start at least.
@@ -172,7 +175,8 @@ bool has_larger_beside(const PlaneBand& band, const std::vector<SectionLoop>& lo
   auto outline = convex_hull(unexplained_places(band, loops));
   const auto& section = loops.front().contour.points;
   const double area = signed_area(outline);
-  if (!is_ring(outline) || !(area > signed_area(section))) return false;
+  const double length = perimeter(outline);
+  if (!(area > kLeastWide * length * length && area > signed_area(section))) return false;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const auto& corner : section) middle += corner / static_cast<double>(section.size());
   outline.push_back(middle);

@@ -15,7 +15,7 @@ constexpr std::size_t kStations = 200;
 constexpr double kLeastPart = 0.05;
 /// How wide a part is (four times its area by its outline: the diameter of a round one) against the
 /// neck.
-constexpr double kWiderThanNeck = 2.5;
+constexpr double kWiderThanNeck = 2.0;
 /// Points so near to the plane and to the straight line across a neck lie along it, and a gap
 /// between them, in grains or against the width, that tells it from two skins. Of 378 sections of
 /// two cylinders -6 to 4 mm apart 17 ran round both though they were two, or hardly one: of their
@@ -71,6 +71,7 @@ bool is_part(double area, double way, double width, double whole) {
 
 /// Between points near a neck, and its ends.
 double widest_gap_along(const SectionNeck& neck, const PlaneBand& band) {
+  if (!(neck.width > 0.0)) return 0.0;
   const double near = kNearInGrains * band.grain;
   const Eigen::Vector2d along = (neck.to - neck.from) / neck.width;
   std::vector<double> ways = {0.0, neck.width};
@@ -107,10 +108,9 @@ std::optional<SectionNeck> SectionNeck::of(const Contour& contour) {
   return narrowest;
 }
 
-bool may_be_two_bodies(const PlaneBand& band, const Contour& contour) {
-  const auto neck = SectionNeck::of(contour);
-  return neck && widest_gap_along(*neck, band) <
-                     std::max(kWidestGapInGrains * band.grain, kWidestGap * neck->width);
+bool may_be_two_bodies(const PlaneBand& band, const SectionNeck& neck) {
+  return widest_gap_along(neck, band) <
+         std::max(kWidestGapInGrains * band.grain, kWidestGap * neck.width);
 }
 
 }  // namespace instep

@@ -16,7 +16,8 @@ struct SectionNeck {
   double width = 0.0;    ///< straight between them
 
   /// Nothing of a section that has none: a part of less than a twentieth of the area is none, nor
-  /// is one along which two sides run, as a fin. Told to a two-hundredth of the length. O(corners).
+  /// is one along which two sides run, as a fin, nor where a round part is less than twice as wide.
+  /// Each end is told to a two-hundredth of the length. O(corners).
   static std::optional<SectionNeck> of(const Contour& contour);
 };
 
@@ -24,6 +25,6 @@ struct SectionNeck {
 /// no wider than its points can tell, or points lie along all of it, inside, as those of the two
 /// skins that face each other there do. Of the two lengths, of both bodies and of the larger one,
 /// nothing tells which it is. O(points of the band).
-bool may_be_two_bodies(const PlaneBand& band, const Contour& contour);
+bool may_be_two_bodies(const PlaneBand& band, const SectionNeck& neck);
 
 }  // namespace instep

@@ -18,6 +18,7 @@
 #include "core/girth/section_unknowns.h"
 #include "core/girth/section_warnings.h"
 #include "core/girth/smooth_section.h"
+#include "core/in_millimetres.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep {
@@ -36,7 +37,7 @@ constexpr double kWinding = 1.05;
 /// scanned: of lines as thick with noise as they are near, a loop of a few millimetres between two
 /// of them passed for the section. A wall beside a body is as much.
 constexpr double kMostUnexplained = 0.67;
-/// The same of those that may be of a larger body.
+/// The same of those that may be of a larger body: as dense as this one, it has more than half.
 constexpr double kOfALargerOne = 0.3;
 /// A share of the patches that left out strays, with which these are looked for beforehand. Of
 /// 8,363 girths of bodies without strays one has more, of cylinders with 5 % of their points some 5
@@ -77,6 +78,12 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
     smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
   }
   return *smooth;
+}
+
+/// Two bodies pressed together look like one with a waist, where no camera sees between them.
+std::string waist_warning(double width_mm) {
+  return "the section has a waist of " + in_millimetres(width_mm) +
+         " between two wide parts: if these are two bodies, give the points of one alone";
 }
 
 /// In millimetres.
@@ -141,31 +148,43 @@ void note_unsure_parts(const PlaneBand& band, const SectionUnknowns& unknowns, T
                band.unit_mm * unknowns.skin.contact, band.unit_mm * unknowns.skin.stretched};
 }
 
+Result<void> check_whole(const std::vector<SectionLoop>& loops, const SectionEvidence& evidence) {
+  if (!(evidence.gap > kWidestBridge * loops.front().contour.length())) return {};
+  return fail(ErrorCode::kInsufficientData,
+              "more than a quarter of the section at the tape plane has no points",
+              "scan the body all round");
+}
+
+/// Whether the first of the loops goes round one body, and that the largest.
+Result<void> check_one_body(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                            const std::optional<SectionNeck>& neck, double unexplained) {
+  if (neck && may_be_two_bodies(band, *neck)) {
+    return fail(ErrorCode::kInvalidInput,
+                "the section at the tape plane is pinched between two parts, as where two bodies "
+                "touch: nothing tells whether the tape goes round both",
+                "move them apart and scan again, or give the points of one alone");
+  }
+  if (unexplained > kOfALargerOne && has_larger_beside(band, loops)) {
+    return fail(ErrorCode::kInvalidInput,
+                "beside what closes at the tape plane lies something larger that does not",
+                "take it away, or move it apart, and scan again");
+  }
+  return {};
+}
+
 /// Of the first of the loops, if so much is known of it.
 ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
                       const PlaneBand& band, SlabSource& slabs) {
   const Contour& contour = loops.front().contour;
   const double length = contour.length();
   const auto evidence = evidence_for(band, loops.front().index, evidence_reach(band));
-  if (evidence.gap > kWidestBridge * length) {
-    return refused(band, contour,
-                   fail(ErrorCode::kInsufficientData,
-                        "more than a quarter of the section at the tape plane has no points",
-                        "scan the body all round"));
-  }
-  if (may_be_two_bodies(band, contour)) {
-    return refused(band, contour,
-                   fail(ErrorCode::kInvalidInput,
-                        "the section at the tape plane is pinched between two parts, as where two "
-                        "bodies touch: nothing tells whether the tape goes round both",
-                        "move them apart and scan again, or give the points of one alone"));
-  }
+  const auto neck = SectionNeck::of(contour);
   const double unexplained = unexplained_share(band, loops, evidence);
-  if (unexplained > kOfALargerOne && has_larger_beside(band, loops)) {
-    return refused(band, contour,
-                   fail(ErrorCode::kInvalidInput,
-                        "beside what closes at the tape plane lies something larger that does not",
-                        "move them apart and scan again, or give the points of one alone"));
+  if (auto whole = check_whole(loops, evidence); !whole) {
+    return refused(band, contour, tl::make_unexpected(whole.error()));
+  }
+  if (auto one = check_one_body(band, loops, neck, unexplained); !one) {
+    return refused(band, contour, tl::make_unexpected(one.error()));
   }
   auto section = measured(slabs, band, loops, surface, evidence);
   const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence, section.contour);
@@ -187,6 +206,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
   told.of_few = unexplained > kMostUnexplained;
   told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);
+  if (neck) told.girth.warnings.push_back(waist_warning(band.unit_mm * neck->width));
   return told;
 }
 

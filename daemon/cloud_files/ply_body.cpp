@@ -154,6 +154,7 @@ class AsciiBody final : public PlyBody {
   Result<void> read(const PlyElement& element, const std::vector<PlyColumn>& columns,
                     PlyLists* lists) override {
     if (!can_hold(element)) return bad_record(element, element.count);
+    if (auto rows = check_columns(element); !rows) return rows;
     Plan plan(element, columns, lists);
     for (std::size_t record = 0; record < element.count; ++record) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
@@ -172,6 +173,22 @@ class AsciiBody final : public PlyBody {
   std::size_t unread_bytes() const override { return without_blanks_at_end(rest_).size(); }
 
  private:
+  /// A row that holds more than its header names would be read as another point.
+  Result<void> check_columns(const PlyElement& element) const {
+    const auto& properties = element.properties;
+    const bool has_lists = std::any_of(properties.begin(), properties.end(),
+                                       [](const auto& one) { return one.count_type.has_value(); });
+    TextLines lines(rest_);
+    auto line = lines.next();
+    while (line && without_blanks_at_end(*line).empty()) line = lines.next();
+    if (!line || has_lists) return {};
+    std::size_t words = 0;
+    while (!take_word(*line).empty()) ++words;
+    if (words <= properties.size()) return {};
+    return damaged_file(file_, fmt::format("its rows \"{}\" hold {} numbers, its header names {}",
+                                           element.name, words, properties.size()));
+  }
+
   bool take_list(std::size_t property, double length, Plan& plan) {
     if (!is_list_length(length)) return false;
     if (plan.wants_list(property)) {

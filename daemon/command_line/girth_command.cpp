@@ -11,6 +11,7 @@
 
 #include "core/girth/girth.h"
 #include "core/girth/tape_plane.h"
+#include "core/noticed.h"
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
@@ -107,7 +108,7 @@ Result<void> run(const GirthCommand& command) {
   const auto doubt = doubt_of_plane(*plane);
   if (!girth) {
     if (doubt) girth.error().advice += "; " + *doubt;
-    return tl::make_unexpected(girth.error());
+    return tl::make_unexpected(with_what_was_noticed(girth.error(), file->notes));
   }
   times.measure_ms = milliseconds_since(measuring);
   times.total_ms = milliseconds_since(start);

@@ -8,6 +8,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
+#include "core/noticed.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/measuring_options.h"
@@ -70,7 +71,7 @@ Result<void> run(const MeasureCommand& command) {
   options.side = side_from_string(command.side);
   options.rules = command.rules.over(settings->measures);
   auto foot = align_foot(file->cloud, options).and_then(find_landmarks);
-  if (!foot) return tl::make_unexpected(foot.error());
+  if (!foot) return tl::make_unexpected(with_what_was_noticed(foot.error(), file->notes));
   foot->warnings.insert(foot->warnings.begin(), file->notes.begin(), file->notes.end());
   auto measures = measure_foot(*foot);
   if (!measures) return tl::make_unexpected(measures.error());

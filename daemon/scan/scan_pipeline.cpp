@@ -165,6 +165,14 @@ void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& q
   if (figures.lenses_off) quality["lenses_off_percent"] = 100.0 * *figures.lenses_off;
 }
 
+/// With what the cameras missed of each foot.
+std::vector<std::string> all_noticed(const FusedScene& scene, std::vector<std::string> warnings) {
+  for (const auto& own : scene.foot_warnings) {
+    warnings.insert(warnings.end(), own.begin(), own.end());
+  }
+  return warnings;
+}
+
 }  // namespace
 
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
@@ -192,15 +200,21 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
   alignment.is_plane_guessed = !scene->is_standing_height_known;
   auto feet = align_feet(scene->feet, alignment);
-  if (!feet) return tl::make_unexpected(with_what_was_noticed(of_scan(feet.error()), warnings));
+  if (!feet) {
+    const auto noticed = all_noticed(*scene, warnings);
+    return tl::make_unexpected(with_what_was_noticed(of_scan(feet.error()), noticed));
+  }
 
   std::vector<ScanRecord> records;
   for (auto& aligned : *feet) {
-    const auto& own = scene->foot_warnings[aligned.number];
+    const auto& own = scene->foot_warnings.at(aligned.cloud_number);
     aligned.warnings.insert(aligned.warnings.begin(), own.begin(), own.end());
     if (!clock.begin("landmarks", 0.7)) return cancelled();
     auto foot = find_landmarks(std::move(aligned));
-    if (!foot) return tl::make_unexpected(with_what_was_noticed(foot.error(), warnings));
+    if (!foot) {
+      const auto noticed = all_noticed(*scene, warnings);
+      return tl::make_unexpected(with_what_was_noticed(foot.error(), noticed));
+    }
 
     if (!clock.begin("girths", 0.7)) return cancelled();
     MeasureOptions options;

@@ -78,8 +78,8 @@ TEST(AlignFeet, GoesByThePlaceOfCrossedFeetAndSaysSo) {
   EXPECT_EQ((*feet)[0].side, Side::kLeft);
   EXPECT_EQ((*feet)[1].side, Side::kRight);
   for (const auto& foot : *feet) EXPECT_TRUE(says(foot, "not crossed"));
-  EXPECT_EQ((*feet)[0].number, 1U);
-  EXPECT_EQ((*feet)[1].number, 0U);
+  EXPECT_EQ((*feet)[0].cloud_number, 1U);
+  EXPECT_EQ((*feet)[1].cloud_number, 0U);
 }
 
 TEST(AlignFeet, KeepsTheShapesOfFeetThatPointDifferentWays) {

@@ -9,6 +9,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
+#include "core/foot/shoe_sizes.h"
 #include "tests/support/cases/drawn_feet.h"
 #include "tests/support/random_numbers.h"
 
@@ -36,16 +37,26 @@ TEST(EndFacing, IsNearOneWhereAToeClosesAndNearNoneWhereItIsCutOff) {
     for (const double noise_mm : {0.0, 0.4}) {
       SCOPED_TRACE(testing::Message() << radius << " " << noise_mm);
       auto points = toe(radius, noise_mm);
-      EXPECT_GT(end_facing(points, {radius, 0, 0}, Vector3d::UnitX()), 0.8);
+      EXPECT_GT(*end_facing(points, {radius, 0, 0}, Vector3d::UnitX()), 0.8);
       std::erase_if(points, [](const Vector3d& point) { return point.x() > -5.0; });
-      EXPECT_LT(end_facing(points, {-5.0, radius, 0}, Vector3d::UnitX()), 0.25);
+      EXPECT_LT(*end_facing(points, {-5.0, radius, 0}, Vector3d::UnitX()), 0.25);
     }
   }
 }
 
-TEST(EndFacing, IsNoneWithoutPoints) {
-  EXPECT_EQ(end_facing({}, {0, 0, 0}, Vector3d::UnitX()), 0.0);
-  EXPECT_EQ(end_facing({{-100, 0, 0}}, {0, 0, 0}, Vector3d::UnitX()), 0.0);
+TEST(EndFacing, IsNotToldWithoutPoints) {
+  EXPECT_FALSE(end_facing({}, {0, 0, 0}, Vector3d::UnitX()));
+  EXPECT_FALSE(end_facing({{-100, 0, 0}}, {0, 0, 0}, Vector3d::UnitX()));
+}
+
+/// Of a crowd each point had all others for neighbours: 60,000 took over a minute.
+TEST(EndFacing, IsToldOfACrowd) {
+  auto points = toe(12.0, 0.0);
+  test::RandomNumbers random(5);
+  for (int i = 0; i < 300000; ++i) {
+    points.emplace_back(12.0 + 0.1 * random.normal(), 0.1 * random.normal(), 0.1 * random.normal());
+  }
+  EXPECT_GT(*end_facing(points, {12.0, 0, 0}, Vector3d::UnitX()), 0.8);
 }
 
 /// Without what lies before `least` or after `most` of its length, in its own frame.
@@ -85,6 +96,8 @@ TEST(FootLength, OfAFootWithoutItsEndsSaysThatItMayBeMore) {
     EXPECT_TRUE(warns_of(toeless, "the foremost part of the toes was not seen"));
     EXPECT_FALSE(warns_of(toeless, "heel"));
     EXPECT_GE(*toeless.u95_mm, 10.0);
+    EXPECT_FALSE(sized_foot({.measures = {toeless}, .withheld = {}}).length_mm) << "no size";
+    EXPECT_TRUE(sized_foot({.measures = {whole}, .withheld = {}}).length_mm);
     const Measure heelless = length_of(cut_foot(*foot, 25.0, 1e3));
     EXPECT_TRUE(warns_of(heelless, "the rearmost part of the heel was not seen"));
     EXPECT_FALSE(warns_of(heelless, "toes"));

@@ -100,6 +100,15 @@ TEST(SectionLoops, HaveNoLargerOneBeside) {
   const auto one = traced(beside_wall);
   ASSERT_EQ(one.loops.size(), 1U);
   EXPECT_FALSE(has_larger_beside(one.band, one.loops));
+  // The noise of a long wall covers as much as the body does.
+  PointCloud beside_noisy = test::cylinder(8000);
+  for (int i = 0; i < 6000; ++i) {
+    beside_noisy.positions.emplace_back(-60.0 + 1.5 * random.normal(),
+                                        random.uniform(-300.0, 300.0), random.uniform(-30.0, 30.0));
+  }
+  const auto noisy = traced(beside_noisy);
+  ASSERT_EQ(noisy.loops.size(), 1U);
+  EXPECT_FALSE(has_larger_beside(noisy.band, noisy.loops));
 
   PointCloud in_shell;
   add_pole(15.0, 0.0, 3000, in_shell);

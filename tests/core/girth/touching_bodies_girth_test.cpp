@@ -2,6 +2,7 @@
 // two. Round both the tape would be 90 mm longer than round the larger one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -24,40 +25,62 @@ constexpr double kThreeSigmas = 1.5;
 /// What a tape gains where it takes a little of the other one with it, mm.
 constexpr double kOfTheOther = 5.0;
 
+/// `apart_mm` < 0: pressed into each other, without the points inside, which no camera sees.
 PointCloud two_cylinders(std::size_t count, double apart_mm, double sigma_mm, std::uint64_t seed) {
   test::RandomNumbers random(seed);
   const double middle = kRadius + apart_mm + kOtherRadius;
   PointCloud cloud;
-  for (std::size_t i = 0; i < count; ++i) {
+  while (cloud.positions.size() < count) {
     const bool is_first = random.uniform(0.0, kRadius + kOtherRadius) < kRadius;
     const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
     const double radius = (is_first ? kRadius : kOtherRadius) + sigma_mm * random.normal();
-    cloud.positions.emplace_back((is_first ? 0.0 : middle) + radius * std::cos(angle),
-                                 radius * std::sin(angle), random.uniform(-30.0, 30.0));
+    const double x = (is_first ? 0.0 : middle) + radius * std::cos(angle);
+    const double y = radius * std::sin(angle);
+    const double inside =
+        is_first ? kOtherRadius - std::hypot(x - middle, y) : kRadius - std::hypot(x, y);
+    if (apart_mm < 0.0 && inside > 0.0) continue;
+    cloud.positions.emplace_back(x, y, random.uniform(-30.0, 30.0));
   }
   return cloud;
 }
 
-TEST(GirthOfTouchingBodies, IsOfTheLargerOneOrNotTold) {
-  const double truth = 2.0 * std::numbers::pi * kRadius;
-  int refused = 0;
-  for (const double apart_mm : {0.5, 1.0, 2.0}) {
+bool says(const Girth& girth, const char* words) {
+  return std::any_of(girth.warnings.begin(), girth.warnings.end(),
+                     [&](const auto& warning) { return warning.find(words) != std::string::npos; });
+}
+
+/// Round both it is told only with a warning, of two pressed into each other; else it is that of
+/// the larger one, or none.
+void expect_no_wrong_girth(const Result<Girth>& girth, double apart_mm) {
+  if (!girth) {
+    const bool is_right = girth.error().code == ErrorCode::kInvalidInput ||
+                          girth.error().code == ErrorCode::kInsufficientData;
+    EXPECT_TRUE(is_right) << girth.error().line();
+    return;
+  }
+  if (apart_mm < 0.0 && says(*girth, "a waist of")) return;
+  EXPECT_NEAR(girth->stretched_mm, 2.0 * std::numbers::pi * kRadius,
+              kThreeSigmas * *girth->stretched_u95_mm + kOfTheOther);
+}
+
+/// They were told round both without a word, +92 mm with an interval of 1, or of the smaller one.
+TEST(GirthOfTouchingBodies, IsOfTheLargerOneOrNotToldWithoutAWord) {
+  int pinched = 0;
+  int told = 0;
+  for (const double apart_mm : {-4.0, -1.0, 0.0, 0.5, 1.0, 2.0}) {
     for (const double sigma_mm : {0.2, 0.4}) {
-      for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         SCOPED_TRACE(testing::Message() << apart_mm << " " << sigma_mm << " " << seed);
         const auto girth =
             girth_by_rbf(two_cylinders(10000, apart_mm, sigma_mm, seed), test::level_plane(1.3));
-        if (girth) {
-          EXPECT_NEAR(girth->stretched_mm, truth,
-                      kThreeSigmas * *girth->stretched_u95_mm + kOfTheOther);
-        } else if (girth.error().message.find("pinched") != std::string::npos) {
-          EXPECT_EQ(girth.error().code, ErrorCode::kInvalidInput);
-          ++refused;
-        }
+        expect_no_wrong_girth(girth, apart_mm);
+        if (girth) ++told;
+        if (!girth && girth.error().message.find("pinched") != std::string::npos) ++pinched;
       }
     }
   }
-  EXPECT_GT(refused, 0);
+  EXPECT_GT(pinched, 1);
+  EXPECT_GT(told, 8);
 }
 
 /// Of the outline of an hourglass whose neck is so wide.
@@ -91,6 +114,7 @@ TEST(GirthOfAnHourglass, IsTold) {
       ASSERT_TRUE(girth) << girth.error().line();
       EXPECT_NEAR(girth->stretched_mm, tape_round_hourglass(neck_mm),
                   kThreeSigmas * *girth->stretched_u95_mm);
+      EXPECT_TRUE(says(*girth, "a waist of"));
     }
   }
 }

@@ -53,6 +53,14 @@ TEST(SurplusBytes, AreNoneOfAWholeFileNorBlanks) {
   EXPECT_EQ(told(kBinaryPcd + std::string(500, '\0'), "a.pcd"), "");
 }
 
+/// They were read word by word, so that a row's last numbers were the next point's first.
+TEST(SurplusBytes, OfRowsThatHoldMoreThanTheHeaderNamesAreDamage) {
+  std::string rows = kAscii;
+  rows.replace(rows.find("0 0 0\n"), 5, "0 0 0 7 7 7");
+  const std::string said = told(rows + "100 20 30 7 7 7\n", "a.ply");
+  EXPECT_NE(said.find("hold 6 numbers, its header names 3"), std::string::npos) << said;
+}
+
 TEST(TextTokens, LoseBlanksAtTheirEnd) {
   EXPECT_EQ(without_blanks_at_end("a b \t\r\n"), "a b");
   EXPECT_EQ(without_blanks_at_end(" \n"), "");

@@ -253,6 +253,24 @@ TEST(SimulatedFoot, IsMeasuredWholeByACameraBeforeAndOneBehindIt) {
   EXPECT_TRUE(is_said("comes in 2 parts", records->front().foot.warnings));
 }
 
+/// One camera alone sees a side of it: that it is no foot is not all that helps.
+TEST(SimulatedFoot, ThatIsNoneSaysWhatWasMissedOfIt) {
+  int failed = 0;
+  for (const std::uint64_t seed : {6U, 7U, 8U}) {
+    SimulationSettings settings;
+    settings.seed = seed;
+    settings.cameras = 1;
+    auto scan = scan_of(settings);
+    ASSERT_TRUE(scan);
+    const auto measured = measure_capture(scan->capture, {}, {});
+    if (measured) continue;
+    ++failed;
+    EXPECT_NE(measured.error().line().find("no camera saw the sole"), std::string::npos)
+        << measured.error().line();
+  }
+  EXPECT_GT(failed, 0);
+}
+
 TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
   SimulationSettings simulation;
   simulation.seed = 5;
