@@ -154,6 +154,11 @@ bool want_vectors(const PcdHeader& header, const std::array<const char*, 3>& nam
 /// Takes the points off the front of `text`.
 Result<void> read_ascii(std::string_view& text, const PcdHeader& header, std::size_t count,
                         const std::vector<Target>& targets, const std::string& file) {
+  // A row that holds more would be read as another point.
+  if (const auto words = words_in_first_row(text); words > header.columns) {
+    return damaged_file(
+        file, fmt::format("its rows hold {} numbers, its header names {}", words, header.columns));
+  }
   std::vector<double> row(header.columns);
   for (std::size_t point = 0; point < count; ++point) {
     for (auto& value : row) {

@@ -178,13 +178,8 @@ class AsciiBody final : public PlyBody {
     const auto& properties = element.properties;
     const bool has_lists = std::any_of(properties.begin(), properties.end(),
                                        [](const auto& one) { return one.count_type.has_value(); });
-    TextLines lines(rest_);
-    auto line = lines.next();
-    while (line && without_blanks_at_end(*line).empty()) line = lines.next();
-    if (!line || has_lists) return {};
-    std::size_t words = 0;
-    while (!take_word(*line).empty()) ++words;
-    if (words <= properties.size()) return {};
+    const std::size_t words = words_in_first_row(rest_);
+    if (has_lists || words <= properties.size()) return {};
     return damaged_file(file_, fmt::format("its rows \"{}\" hold {} numbers, its header names {}",
                                            element.name, words, properties.size()));
   }

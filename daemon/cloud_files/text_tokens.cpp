@@ -27,6 +27,15 @@ std::string_view take_word(std::string_view& text, std::string_view separators) 
   return word;
 }
 
+std::size_t words_in_first_row(std::string_view text) {
+  TextLines lines(text);
+  std::size_t words = 0;
+  for (auto line = lines.next(); line && words == 0; line = lines.next()) {
+    while (!take_word(*line).empty()) ++words;
+  }
+  return words;
+}
+
 std::string_view without_blanks_at_end(std::string_view text) {
   const auto last = text.find_last_not_of(std::string_view(" \t\r\n\v\f\0", 7));
   return text.substr(0, last == text.npos ? 0 : last + 1);

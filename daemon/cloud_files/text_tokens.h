@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -22,6 +23,9 @@ class TextLines {
 /// Takes the next word off the front of `text`; words are parted by any of `separators`. Empty at
 /// the end.
 std::string_view take_word(std::string_view& text, std::string_view separators = " \t\r\n\v\f");
+
+/// Of the first line that has any; 0 if none has.
+std::size_t words_in_first_row(std::string_view text);
 
 /// Spaces, tabs, ends of lines and bytes of zero.
 std::string_view without_blanks_at_end(std::string_view text);

@@ -57,8 +57,17 @@ TEST(SurplusBytes, AreNoneOfAWholeFileNorBlanks) {
 TEST(SurplusBytes, OfRowsThatHoldMoreThanTheHeaderNamesAreDamage) {
   std::string rows = kAscii;
   rows.replace(rows.find("0 0 0\n"), 5, "0 0 0 7 7 7");
-  const std::string said = told(rows + "100 20 30 7 7 7\n", "a.ply");
-  EXPECT_NE(said.find("hold 6 numbers, its header names 3"), std::string::npos) << said;
+  std::string pcd_rows = kAsciiPcd;
+  pcd_rows.replace(pcd_rows.find("0 0 0\n"), 5, "0 0 0 7 7 7");
+  for (const auto& said : {told(rows + "100 20 30 7 7 7\n", "a.ply"), told(pcd_rows, "a.pcd")}) {
+    EXPECT_NE(said.find("hold 6 numbers, its header names 3"), std::string::npos) << said;
+  }
+}
+
+TEST(TextTokens, AreCountedInTheFirstRowThatHasAny) {
+  EXPECT_EQ(words_in_first_row("\n \r\n1 2\t3 \n4 5\n"), 3U);
+  EXPECT_EQ(words_in_first_row(" \n"), 0U);
+  EXPECT_EQ(words_in_first_row(""), 0U);
 }
 
 TEST(TextTokens, LoseBlanksAtTheirEnd) {
