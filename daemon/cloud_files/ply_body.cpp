@@ -179,7 +179,7 @@ class AsciiBody final : public PlyBody {
     const bool has_lists = std::any_of(properties.begin(), properties.end(),
                                        [](const auto& one) { return one.count_type.has_value(); });
     const std::size_t words = words_in_first_row(rest_);
-    if (has_lists || words <= properties.size()) return {};
+    if (element.count == 0 || has_lists || words <= properties.size()) return {};
     return damaged_file(file_, fmt::format("its rows \"{}\" hold {} numbers, its header names {}",
                                            element.name, words, properties.size()));
   }

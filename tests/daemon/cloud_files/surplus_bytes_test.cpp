@@ -64,6 +64,14 @@ TEST(SurplusBytes, OfRowsThatHoldMoreThanTheHeaderNamesAreDamage) {
   }
 }
 
+TEST(SurplusBytes, OfAnElementWithoutRowsAreTheNextOnes) {
+  std::string file = kAscii;
+  const std::string vertices = "element vertex 2\n";
+  file.replace(file.find(vertices), vertices.size(),
+               "element camera 0\nproperty float f\n" + vertices);
+  EXPECT_EQ(told(file, "a.ply"), "");
+}
+
 TEST(TextTokens, AreCountedInTheFirstRowThatHasAny) {
   EXPECT_EQ(words_in_first_row("\n \r\n1 2\t3 \n4 5\n"), 3U);
   EXPECT_EQ(words_in_first_row(" \n"), 0U);
