@@ -102,6 +102,11 @@ void drop_shared_errors(CloudFile& read, const std::string& why) {
 void cover_faces(CloudFile& read) {
   PointCloud& cloud = read.cloud;
   TriangleMesh used = welded(read.mesh);
+  if (used.triangles.empty()) {
+    read.mesh = {};
+    read.notes.emplace_back("no face of the file has three corners apart, so its points are used");
+    return;
+  }
   const std::size_t corners = used.positions.size();
   if (corners < cloud.size()) {
     read.notes.push_back(fmt::format("{} of the file's {} points are repeated or belong to no face",
