@@ -21,22 +21,28 @@ constexpr Eigen::Index kFewestFree = 6;
 /// Of what is left over: short of all of it, whose logarithm knows no end.
 constexpr double kMostShare = 1.0 - 1e-15;
 
-/// Diagonal of the inverse of what was decomposed, by the columns of the inverse of the factor:
-/// each begins as far down as it stands to the right.
+/// Columns of an inverse that are solved for side by side: enough to keep wide vectors busy.
+constexpr Eigen::Index kSideBySide = 16;
+using SideBySide = Eigen::Array<double, kSideBySide, 1>;
+
+/// Diagonal of the inverse of what was decomposed: the squares of the columns of the inverse of the
+/// factor, which begin as far down as they stand to the right.
 Eigen::VectorXd inverse_diagonal(const Eigen::LLT<Eigen::MatrixXd>& cholesky) {
-  const Eigen::MatrixXd& factor = cholesky.matrixLLT();
-  const Eigen::Index count = factor.cols();
+  const Eigen::MatrixXd rows = cholesky.matrixLLT().transpose();
+  const Eigen::Index count = rows.cols();
   Eigen::VectorXd diagonal(count);
-  Eigen::VectorXd column(count);
-  for (Eigen::Index from = 0; from < count; ++from) {
-    column.tail(count - from).setZero();
-    column[from] = 1.0;
+  Eigen::Array<double, kSideBySide, Eigen::Dynamic> solved(kSideBySide, count);
+  for (Eigen::Index from = 0; from < count; from += kSideBySide) {
+    SideBySide squares = SideBySide::Zero();
     for (Eigen::Index i = from; i < count; ++i) {
-      column[i] /= factor(i, i);
-      const Eigen::Index rest = count - i - 1;
-      column.tail(rest) -= column[i] * factor.col(i).tail(rest);
+      SideBySide rest = SideBySide::Zero();
+      if (i < from + kSideBySide) rest[i - from] = 1.0;
+      for (Eigen::Index k = from; k < i; ++k) rest -= rows(k, i) * solved.col(k);
+      solved.col(i) = rest / rows(i, i);
+      squares += solved.col(i).square();
     }
-    diagonal[from] = column.tail(count - from).squaredNorm();
+    const Eigen::Index columns = std::min(kSideBySide, count - from);
+    diagonal.segment(from, columns) = squares.head(columns);
   }
   return diagonal;
 }

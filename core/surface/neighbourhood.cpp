@@ -1,9 +1,12 @@
 #include "core/surface/neighbourhood.h"
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/surface/height_kriging.h"
+#include "core/surface/kriging_limits.h"
 #include "core/surface/quintic_patch.h"
 
 namespace instep {
@@ -65,6 +68,19 @@ std::optional<Neighbourhood> neighbourhood_of(const TangentView& view) {
   if (!likelihood) return std::nullopt;
   const double variance = radius * radius * likeliest_variance(*likelihood);
   return Neighbourhood{radius, std::move(*likelihood), variance};
+}
+
+double most_variance_in(const TangentView& view) {
+  const double radius = view.radius();
+  const Eigen::Index count = view.points.cols();
+  if (count < 2 * kTerms || !(radius > 0.0)) return std::numeric_limits<double>::infinity();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kLeastDetermined);
+  qr.compute(monomials(view.points.topRows<2>() / radius, kTerms));
+  Eigen::VectorXd heights = view.points.row(2).transpose();
+  heights.applyOnTheLeft(qr.householderQ().setLength(qr.rank()).adjoint());
+  const Eigen::Index free = count - qr.rank();
+  return heights.tail(free).squaredNorm() / static_cast<double>(free);
 }
 
 bool is_plain(const TangentView& view) {

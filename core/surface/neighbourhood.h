@@ -33,6 +33,10 @@ struct Neighbourhood {
 /// As `view` shows them. Nothing of too few. O(kMostInView^3).
 std::optional<Neighbourhood> neighbourhood_of(const TangentView& view);
 
+/// The most noise that a neighbourhood of the view could show, a variance: all that a quadratic
+/// leaves over, as if none of it were shape. Costs a hundredth of one. Infinite of too few.
+double most_variance_in(const TangentView& view);
+
 /// Whether one polynomial passes through all points: none of them is off it by noise. Costs far
 /// less than a neighbourhood.
 bool is_plain(const TangentView& view);

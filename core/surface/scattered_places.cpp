@@ -31,11 +31,12 @@ constexpr double kWidest = 0.09;
 
 /// The noise that is plainly in a view, a standard deviation; else 0.
 double scatter_in(const TangentView& view, double usual) {
-  if (view.thickness > kThickest || view.radius() > kWidest || is_plain(view)) return 0.0;
+  if (view.thickness > kThickest || view.radius() > kWidest) return 0.0;
+  const double least = std::max({kPlainScatter * view.spacing(), kPlainlyMore * usual, kTexture});
+  if (most_variance_in(view) <= least * least || is_plain(view)) return 0.0;
   const auto here = neighbourhood_of(view);
   if (!here) return 0.0;
   const double scatter = std::sqrt(here->variance);
-  const double least = std::max({kPlainScatter * view.spacing(), kPlainlyMore * usual, kTexture});
   if (scatter <= least) return 0.0;
   const auto misfit_at = [&](double variance) {
     return here->misfit(variance, here->likely_roughness(variance, std::nullopt));
