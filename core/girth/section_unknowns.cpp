@@ -37,11 +37,22 @@ double folds_by_noise(const PlaneBand& band, const Contour& section) {
   return mean_fold_depth(section, more) < kFoldInSigmas * band.sigma ? more : 0.0;
 }
 
+/// As one even skin through all points of a ribbon shows it, or the surface in the band: whichever
+/// shows more.
+MissedLength missed_of_finer_skin(const PlaneBand& band, const BlendedSurface& surface,
+                                  const SectionLoop& section, const MeasuredSection& measured) {
+  const auto finer = finer_skin_at(band, surface, section.index);
+  if (!finer) return measured.missed;
+  const MissedLength missed = missed_length(*finer, measured.contact);
+  return {std::max(missed.contact, measured.missed.contact),
+          std::max(missed.stretched, measured.missed.stretched)};
+}
+
 }  // namespace
 
 SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
                             const BlendedSurface& surface, const SectionEvidence& evidence,
-                            const Contour& measured) {
+                            const MeasuredSection& measured) {
   const SectionLoop& section = loops.front();
   const ContourCourse course(section.contour);
   const double near = evidence_reach(band);
@@ -52,7 +63,8 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
       bends_between_points(course, surface, band.spacing),
       layers_near_plane(band, surface, near),
       {},
-      zigzags_of(ContourCourse(measured), kZigzagInGrains * band.grain),
+      missed_of_finer_skin(band, surface, section, measured),
+      zigzags_of(ContourCourse(measured.contour), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
       doubt_of_edge(band, section.index)};
   // What lies off the one layer is the other one, which counts already.
@@ -79,9 +91,9 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
     return std::sqrt(squares) + reach;
   };
   section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +
-                        unknowns.skin.contact + unknowns.folds;
-  section.stretched_u95 =
-      with_bends(section.stretched_u95, &UnseenBends::stretched_u95) + unknowns.skin.stretched;
+                        unknowns.skin.contact + unknowns.finer.contact + unknowns.folds;
+  section.stretched_u95 = with_bends(section.stretched_u95, &UnseenBends::stretched_u95) +
+                          unknowns.skin.stretched + unknowns.finer.stretched;
 }
 
 }  // namespace instep

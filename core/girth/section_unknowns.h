@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/girth/contour_zigzags.h"
+#include "core/girth/finer_skin.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_loops.h"
@@ -23,6 +24,7 @@ struct SectionUnknowns {
   UnseenBends between_points;  ///< that are exact
   std::optional<SkinLayers> layers;
   UnfollowedSkin skin;
+  MissedLength finer;  ///< skin that the measured line does not follow
   /// The skin's, or made by strays beside it. They do not widen intervals here: which of the two it
   /// is a section without some points tells.
   Zigzags zigzags;
@@ -30,11 +32,11 @@ struct SectionUnknowns {
   double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())
 };
 
-/// `loops`: all that the plane cuts, the section first, for which `evidence` is. `measured`: the
-/// line whose lengths are told, if another one. O(m log m) for the m points of the band.
+/// `loops`: all that the plane cuts, the section first, for which `evidence` is. `measured`: what
+/// is told, which may be another line. O(m log m) for the m points of the band.
 SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
                             const BlendedSurface& surface, const SectionEvidence& evidence,
-                            const Contour& measured);
+                            const MeasuredSection& measured);
 
 /// Widens the intervals by them, and where noise was not what was told. Bends between points count
 /// as much as all that was told before, at most.

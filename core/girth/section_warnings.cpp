@@ -16,6 +16,10 @@ namespace {
 constexpr double kNotableNoise = 0.012;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
+/// What finer skin may add, against the section, that whoever reads the girth should know of.
+constexpr double kNotableFinerSkin = 0.004;
+constexpr const char* kFinerSkin =
+    "the skin has waves or ribs too fine for its points, as of a ribbed sock";
 /// Of points that lead away from a section.
 constexpr const char* kNoSkinFound =
     ", but no skin through them was found: a part too thin for them, or something that touches the "
@@ -48,6 +52,12 @@ std::string warning_of_zigzags(double way_mm) {
          " the section turns to and fro more than its points can tell: strays beside the skin, "
          "views that do not fit each other, or ribs too fine; see to what lies there and to the "
          "cameras' poses, or scan from nearer";
+}
+
+std::string warning_of(const MissedLength& finer, double unit_mm) {
+  return std::string(kFinerSkin) + ": a tape over them may be " +
+         in_millimetres(unit_mm * finer.stretched) + " longer, and the contact length " +
+         in_millimetres(unit_mm * finer.contact) + "; scan bare skin, or from nearer";
 }
 
 bool is_most_of(double doubt, const MeasuredSection& section) {
@@ -105,6 +115,10 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
     warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) warnings.push_back(warning_of(*layers, band.unit_mm));
+  const MissedLength& finer = unknowns.finer;
+  const bool shows_finer =
+      std::max(finer.contact, finer.stretched) > kNotableFinerSkin * loops.front().contour.length();
+  if (shows_finer) warnings.push_back(warning_of(finer, band.unit_mm));
   if (unknowns.zigzags.way > 0.0 && unknowns.folds == 0.0) {
     warnings.push_back(warning_of_zigzags(band.unit_mm * unknowns.zigzags.way));
   }
@@ -126,16 +140,11 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
   // Of a folded one the contact length was warned of.
   const double doubt = unknowns.folds > 0.0 ? section.stretched_u95
                                             : std::max(section.stretched_u95, section.contact_u95);
-  warn_if(!is_most_of(skin.stretched, section) &&
-              doubt > kNotableDoubt * loops.front().contour.length(),
+  const bool has_reason =
+      is_most_of(skin.stretched, section) || is_most_of(finer.stretched, section);
+  warn_if(!has_reason && doubt > kNotableDoubt * loops.front().contour.length(),
           reason_of_doubt(unknowns, section));
   return warnings;
-}
-
-tl::unexpected<Error> too_few_or_noisy() {
-  return fail(ErrorCode::kInsufficientData,
-              "the points near the tape plane are too few or too noisy to tell the girth",
-              "scan again, with more or better frames");
 }
 
 tl::unexpected<Error> too_many_zigzags() {
@@ -146,10 +155,19 @@ tl::unexpected<Error> too_many_zigzags() {
 
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                                    const MeasuredSection& section) {
-  if (!is_most_of(unknowns.skin.stretched, section)) return too_few_or_noisy();
+  const bool is_finer = is_most_of(unknowns.finer.stretched, section) ||
+                        unknowns.finer.contact > kMostOfDoubt * section.contact_u95;
+  if (is_finer) {
+    return fail(ErrorCode::kInsufficientData, kFinerSkin, "scan bare skin, or from nearer");
+  }
+  if (is_most_of(unknowns.skin.stretched, section)) {
+    return fail(ErrorCode::kInsufficientData,
+                std::string("points lead away from the section at the tape plane") + kNoSkinFound,
+                "take it away, or scan from nearer");
+  }
   return fail(ErrorCode::kInsufficientData,
-              std::string("points lead away from the section at the tape plane") + kNoSkinFound,
-              "take it away, or scan from nearer");
+              "the points near the tape plane are too few or too noisy to tell the girth",
+              "scan again, with more or better frames");
 }
 
 }  // namespace instep

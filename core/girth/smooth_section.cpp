@@ -154,15 +154,17 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
   const auto points = ribbon_of(slabs, band, *line);
   const auto ribbon = RibbonSpline::through(points, line->length(), static_cast<int>(knots.size()));
   if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;
-  if (shows_finer_skin(points, *ribbon, line->length(), knots.size())) return std::nullopt;
 
   const auto ways = ways_along(*line, contour.points.size());
-  MeasuredSection section{moved(*line, *ribbon, ways)};
+  MeasuredSection section;
+  section.contour = moved(*line, *ribbon, ways);
   section.contact = section.contour.length();
   section.stretched = section.contour.tape_length();
   const auto turns = turns_of(section.contour);
   section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section, band.sigma);
   section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section, band.sigma);
+  const auto finer = finer_skin_over(*ribbon, points, line->length());
+  if (finer) section.missed = missed_length(*finer, section.contact);
   return section;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/girth/contour.h"
+#include "core/girth/finer_skin.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/slab_source.h"
 
@@ -16,6 +17,7 @@ struct MeasuredSection {
   double stretched = 0.0;
   double contact_u95 = 0.0;
   double stretched_u95 = 0.0;
+  MissedLength missed;  ///< by waves of the skin that it does not follow
 };
 
 /// The section of noisy points where the skin is even: read off one surface through all points
@@ -28,8 +30,8 @@ struct MeasuredSection {
 /// The patches' contour, made fair, is the line that heights are seen from (FairLine); the heights
 /// are a RibbonSpline. That holds for even skin alone: nothing if it bends more from place to place
 /// than a tape round it does, turns sharply somewhere (noise blunts a crease, but does not hide
-/// it), scatters more round the spline than the noise or in waves finer than the spline can follow
-/// (core/girth/finer_skin.h), or if there is no noise to speak of.
+/// it), scatters more round the spline than the noise, or if there is no noise to speak of. Where
+/// the points show waves finer than the spline can follow, it says what these add.
 ///
 /// `contour` as traced in the band of these slabs; the points need no normals. O(points of the
 /// cloud).

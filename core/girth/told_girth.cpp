@@ -59,6 +59,12 @@ bool contradict(const MeasuredSection& one, const MeasuredSection& other) {
          std::abs(one.stretched - other.stretched) > one.stretched_u95 + other.stretched_u95;
 }
 
+/// What one even skin misses, less what patches follow of it.
+MissedLength left_missed(const MeasuredSection& smooth, const MeasuredSection& patches) {
+  return {std::max(smooth.missed.contact - (patches.contact - smooth.contact), 0.0),
+          std::max(smooth.missed.stretched - (patches.stretched - smooth.stretched), 0.0)};
+}
+
 /// The section as one even skin where it is that, else as its patches tell it: they see a narrow
 /// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
 /// looked is known of the patches alone.
@@ -67,12 +73,20 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
                          const SectionEvidence& evidence) {
   const Contour& contour = loops.front().contour;
   const LengthDoubt doubt = doubt_of(contour, surface, band.sigma);
-  const MeasuredSection patches{contour, contour.length() + doubt.waves,
-                                contour.tape_length() + doubt.waves, doubt.contact_u95,
-                                doubt.stretched_u95};
+  MeasuredSection patches{contour,
+                          contour.length() + doubt.waves,
+                          contour.tape_length() + doubt.waves,
+                          doubt.contact_u95,
+                          doubt.stretched_u95,
+                          {}};
   if (loops.size() > 1) return patches;
   auto smooth = smooth_section(slabs, band, contour);
-  if (!smooth || contradict(*smooth, patches)) return patches;
+  if (!smooth) return patches;
+  if (smooth->missed.stretched > 0.0) {
+    patches.missed = left_missed(*smooth, patches);
+    return patches;
+  }
+  if (contradict(*smooth, patches)) return patches;
   if (has_notable_gap(band, evidence)) {
     smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
     smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
@@ -187,14 +201,12 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
     return refused(band, contour, tl::make_unexpected(one.error()));
   }
   auto section = measured(slabs, band, loops, surface, evidence);
-  const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence, section.contour);
+  const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence, section);
   widen(band, unknowns, section);
   ToldGirth told;
-  if (!(section.stretched_u95 <= kMostDoubt * length)) {
-    told = refused(band, contour, too_doubtful(unknowns, section));
-  } else if (!(section.contact_u95 <= kMostFolded * length)) {
-    told = refused(band, contour, too_few_or_noisy());
-  }
+  const bool is_known =
+      section.stretched_u95 <= kMostDoubt * length && section.contact_u95 <= kMostFolded * length;
+  if (!is_known) told = refused(band, contour, too_doubtful(unknowns, section));
   note_unsure_parts(band, unknowns, told);
   if (told.refusal) return told;
 
