@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "core/foot/end_facing.h"
 #include "core/foot/foot_lengths.h"
 #include "core/foot/hidden_skin.h"
 #include "core/foot/measure_definitions.h"
@@ -17,6 +16,7 @@
 #include "core/foot/shared_doubt.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
+#include "core/foot/unseen_ends.h"
 #include "core/geometry/seen_skin.h"
 #include "core/girth/length_doubt.h"
 #include "core/in_millimetres.h"
@@ -34,16 +34,6 @@ constexpr double kLeastHeelShare = 0.125;
 // A lower arch is not told from a sole closed by the scanner.
 constexpr double kLeastArchMm = 3.0;
 
-// How squarely the skin faces at its ends (end_facing()), by 40 drawn feet and 46 scans of the
-// simulated station: whole heels 0.95 and more, 25 mm cut off 0.6 and less; whole toes of the
-// station 0.82 and more, drawn ones nine in ten 0.85, one with a hole there 0.5, and 12 mm cut off
-// 0.6 and less of 34. Of 1,500 points one whole foot in seven seems to be cut off.
-constexpr double kLeastFacingOfToes = 0.6;
-constexpr double kLeastFacingOfHeel = 0.8;
-/// What then may be missing, set by eye: of the front of a foot that eight views of a real camera
-/// saw the sides and the top of, some 5 mm. Where more is cut off, the warning alone tells.
-constexpr double kUnseenEndMm = 10.0;
-
 // Feet of one length differ in breadths and girths by an eighth to either side at the most: a wider
 // interval says less than that length. Of an arch or a toe an eighth is hardly more than the doubt
 // of a floor, and toes point within twenty degrees.
@@ -58,10 +48,12 @@ constexpr double kMostHiddenShare = 0.6;
 
 /// What is asked of a foot for each of its measures.
 struct FootDoubts {
-  explicit FootDoubts(const FootScan& foot) : seen(foot.cloud), shared(foot, seen) {}
+  explicit FootDoubts(const FootScan& foot)
+      : seen(foot.cloud), shared(foot, seen), ends(unseen_ends(foot)) {}
 
   SeenSkin seen;
   SharedDoubt shared;
+  std::optional<UnseenEnds> ends;
 };
 
 /// From what the landmarks as found and each redraw of them give, those left out that give nothing;
@@ -134,6 +126,47 @@ std::optional<double> u95_of_shared(const GirthDefinition& definition, const Foo
   });
 }
 
+/// How far a measure moves if the foot goes on where its ends were not seen; nothing where `taken`
+/// does not tell.
+template <typename Taker>
+std::optional<double> u95_of_ends(const FootScan& foot, const FootDoubts& about,
+                                  const Taker& taken) {
+  if (!about.ends) return 0.0;
+  const std::optional<double> here =
+      taken(RedrawnLandmarks{foot.landmarks, RigidTransform::Identity()});
+  double squares = 0.0;
+  for (const auto& longer : about.ends->if_longer) {
+    const std::optional<double> there = taken(longer);
+    if (!here || !there) return std::nullopt;
+    squares += std::pow(*there - *here, 2);
+  }
+  return std::sqrt(squares);
+}
+
+std::optional<double> u95_of_ends(const LengthDefinition& definition, const FootScan& foot,
+                                  const FootDoubts& about) {
+  return u95_of_ends(foot, about, [&](const RedrawnLandmarks& longer) {
+    return taken_by(definition, longer.landmarks);
+  });
+}
+
+std::optional<double> u95_of_ends(const GirthDefinition& definition, const FootScan& foot,
+                                  const FootDoubts& about) {
+  return u95_of_ends(foot, about, [&](const RedrawnLandmarks& longer) {
+    return taken_by(definition, longer.landmarks, foot, longer.foot_from_redrawn);
+  });
+}
+
+/// All parts that are known, together.
+std::optional<double> together(const std::vector<std::optional<double>>& parts) {
+  double squares = 0.0;
+  for (const auto& part : parts) {
+    if (!part) return std::nullopt;
+    squares += *part * *part;
+  }
+  return std::sqrt(squares);
+}
+
 /// Where the points were asked how sure a measure is and could not say, it hangs on a few of them,
 /// as at the border of a hole.
 Result<void> check_known(const std::optional<double>& u95, const FootScan& foot) {
@@ -167,27 +200,6 @@ Result<void> check_arch(double height_mm) {
               "scan with a camera under the glass");
 }
 
-/// Where the skin runs on and only the points end, the foot is longer by nobody knows how much. Of
-/// feet: the front of a last may be an edge.
-std::optional<std::string> unseen_end(const FootScan& foot) {
-  if (is_shoe_last(foot)) return std::nullopt;
-  const auto faces = [&](const char* end, const Eigen::Vector3d& direction) {
-    const Eigen::Vector3d& place = foot.landmarks.at(end).position_mm;
-    return end_facing(foot.cloud.positions, place, direction).value_or(1.0);
-  };
-  std::string unseen;
-  if (faces("acropodion", Eigen::Vector3d::UnitX()) < kLeastFacingOfToes) {
-    unseen = "the foremost part of the toes";
-  }
-  if (faces("pternion", -Eigen::Vector3d::UnitX()) < kLeastFacingOfHeel) {
-    unseen += (unseen.empty() ? "" : " and ") + std::string("the rearmost part of the heel");
-  }
-  if (unseen.empty()) return std::nullopt;
-  return unseen +
-         " was not seen, or by too few points: the foot may be longer, and what is placed by its "
-         "length lie elsewhere; scan again, with all of it in view";
-}
-
 /// Of the foot itself only: redraws that fell out would hide how uncertain a measure is.
 Result<void> check_sane(const LengthDefinition& definition, double length, const FootScan& foot) {
   if (definition.length == heel_breadth) return check_heel(length, foot);
@@ -204,14 +216,11 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   }
   Measure measure;
   measure.id = definition.id;
-  auto u95 = u95_of(definition, foot);
-  const auto by_shared = u95_of_shared(definition, foot);
-  u95 = u95 && by_shared ? std::optional(std::hypot(*u95, *by_shared)) : std::nullopt;
+  auto u95 = together({u95_of(definition, foot), u95_of_shared(definition, foot),
+                       u95_of_ends(definition, foot, about)});
   if (auto known = check_known(u95, foot); !known) return tl::unexpected(known.error());
   if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
-  const auto unseen = definition.length == foot_length ? unseen_end(foot) : std::nullopt;
-  if (u95 && unseen) u95 = std::hypot(*u95, kUnseenEndMm);
   if (u95) {
     measure.parts = DoubtParts{about.shared.of(definition.length), *u95};
     u95 = std::hypot(measure.parts->surface, *u95);
@@ -226,7 +235,9 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   }
   measure.definition = definition.words;
   measure.warnings = doubts(foot, definition.landmarks);
-  if (unseen) measure.warnings.push_back(*unseen);
+  if (about.ends && definition.length == foot_length) {
+    measure.warnings.push_back(about.ends->warning);
+  }
   return measure;
 }
 
@@ -269,11 +280,9 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   if (auto seen = check_wall(hidden); !seen) return tl::unexpected(seen.error());
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
-  auto by_landmarks = u95_of(definition, foot);
-  const auto by_shared = u95_of_shared(definition, foot);
-  by_landmarks = by_landmarks && by_shared
-                     ? std::optional(std::hypot(*by_landmarks, *by_shared, definition.own_doubt_mm))
-                     : std::nullopt;
+  const auto by_landmarks =
+      together({u95_of(definition, foot), u95_of_shared(definition, foot),
+                u95_of_ends(definition, foot, about), definition.own_doubt_mm});
   if (auto known = check_known(by_landmarks, foot); !known) return tl::unexpected(known.error());
   if (by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);

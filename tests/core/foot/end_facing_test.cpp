@@ -6,11 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/foot/alignment.h"
-#include "core/foot/landmarks.h"
-#include "core/foot/measures.h"
-#include "core/foot/shoe_sizes.h"
-#include "tests/support/cases/drawn_feet.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -57,51 +52,6 @@ TEST(EndFacing, IsToldOfACrowd) {
     points.emplace_back(12.0 + 0.1 * random.normal(), 0.1 * random.normal(), 0.1 * random.normal());
   }
   EXPECT_GT(*end_facing(points, {12.0, 0, 0}, Vector3d::UnitX()), 0.8);
-}
-
-/// Without what lies before `least` or after `most` of its length, in its own frame.
-FootScan cut_foot(const FootScan& foot, double least, double most) {
-  FootScan cut = foot;
-  std::erase_if(cut.cloud.positions,
-                [&](const Vector3d& point) { return point.x() < least || point.x() > most; });
-  const auto again = align_foot(cut.cloud).and_then(find_landmarks);
-  if (!again) throw std::runtime_error(again.error().line());
-  return *again;
-}
-
-/// The length, and what is said of it.
-Measure length_of(const FootScan& foot) {
-  const auto set = measure_foot(foot);
-  if (!set || set->find("foot_length") == nullptr) throw std::runtime_error("no length");
-  return *set->find("foot_length");
-}
-
-bool warns_of(const Measure& measure, const char* part) {
-  return std::any_of(
-      measure.warnings.begin(), measure.warnings.end(),
-      [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
-}
-
-/// A foot that reached out of view was told as a shorter one, to half a millimetre.
-TEST(FootLength, OfAFootWithoutItsEndsSaysThatItMayBeMore) {
-  for (const std::uint64_t seed : {2U, 5U, 7U}) {
-    SCOPED_TRACE(seed);
-    const auto foot = align_foot(test::draw_scanned_foot_without_truth(seed).cloud);
-    ASSERT_TRUE(foot) << foot.error().line();
-    const double length = foot->landmarks.at("acropodion").position_mm.x();
-    const Measure whole = length_of(cut_foot(*foot, -1e3, 1e3));
-    EXPECT_TRUE(whole.warnings.empty());
-    EXPECT_LT(*whole.u95_mm, 3.0);
-    const Measure toeless = length_of(cut_foot(*foot, -1e3, length - 15.0));
-    EXPECT_TRUE(warns_of(toeless, "the foremost part of the toes was not seen"));
-    EXPECT_FALSE(warns_of(toeless, "heel"));
-    EXPECT_GE(*toeless.u95_mm, 10.0);
-    EXPECT_FALSE(sized_foot({.measures = {toeless}, .withheld = {}}).length_mm) << "no size";
-    EXPECT_TRUE(sized_foot({.measures = {whole}, .withheld = {}}).length_mm);
-    const Measure heelless = length_of(cut_foot(*foot, 25.0, 1e3));
-    EXPECT_TRUE(warns_of(heelless, "the rearmost part of the heel was not seen"));
-    EXPECT_FALSE(warns_of(heelless, "toes"));
-  }
 }
 
 }  // namespace
