@@ -17,9 +17,10 @@ struct UnseenEnds {
   std::vector<RedrawnLandmarks> if_longer;
 };
 
-/// Nothing of a foot that was seen whole, or of a last, the front of which may be an edge. `foot`
-/// has its landmarks. O(points), and once more the cost of the landmarks for each end, without
-/// redraws.
+/// Nothing of a foot that was seen whole, of one of which only some millimetres were cut off, as a
+/// rule, and of a last, the front of which may be an edge. That a foot without its heel may have
+/// another axis is not in it. `foot` has its landmarks. O(points), and once more the cost of the
+/// landmarks for each end, without redraws.
 std::optional<UnseenEnds> unseen_ends(const FootScan& foot);
 
 }  // namespace instep

@@ -4,122 +4,179 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "core/geometry/coordinate_step.h"
+#include "core/girth/section_evidence.h"
+#include "core/median.h"
 
 namespace instep {
 namespace {
 
-/// Cells of the whole line, from the coarsest on, each row half as long as the last.
-constexpr std::size_t kFewestRows = 100;
-constexpr std::size_t kMostRows = 800;
-/// Fewer points in a cell, on the mean, make hardly any products.
-constexpr double kFewestInCell = 1.5;
-/// In standard deviations of what the products of noise add up to.
-constexpr double kSure = 4.0;
-/// Neighbouring cells of waves a third as long as the two together; of finer ones nothing is known.
-constexpr double kLeastAlike = -0.5;
+/// Of the whole line.
+constexpr Eigen::Index kRows = 1600;
+/// In rows: heights further apart are compared, up to a wave of the longest.
+constexpr Eigen::Index kNearest = 2;
+constexpr double kLongestWave = 96.0;
+constexpr double kShortestWave = 8.0;
+constexpr double kShorter = 0.87;
+/// In standard deviations of what noise would share.
+constexpr double kSure = 5.0;
+/// The same of places on the same side of waves: where a surface follows the noise, places further
+/// off lie on the other side, and these share nothing.
+constexpr double kSureOfCrest = 3.0;
 /// The squared slope may be so much more than it seems: of 720 girths of waves and ribs of 0.05 to
-/// 0.5 mm under 0.3 to 0.5 mm of noise 92 % of the contact lengths hold with it, 82 without.
+/// 0.5 mm under 0.3 to 0.5 mm of noise 95 % of the contact lengths hold with it, 86 without.
 constexpr double kMoreSlope = 1.3;
-/// Of points: beyond this they may be strays.
-constexpr double kFarOff = 2.5;
+/// Of a length: more than ribs of skin add.
+constexpr double kMostFolds = 0.15;
+/// The longest waves that a ribbon does not follow, and patches, which follow more: as much longer
+/// ones as a patch is wide their own errors are shared too.
+constexpr double kLongestOverRibbon = 0.06;
+constexpr double kLongestOverPatches = 0.03;
 /// A ribbon is so wide that skin changes across it.
 constexpr std::size_t kAcrossRibbon = 5;
+/// Of a band's columns, against the section: ribs that cross the plane aslant hardly move along it
+/// within one.
+constexpr double kColumn = 0.005;
 /// Against the section: where points scatter less, nothing hides in it.
 constexpr double kLeastScatter = 1e-4;
 constexpr std::size_t kMostHeights = 4000;
+/// Waves lower than this part of a step of the coordinates may be made by it: rounding scatters by
+/// 0.29 of one.
+constexpr double kOfAStep = 0.5;
 
-/// The heights in it.
-struct Cell {
-  double sum = 0.0;
-  double squares = 0.0;
-  double fourths = 0.0;
-  double count = 0.0;
+/// The rows of one column: of the points in each, the sum of what they weigh, and of that times
+/// their heights. As many of the first rows follow the last again as are compared.
+struct Rows {
+  static constexpr Eigen::Index kAll = kRows + kNearest + static_cast<Eigen::Index>(kLongestWave);
+  Eigen::ArrayXd weights = Eigen::ArrayXd::Zero(kAll);
+  Eigen::ArrayXd heights = Eigen::ArrayXd::Zero(kAll);
 
-  double mean() const { return sum / count; }
-};
-
-/// Of heights two by two.
-struct Products {
-  double within = 0.0;  ///< of the same cell, as many as all but one of its points
-  double pairs = 0.0;
-  double chance = 0.0;  ///< variance of `within`, if they are noise
-  double beside = 0.0;  ///< of one cell and the next
-  double pairs_beside = 0.0;
-
-  void add(const Cell& cell) {
-    if (cell.count < 1.0) return;
-    within += (cell.sum * cell.sum - cell.squares) / cell.count;
-    pairs += cell.count - 1.0;
-    chance += 2.0 * (cell.squares * cell.squares - cell.fourths) / (cell.count * cell.count);
+  void add(Eigen::Index row, double weight, double height) {
+    weights[row] += weight;
+    heights[row] += weight * height;
   }
 
-  void add(const Cell& cell, const Cell& next) {
-    const double fewer = std::min(cell.count, next.count);
-    if (fewer < 1.0) return;
-    beside += fewer * cell.mean() * next.mean();
-    pairs_beside += fewer;
+  void close() {
+    for (auto* sums : {&weights, &heights}) {
+      sums->tail(kAll - kRows) = sums->head(kAll - kRows).eval();
+    }
+  }
+};
+
+/// What rows share with those so many further on.
+struct Shared {
+  double heights = 0.0;  ///< products of two
+  double weights = 0.0;
+  /// Variance of `heights`, if they are noise: by those of whole rows, of which the points may have
+  /// theirs in common.
+  double chance = 0.0;
+};
+
+/// By the rows that they are apart, from kNearest on.
+std::vector<Shared> shared_by(const std::vector<Rows>& columns) {
+  std::vector<Shared> all(static_cast<std::size_t>(kLongestWave) + 1);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Eigen::Index apart = kNearest + static_cast<Eigen::Index>(i);
+    for (const auto& rows : columns) {
+      const auto products = rows.heights.head(kRows) * rows.heights.segment(apart, kRows);
+      all[i].heights += products.sum();
+      all[i].chance += products.square().sum();
+      all[i].weights += (rows.weights.head(kRows) * rows.weights.segment(apart, kRows)).sum();
+    }
+  }
+  return all;
+}
+
+/// Of a wave to what is shared.
+struct Fit {
+  double heights = 0.0;
+  double weights = 0.0;
+  double chance = 0.0;
+
+  void add(double alike, const Shared& here) {
+    heights += alike * here.heights;
+    weights += alike * alike * here.weights;
+    chance += alike * alike * here.chance;
   }
 
   /// In standard deviations of noise.
-  double sureness() const { return chance > 0.0 ? within / std::sqrt(chance) : 0.0; }
+  double sureness() const { return chance > 0.0 ? heights / std::sqrt(chance) : 0.0; }
 };
 
-struct Shown {
+/// Waves as they fit what is shared best.
+struct Waves {
   double sureness = 0.0;
-  FinerSkin skin;
+  double height = 0.0;
+  double slope = 0.0;
 };
 
-std::size_t part_of(double share, std::size_t parts) {
-  const double part = std::clamp(share, 0.0, 1.0) * static_cast<double>(parts);
-  return std::min(static_cast<std::size_t>(part), parts - 1);
+/// Nothing where they are not plain. `wave`: in rows. Compared over one whole wave, so that what is
+/// the same all along, as of much longer ones, counts for nothing.
+Waves waves_of(const std::vector<Shared>& all, double wave, double row_length) {
+  const double turn = 2.0 * std::numbers::pi / wave;
+  Fit whole;
+  Fit crest;
+  for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(std::lround(wave)));
+       ++i) {
+    const double alike =
+        std::cos(turn * static_cast<double>(kNearest + static_cast<Eigen::Index>(i)));
+    whole.add(alike, all[i]);
+    if (alike > 0.0) crest.add(alike, all[i]);
+  }
+  if (!(whole.sureness() > kSure && crest.sureness() > kSureOfCrest)) return {};
+  const double height = std::sqrt(whole.heights / whole.weights);
+  return {whole.sureness(), height, height * turn / row_length};
 }
 
-/// Heights put into cells: rows along the line, each so many across.
-class Cells {
- public:
-  Cells(std::size_t rows, std::size_t across)
-      : rows_(rows), across_(across), cells_(rows * across) {}
-
-  /// `round`: the part of the way round the line.
-  void add(double round, double off, double height) {
-    const std::size_t row = part_of(round - std::floor(round), rows_);
-    Cell& cell = cells_[row * across_ + part_of(0.5 * (1.0 + off), across_)];
-    const double squared = height * height;
-    cell.sum += height;
-    cell.squares += squared;
-    cell.fourths += squared * squared;
-    cell.count += 1.0;
+/// `longest`: in rows.
+Waves plainest_waves(const std::vector<Rows>& columns, double longest, double row_length) {
+  const auto all = shared_by(columns);
+  Waves plainest;
+  for (double wave = longest; wave >= kShortestWave; wave *= kShorter) {
+    const Waves waves = waves_of(all, wave, row_length);
+    if (waves.sureness > plainest.sureness) plainest = waves;
   }
+  return plainest;
+}
 
-  Products products() const {
-    Products products;
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      products.add(cells_[i]);
-      products.add(cells_[i], cells_[(i + across_) % cells_.size()]);
-    }
-    return products;
+Eigen::Index part_of(double share, std::size_t parts) {
+  const double part = std::clamp(share, 0.0, 1.0) * static_cast<double>(parts);
+  return static_cast<Eigen::Index>(std::min(static_cast<std::size_t>(part), parts - 1));
+}
+
+/// Against what is known of its noise.
+double size_of(const RibbonPoint& point) {
+  return std::abs(point.height) * std::sqrt(point.certainty);
+}
+
+/// Those that are no strays.
+std::vector<RibbonPoint> usual_of(std::vector<RibbonPoint> heights) {
+  std::vector<double> sizes;
+  sizes.reserve(heights.size());
+  for (const auto& point : heights) sizes.push_back(size_of(point));
+  const double most = kThreeSigmasInMedians * median(std::move(sizes));
+  std::erase_if(heights, [&](const RibbonPoint& point) { return size_of(point) > most; });
+  return heights;
+}
+
+std::vector<Rows> rows_of(const std::vector<RibbonPoint>& heights, double length,
+                          std::size_t across) {
+  std::vector<Rows> columns(across);
+  for (const auto& point : heights) {
+    const double round = point.way / length;
+    auto& column = columns[static_cast<std::size_t>(part_of(0.5 * (1.0 + point.off), across))];
+    column.add(part_of(round - std::floor(round), kRows), point.certainty, point.height);
   }
-
- private:
-  std::size_t rows_;
-  std::size_t across_;
-  std::vector<Cell> cells_;
-};
-
-/// As of waves, of which means over cells are lower than they are. `step`: from a cell to the next.
-Shown shown_by(const Products& products, double step) {
-  if (!(products.sureness() > kSure) || !(products.pairs_beside > 0.0)) return {};
-  const double variance = products.within / products.pairs;
-  const double alike = products.beside / products.pairs_beside / variance;
-  const double turn = std::acos(std::clamp(alike, kLeastAlike, 1.0));
-  const double lowered = turn > 0.0 ? std::sin(0.5 * turn) / (0.5 * turn) : 1.0;
-  const double height = std::sqrt(variance) / lowered;
-  return {products.sureness(), {height, height * turn / step}};
+  for (auto& column : columns) column.close();
+  return columns;
 }
 
 /// How far off the plane the furthest one of so many lies that are nearest to it.
 double reach_of_nearest(const std::vector<OrientedPoint>& points, std::size_t most) {
   std::vector<double> off;
+  off.reserve(points.size());
   for (const auto& point : points) off.push_back(std::abs(point.position.z()));
   if (off.size() <= most) return std::numeric_limits<double>::infinity();
   const auto last = off.begin() + static_cast<std::ptrdiff_t>(most);
@@ -127,55 +184,67 @@ double reach_of_nearest(const std::vector<OrientedPoint>& points, std::size_t mo
   return *last;
 }
 
+std::optional<FinerSkin> higher(const std::optional<FinerSkin>& one,
+                                const std::optional<FinerSkin>& other) {
+  if (!one || !other) return one ? one : other;
+  return one->height > other->height ? one : other;
+}
+
 }  // namespace
 
 MissedLength missed_length(const FinerSkin& skin, double length) {
   const double tops = 2.0 * std::numbers::pi * std::numbers::sqrt2 * skin.height;
-  return {std::max(tops, kMoreSlope * 0.5 * length * skin.slope * skin.slope), tops};
+  const double folds = kMoreSlope * 0.5 * length * skin.slope * skin.slope;
+  return {std::max(tops, std::min(folds, kMostFolds * length)), tops};
 }
 
 std::optional<FinerSkin> finer_skin_of(const std::vector<RibbonPoint>& heights, double length,
-                                       std::size_t across) {
-  const auto count = static_cast<double>(heights.size());
-  double squares = 0.0;
-  for (const auto& point : heights) squares += point.height * point.height;
-  const double farthest = kFarOff * std::sqrt(squares / count);
-  Shown plainest;
-  for (std::size_t rows = kFewestRows; rows <= kMostRows; rows *= 2) {
-    if (count < kFewestInCell * static_cast<double>(rows * across)) break;
-    Cells cells(rows, across);
-    for (const auto& point : heights) {
-      if (std::abs(point.height) > farthest) continue;
-      cells.add(point.way / length, point.off, point.height);
-    }
-    const auto shown = shown_by(cells.products(), length / static_cast<double>(rows));
-    if (shown.sureness > plainest.sureness) plainest = shown;
-  }
-  if (!(plainest.sureness > 0.0)) return std::nullopt;
-  return plainest.skin;
+                                       double longest, std::size_t across) {
+  const auto columns = rows_of(usual_of(heights), length, across);
+  const double row_length = length / static_cast<double>(kRows);
+  const Waves waves =
+      plainest_waves(columns, std::min(longest / row_length, kLongestWave), row_length);
+  if (!(waves.sureness > 0.0)) return std::nullopt;
+  return FinerSkin{waves.height, waves.slope};
 }
 
 std::optional<FinerSkin> finer_skin_over(const RibbonSpline& spline,
                                          const std::vector<RibbonPoint>& points, double length) {
   std::vector<RibbonPoint> heights = points;
   for (auto& point : heights) point.height -= spline.at(point.way, point.off).value;
-  const auto straight = finer_skin_of(heights, length, 1);
-  return straight ? straight : finer_skin_of(heights, length, kAcrossRibbon);
+  const double longest = kLongestOverRibbon * length;
+  return higher(finer_skin_of(heights, length, longest, 1),
+                finer_skin_of(heights, length, longest, kAcrossRibbon));
 }
 
 std::optional<FinerSkin> finer_skin_at(const PlaneBand& band, const BlendedSurface& surface,
                                        const ContourIndex& section) {
   if (band.shown_sigma < kLeastScatter) return std::nullopt;
   std::vector<RibbonPoint> heights;
-  const double near = reach_of_nearest(band.points, kMostHeights);
+  const double most = reach_of_nearest(band.points, kMostHeights);
+  const double beside = evidence_reach(band);
+  const double usual = band.sigma * band.sigma;
+  double reach = 0.0;
   for (const auto& point : band.points) {
-    if (std::abs(point.position.z()) > near) continue;
+    const double off = point.position.z();
+    if (std::abs(off) > most || !may_run_to(section, point, beside)) continue;
     const auto field = surface.at(point.position);
     if (!field) continue;
     const double way = section.foot_of(point.position.head<2>()).way;
-    heights.push_back({way, 0.0, field->value, 1.0});
+    heights.push_back({way, off, field->value, usual / point.variance});
+    reach = std::max(reach, std::abs(off));
   }
-  return finer_skin_of(heights, section.length(), 1);
+  if (!(reach > 0.0)) return std::nullopt;
+  for (auto& point : heights) point.off /= reach;
+  const double length = section.length();
+  const double longest = kLongestOverPatches * length;
+  const auto columns = static_cast<std::size_t>(std::ceil(2.0 * reach / (kColumn * length)));
+  return higher(finer_skin_of(heights, length, longest, 1),
+                finer_skin_of(heights, length, longest, columns));
+}
+
+bool may_be_rounding(const FinerSkin& skin, double unit_mm, const PointCloud& cloud) {
+  return unit_mm * skin.height < kOfAStep * coordinate_step(cloud.positions);
 }
 
 }  // namespace instep

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/point_cloud.h"
 #include "core/girth/contour_index.h"
 #include "core/girth/plane_band.h"
 #include "core/surface/blended_surface.h"
@@ -12,7 +13,7 @@
 namespace instep {
 
 /// Waves or ribs of skin that are finer than the surface through its points follows, however thick
-/// the noise: what they leave of the heights over it goes together in places where noise does not.
+/// the noise.
 struct FinerSkin {
   double height = 0.0;  ///< root mean square
   double slope = 0.0;   ///< the same, along the line
@@ -25,16 +26,17 @@ struct MissedLength {
 };
 MissedLength missed_length(const FinerSkin& skin, double length);
 
-/// From heights over a surface that was laid through their points. In cells of the way along the
-/// line, and of what is off the plane, the product of two points' heights is nothing on the mean if
-/// they are noise, however uneven, and the square of skin that they share. Cells are tried from a
-/// hundredth of the line down to a point or two each, and those that show it most plainly tell it;
-/// what goes on from one to the next tells how steep it is. Nothing where none show it plainly, as
-/// of too few points: of 3,000 drawn ribbons without it six do.
+/// From heights over a surface that was laid through their points: what they share with others
+/// further along the line. Noise shares nothing, however uneven it is; waves do, by the cosine of
+/// their way (the autocovariance, and the cosine that fits it most plainly). What is nearer than a
+/// 800th of the line does not count: it may be one place seen twice, or one line of a scanner.
 ///
-/// `length`: of the line; `across`: cells side by side, of offs from -1 to 1. O(points).
+/// Waves are sought from the `longest`, at most 6 % of the line, down to 0.5 %. `across`: columns
+/// side by side, of offs from -1 to 1; only heights of the same one are compared: of one all, which
+/// shows ribs along the body most plainly, of many ribs that run aslant as well. Nothing where none
+/// show plainly, as of too few points. O(points).
 std::optional<FinerSkin> finer_skin_of(const std::vector<RibbonPoint>& heights, double length,
-                                       std::size_t across);
+                                       double longest, std::size_t across);
 
 /// What points show that is finer than a spline through them can follow.
 std::optional<FinerSkin> finer_skin_over(const RibbonSpline& spline,
@@ -44,5 +46,9 @@ std::optional<FinerSkin> finer_skin_over(const RibbonSpline& spline,
 /// to the plane are asked. In the unit of the band. O(points).
 std::optional<FinerSkin> finer_skin_at(const PlaneBand& band, const BlendedSurface& surface,
                                        const ContourIndex& section);
+
+/// Whether all coordinates are rounded so coarsely that the waves may be steps of that. O(n log n)
+/// for some thousands of the points.
+bool may_be_rounding(const FinerSkin& skin, double unit_mm, const PointCloud& cloud);
 
 }  // namespace instep

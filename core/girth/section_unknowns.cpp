@@ -39,10 +39,11 @@ double folds_by_noise(const PlaneBand& band, const Contour& section) {
 
 /// As one even skin through all points of a ribbon shows it, or the surface in the band: whichever
 /// shows more.
-MissedLength missed_of_finer_skin(const PlaneBand& band, const BlendedSurface& surface,
-                                  const SectionLoop& section, const MeasuredSection& measured) {
+MissedLength missed_of_finer_skin(const PlaneBand& band, const PointCloud& cloud,
+                                  const BlendedSurface& surface, const SectionLoop& section,
+                                  const MeasuredSection& measured) {
   const auto finer = finer_skin_at(band, surface, section.index);
-  if (!finer) return measured.missed;
+  if (!finer || may_be_rounding(*finer, band.unit_mm, cloud)) return measured.missed;
   const MissedLength missed = missed_length(*finer, measured.contact);
   return {std::max(missed.contact, measured.missed.contact),
           std::max(missed.stretched, measured.missed.stretched)};
@@ -50,9 +51,9 @@ MissedLength missed_of_finer_skin(const PlaneBand& band, const BlendedSurface& s
 
 }  // namespace
 
-SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                            const BlendedSurface& surface, const SectionEvidence& evidence,
-                            const MeasuredSection& measured) {
+SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
+                            const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
+                            const SectionEvidence& evidence, const MeasuredSection& measured) {
   const SectionLoop& section = loops.front();
   const ContourCourse course(section.contour);
   const double near = evidence_reach(band);
@@ -63,13 +64,15 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop
       bends_between_points(course, surface, band.spacing),
       layers_near_plane(band, surface, near),
       {},
-      missed_of_finer_skin(band, surface, section, measured),
+      {},
       zigzags_of(ContourCourse(measured.contour), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
       doubt_of_edge(band, section.index)};
   // What lies off the one layer is the other one, which counts already.
   const bool is_layered = unknowns.layers && unknowns.layers->are_all_round();
-  if (!is_layered) unknowns.skin = unfollowed_skin(band, loops);
+  if (is_layered) return unknowns;
+  unknowns.skin = unfollowed_skin(band, loops);
+  unknowns.finer = missed_of_finer_skin(band, cloud, surface, section, measured);
   return unknowns;
 }
 
@@ -90,8 +93,9 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
     }
     return std::sqrt(squares) + reach;
   };
+  // Folds are waves too.
   section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +
-                        unknowns.skin.contact + unknowns.finer.contact + unknowns.folds;
+                        unknowns.skin.contact + std::max(unknowns.finer.contact, unknowns.folds);
   section.stretched_u95 = with_bends(section.stretched_u95, &UnseenBends::stretched_u95) +
                           unknowns.skin.stretched + unknowns.finer.stretched;
 }

@@ -32,11 +32,12 @@ struct SectionUnknowns {
   double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())
 };
 
-/// `loops`: all that the plane cuts, the section first, for which `evidence` is. `measured`: what
-/// is told, which may be another line. O(m log m) for the m points of the band.
-SectionUnknowns unknowns_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                            const BlendedSurface& surface, const SectionEvidence& evidence,
-                            const MeasuredSection& measured);
+/// `cloud`: that the band is of; `loops`: all that the plane cuts, the section first, for which
+/// `evidence` is. `measured`: what is told, which may be another line. O(m log m) for the m points
+/// of the band.
+SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
+                            const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
+                            const SectionEvidence& evidence, const MeasuredSection& measured);
 
 /// Widens the intervals by them, and where noise was not what was told. Bends between points count
 /// as much as all that was told before, at most.

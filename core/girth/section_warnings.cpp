@@ -19,7 +19,9 @@ constexpr double kMostOfDoubt = 0.7;
 /// What finer skin may add, against the section, that whoever reads the girth should know of.
 constexpr double kNotableFinerSkin = 0.004;
 constexpr const char* kFinerSkin =
-    "the skin has waves or ribs too fine for its points, as of a ribbed sock";
+    "the points show waves or ribs too fine for them, as of a ribbed sock, or of frames that do "
+    "not "
+    "fit each other";
 /// Of points that lead away from a section.
 constexpr const char* kNoSkinFound =
     ", but no skin through them was found: a part too thin for them, or something that touches the "
@@ -140,11 +142,18 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
   // Of a folded one the contact length was warned of.
   const double doubt = unknowns.folds > 0.0 ? section.stretched_u95
                                             : std::max(section.stretched_u95, section.contact_u95);
-  const bool has_reason =
-      is_most_of(skin.stretched, section) || is_most_of(finer.stretched, section);
+  const bool has_reason = is_most_of(skin.stretched, section) ||
+                          is_most_of(finer.stretched, section) ||
+                          finer.contact > kMostOfDoubt * section.contact_u95;
   warn_if(!has_reason && doubt > kNotableDoubt * loops.front().contour.length(),
           reason_of_doubt(unknowns, section));
   return warnings;
+}
+
+tl::unexpected<Error> too_few_or_noisy() {
+  return fail(ErrorCode::kInsufficientData,
+              "the points near the tape plane are too few or too noisy to tell the girth",
+              "scan again, with more or better frames");
 }
 
 tl::unexpected<Error> too_many_zigzags() {
@@ -155,9 +164,7 @@ tl::unexpected<Error> too_many_zigzags() {
 
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                                    const MeasuredSection& section) {
-  const bool is_finer = is_most_of(unknowns.finer.stretched, section) ||
-                        unknowns.finer.contact > kMostOfDoubt * section.contact_u95;
-  if (is_finer) {
+  if (is_most_of(unknowns.finer.stretched, section)) {
     return fail(ErrorCode::kInsufficientData, kFinerSkin, "scan bare skin, or from nearer");
   }
   if (is_most_of(unknowns.skin.stretched, section)) {
@@ -165,9 +172,7 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                 std::string("points lead away from the section at the tape plane") + kNoSkinFound,
                 "take it away, or scan from nearer");
   }
-  return fail(ErrorCode::kInsufficientData,
-              "the points near the tape plane are too few or too noisy to tell the girth",
-              "scan again, with more or better frames");
+  return too_few_or_noisy();
 }
 
 }  // namespace instep

@@ -30,4 +30,7 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns, const Measur
 /// Instead of one that turns to and fro, as without some points it does not.
 tl::unexpected<Error> too_many_zigzags();
 
+/// Of points of which no more than that can be said.
+tl::unexpected<Error> too_few_or_noisy();
+
 }  // namespace instep

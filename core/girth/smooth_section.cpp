@@ -40,7 +40,7 @@ constexpr double kSharpestTurn = 0.15;
 /// that noise may bend; of 1,555 others those of 1,373.
 constexpr std::size_t kManyPoints = 3000;
 
-constexpr double kLeast = 1e-4;
+constexpr double kLeast = 5e-5;
 
 double half_width_of(const PlaneBand& band) {
   double reach = 0.0;
@@ -164,7 +164,9 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
   section.contact_u95 = u95_of(*ribbon, ways, turns.contact, section, band.sigma);
   section.stretched_u95 = u95_of(*ribbon, ways, turns.stretched, section, band.sigma);
   const auto finer = finer_skin_over(*ribbon, points, line->length());
-  if (finer) section.missed = missed_length(*finer, section.contact);
+  if (finer && !may_be_rounding(*finer, band.unit_mm, slabs.cloud())) {
+    section.missed = missed_length(*finer, section.contact);
+  }
   return section;
 }
 

@@ -201,12 +201,15 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
     return refused(band, contour, tl::make_unexpected(one.error()));
   }
   auto section = measured(slabs, band, loops, surface, evidence);
-  const SectionUnknowns unknowns = unknowns_of(band, loops, surface, evidence, section);
+  const SectionUnknowns unknowns =
+      unknowns_of(band, slabs.cloud(), loops, surface, evidence, section);
   widen(band, unknowns, section);
   ToldGirth told;
-  const bool is_known =
-      section.stretched_u95 <= kMostDoubt * length && section.contact_u95 <= kMostFolded * length;
-  if (!is_known) told = refused(band, contour, too_doubtful(unknowns, section));
+  if (!(section.stretched_u95 <= kMostDoubt * length)) {
+    told = refused(band, contour, too_doubtful(unknowns, section));
+  } else if (!(section.contact_u95 <= kMostFolded * length)) {
+    told = refused(band, contour, too_few_or_noisy());
+  }
   note_unsure_parts(band, unknowns, told);
   if (told.refusal) return told;
 

@@ -1,0 +1,50 @@
+#include "core/geometry/coordinate_step.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+std::vector<Eigen::Vector3d> drawn(const Eigen::Vector3d& steps) {
+  test::RandomNumbers random(1);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 20000; ++i) {
+    Eigen::Vector3d point(random.uniform(-50, 50), random.uniform(900, 1000), random.uniform(0, 9));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (steps[axis] > 0.0) point[axis] = steps[axis] * std::round(point[axis] / steps[axis]);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+TEST(CoordinateStep, IsTheCoarsestOfTheAxes) {
+  EXPECT_NEAR(coordinate_step(drawn({0.1, 0.5, 0.25})), 0.5, 1e-9);
+  EXPECT_NEAR(coordinate_step(drawn({0.0, 0.0, 0.3})), 0.3, 1e-9);
+}
+
+TEST(CoordinateStep, IsWhateverTheFirstCoordinateIs) {
+  auto points = drawn({1.0, 1.0, 1.0});
+  for (auto& point : points) point += Eigen::Vector3d(0.3, 0.77, -5.1);
+  EXPECT_NEAR(coordinate_step(points), 1.0, 1e-9);
+}
+
+TEST(CoordinateStep, IsNextToNoneOfNumbersWithAllTheirDigits) {
+  EXPECT_LT(coordinate_step(drawn({0.0, 0.0, 0.0})), 1e-6);
+  auto floats = drawn({0.0, 0.0, 0.0});
+  for (auto& point : floats) point = point.cast<float>().cast<double>();
+  EXPECT_LT(coordinate_step(floats), 1e-3);
+}
+
+TEST(CoordinateStep, IsNoneOfOneCoordinate) {
+  EXPECT_EQ(coordinate_step({}), 0.0);
+  EXPECT_EQ(coordinate_step({{1, 2, 3}}), 0.0);
+  EXPECT_EQ(coordinate_step({{1, 2, 3}, {1, 2, 3}}), 0.0);
+}
+
+}  // namespace
+}  // namespace instep
