@@ -14,9 +14,9 @@ namespace instep {
 namespace {
 
 /// Of the whole line.
-constexpr Eigen::Index kRows = 1600;
+constexpr std::ptrdiff_t kRows = 1600;
 /// In rows: heights further apart are compared, up to a wave of the longest.
-constexpr Eigen::Index kNearest = 2;
+constexpr std::ptrdiff_t kNearest = 2;
 constexpr double kLongestWave = 96.0;
 constexpr double kShortestWave = 8.0;
 constexpr double kShorter = 0.87;
@@ -41,29 +41,18 @@ constexpr std::size_t kAcrossRibbon = 5;
 constexpr double kColumn = 0.005;
 /// Against the section: where points scatter less, nothing hides in it.
 constexpr double kLeastScatter = 1e-4;
-constexpr std::size_t kMostHeights = 4000;
+constexpr std::size_t kMostHeights = 3000;
 /// Waves lower than this part of a step of the coordinates may be made by it: rounding scatters by
 /// 0.29 of one.
 constexpr double kOfAStep = 0.5;
 
-/// The rows of one column: of the points in each, the sum of what they weigh, and of that times
-/// their heights. As many of the first rows follow the last again as are compared.
-struct Rows {
-  static constexpr Eigen::Index kAll = kRows + kNearest + static_cast<Eigen::Index>(kLongestWave);
-  Eigen::ArrayXd weights = Eigen::ArrayXd::Zero(kAll);
-  Eigen::ArrayXd heights = Eigen::ArrayXd::Zero(kAll);
-
-  void add(Eigen::Index row, double weight, double height) {
-    weights[row] += weight;
-    heights[row] += weight * height;
-  }
-
-  void close() {
-    for (auto* sums : {&weights, &heights}) {
-      sums->tail(kAll - kRows) = sums->head(kAll - kRows).eval();
-    }
-  }
+/// Of the points in a row: the sum of what they weigh, and of that times their heights.
+struct Row {
+  std::ptrdiff_t number = 0;
+  double weight = 0.0;
+  double height = 0.0;
 };
+using Column = std::vector<Row>;
 
 /// What rows share with those so many further on.
 struct Shared {
@@ -74,16 +63,25 @@ struct Shared {
   double chance = 0.0;
 };
 
-/// By the rows that they are apart, from kNearest on.
-std::vector<Shared> shared_by(const std::vector<Rows>& columns) {
-  std::vector<Shared> all(static_cast<std::size_t>(kLongestWave) + 1);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Eigen::Index apart = kNearest + static_cast<Eigen::Index>(i);
-    for (const auto& rows : columns) {
-      const auto products = rows.heights.head(kRows) * rows.heights.segment(apart, kRows);
-      all[i].heights += products.sum();
-      all[i].chance += products.square().sum();
-      all[i].weights += (rows.weights.head(kRows) * rows.weights.segment(apart, kRows)).sum();
+/// By the rows that they are apart, from kNearest to that many more. `columns`: rows that have
+/// points, in their order.
+std::vector<Shared> shared_by(const std::vector<Column>& columns, std::size_t most) {
+  std::vector<Shared> all(most + 1);
+  const auto furthest = kNearest + static_cast<std::ptrdiff_t>(most);
+  for (const auto& rows : columns) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto ahead = [&](std::size_t j) {
+        return rows[j % rows.size()].number - rows[i].number + (j < rows.size() ? 0 : kRows);
+      };
+      for (std::size_t j = i + 1; j < i + rows.size() && ahead(j) <= furthest; ++j) {
+        if (ahead(j) < kNearest) continue;
+        const Row& other = rows[j % rows.size()];
+        const double heights = rows[i].height * other.height;
+        Shared& shared = all[static_cast<std::size_t>(ahead(j) - kNearest)];
+        shared.heights += heights;
+        shared.chance += heights * heights;
+        shared.weights += rows[i].weight * other.weight;
+      }
     }
   }
   return all;
@@ -120,8 +118,7 @@ Waves waves_of(const std::vector<Shared>& all, double wave, double row_length) {
   Fit crest;
   for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(std::lround(wave)));
        ++i) {
-    const double alike =
-        std::cos(turn * static_cast<double>(kNearest + static_cast<Eigen::Index>(i)));
+    const double alike = std::cos(turn * (static_cast<double>(kNearest) + static_cast<double>(i)));
     whole.add(alike, all[i]);
     if (alike > 0.0) crest.add(alike, all[i]);
   }
@@ -131,8 +128,8 @@ Waves waves_of(const std::vector<Shared>& all, double wave, double row_length) {
 }
 
 /// `longest`: in rows.
-Waves plainest_waves(const std::vector<Rows>& columns, double longest, double row_length) {
-  const auto all = shared_by(columns);
+Waves plainest_waves(const std::vector<Column>& columns, double longest, double row_length) {
+  const auto all = shared_by(columns, static_cast<std::size_t>(longest));
   Waves plainest;
   for (double wave = longest; wave >= kShortestWave; wave *= kShorter) {
     const Waves waves = waves_of(all, wave, row_length);
@@ -141,9 +138,9 @@ Waves plainest_waves(const std::vector<Rows>& columns, double longest, double ro
   return plainest;
 }
 
-Eigen::Index part_of(double share, std::size_t parts) {
+std::size_t part_of(double share, std::size_t parts) {
   const double part = std::clamp(share, 0.0, 1.0) * static_cast<double>(parts);
-  return static_cast<Eigen::Index>(std::min(static_cast<std::size_t>(part), parts - 1));
+  return std::min(static_cast<std::size_t>(part), parts - 1);
 }
 
 /// Against what is known of its noise.
@@ -161,15 +158,19 @@ std::vector<RibbonPoint> usual_of(std::vector<RibbonPoint> heights) {
   return heights;
 }
 
-std::vector<Rows> rows_of(const std::vector<RibbonPoint>& heights, double length,
-                          std::size_t across) {
-  std::vector<Rows> columns(across);
+std::vector<Column> columns_of(const std::vector<RibbonPoint>& heights, double length,
+                               std::size_t across) {
+  std::vector<Column> columns(across, Column(kRows));
   for (const auto& point : heights) {
     const double round = point.way / length;
-    auto& column = columns[static_cast<std::size_t>(part_of(0.5 * (1.0 + point.off), across))];
-    column.add(part_of(round - std::floor(round), kRows), point.certainty, point.height);
+    const std::size_t row = part_of(round - std::floor(round), kRows);
+    Row& here = columns[part_of(0.5 * (1.0 + point.off), across)][row];
+    here.number = static_cast<std::ptrdiff_t>(row);
+    here.weight += point.certainty;
+    here.height += point.certainty * point.height;
   }
-  for (auto& column : columns) column.close();
+  for (auto& column : columns)
+    std::erase_if(column, [](const Row& row) { return !(row.weight > 0.0); });
   return columns;
 }
 
@@ -200,7 +201,7 @@ MissedLength missed_length(const FinerSkin& skin, double length) {
 
 std::optional<FinerSkin> finer_skin_of(const std::vector<RibbonPoint>& heights, double length,
                                        double longest, std::size_t across) {
-  const auto columns = rows_of(usual_of(heights), length, across);
+  const auto columns = columns_of(usual_of(heights), length, across);
   const double row_length = length / static_cast<double>(kRows);
   const Waves waves =
       plainest_waves(columns, std::min(longest / row_length, kLongestWave), row_length);

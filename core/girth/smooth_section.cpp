@@ -40,7 +40,7 @@ constexpr double kSharpestTurn = 0.15;
 /// that noise may bend; of 1,555 others those of 1,373.
 constexpr std::size_t kManyPoints = 3000;
 
-constexpr double kLeast = 5e-5;
+constexpr double kLeast = 8e-5;
 
 double half_width_of(const PlaneBand& band) {
   double reach = 0.0;
