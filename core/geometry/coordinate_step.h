@@ -5,10 +5,10 @@
 
 namespace instep {
 
-/// The coarsest step that the coordinates of points are rounded to along one of their axes, as by
-/// whoever wrote them with few digits, or took them from voxels; that of their number format at
-/// least, and zero where an axis has one coordinate only. Points that were moved since show none.
-/// O(n log n) for some thousands of the points.
+/// The step that all coordinates of points are rounded to, as by whoever wrote them with few
+/// digits, or took them from voxels: the finest one of the axes, for rows of a scanner step along
+/// one axis alone. That of their number format at least; zero of points that were turned since, or
+/// are all one. O(n log n).
 double coordinate_step(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace instep

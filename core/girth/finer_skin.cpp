@@ -39,6 +39,7 @@ constexpr std::size_t kAcrossRibbon = 5;
 /// Of a band's columns, against the section: ribs that cross the plane aslant hardly move along it
 /// within one.
 constexpr double kColumn = 0.005;
+constexpr double kMostColumns = 64.0;
 /// Against the section: where points scatter less, nothing hides in it.
 constexpr double kLeastScatter = 1e-4;
 constexpr std::size_t kMostHeights = 3000;
@@ -185,10 +186,11 @@ double reach_of_nearest(const std::vector<OrientedPoint>& points, std::size_t mo
   return *last;
 }
 
-std::optional<FinerSkin> higher(const std::optional<FinerSkin>& one,
-                                const std::optional<FinerSkin>& other) {
+/// What either shows: high waves may be long, and steep ones low.
+std::optional<FinerSkin> both(const std::optional<FinerSkin>& one,
+                              const std::optional<FinerSkin>& other) {
   if (!one || !other) return one ? one : other;
-  return one->height > other->height ? one : other;
+  return FinerSkin{std::max(one->height, other->height), std::max(one->slope, other->slope)};
 }
 
 }  // namespace
@@ -214,8 +216,8 @@ std::optional<FinerSkin> finer_skin_over(const RibbonSpline& spline,
   std::vector<RibbonPoint> heights = points;
   for (auto& point : heights) point.height -= spline.at(point.way, point.off).value;
   const double longest = kLongestOverRibbon * length;
-  return higher(finer_skin_of(heights, length, longest, 1),
-                finer_skin_of(heights, length, longest, kAcrossRibbon));
+  return both(finer_skin_of(heights, length, longest, 1),
+              finer_skin_of(heights, length, longest, kAcrossRibbon));
 }
 
 std::optional<FinerSkin> finer_skin_at(const PlaneBand& band, const BlendedSurface& surface,
@@ -226,7 +228,10 @@ std::optional<FinerSkin> finer_skin_at(const PlaneBand& band, const BlendedSurfa
   const double beside = evidence_reach(band);
   const double usual = band.sigma * band.sigma;
   double reach = 0.0;
-  for (const auto& point : band.points) {
+  for (std::size_t i = 0; i < band.points.size(); ++i) {
+    // What was put where nobody looked, and what stays of piles, lies on the surface.
+    if (!band.seen[i] || band.error_of(i) > 0.0) continue;
+    const OrientedPoint& point = band.points[i];
     const double off = point.position.z();
     if (std::abs(off) > most || !may_run_to(section, point, beside)) continue;
     const auto field = surface.at(point.position);
@@ -235,13 +240,13 @@ std::optional<FinerSkin> finer_skin_at(const PlaneBand& band, const BlendedSurfa
     heights.push_back({way, off, field->value, usual / point.variance});
     reach = std::max(reach, std::abs(off));
   }
-  if (!(reach > 0.0)) return std::nullopt;
-  for (auto& point : heights) point.off /= reach;
   const double length = section.length();
   const double longest = kLongestOverPatches * length;
-  const auto columns = static_cast<std::size_t>(std::ceil(2.0 * reach / (kColumn * length)));
-  return higher(finer_skin_of(heights, length, longest, 1),
-                finer_skin_of(heights, length, longest, columns));
+  const auto along = finer_skin_of(heights, length, longest, 1);
+  if (!(reach > 0.0)) return along;
+  for (auto& point : heights) point.off /= reach;
+  const double columns = std::min(std::ceil(2.0 * reach / (kColumn * length)), kMostColumns);
+  return both(along, finer_skin_of(heights, length, longest, static_cast<std::size_t>(columns)));
 }
 
 bool may_be_rounding(const FinerSkin& skin, double unit_mm, const PointCloud& cloud) {

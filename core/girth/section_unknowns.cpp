@@ -37,8 +37,8 @@ double folds_by_noise(const PlaneBand& band, const Contour& section) {
   return mean_fold_depth(section, more) < kFoldInSigmas * band.sigma ? more : 0.0;
 }
 
-/// As one even skin through all points of a ribbon shows it, or the surface in the band: whichever
-/// shows more.
+/// As one even skin through all points of a ribbon shows it, or the surface in the band: of each
+/// length whichever shows more.
 MissedLength missed_of_finer_skin(const PlaneBand& band, const PointCloud& cloud,
                                   const BlendedSurface& surface, const SectionLoop& section,
                                   const MeasuredSection& measured) {

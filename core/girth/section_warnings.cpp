@@ -19,9 +19,10 @@ constexpr double kMostOfDoubt = 0.7;
 /// What finer skin may add, against the section, that whoever reads the girth should know of.
 constexpr double kNotableFinerSkin = 0.004;
 constexpr const char* kFinerSkin =
-    "the points show waves or ribs too fine for them, as of a ribbed sock, or of frames that do "
-    "not "
-    "fit each other";
+    "the points show waves or ribs finer than a surface through them follows, as of a ribbed sock "
+    "or of frames that do not fit each other";
+constexpr const char* kSeeToFinerSkin =
+    "scan bare skin, or from nearer, and see to the cameras' poses";
 /// Of points that lead away from a section.
 constexpr const char* kNoSkinFound =
     ", but no skin through them was found: a part too thin for them, or something that touches the "
@@ -59,11 +60,34 @@ std::string warning_of_zigzags(double way_mm) {
 std::string warning_of(const MissedLength& finer, double unit_mm) {
   return std::string(kFinerSkin) + ": a tape over them may be " +
          in_millimetres(unit_mm * finer.stretched) + " longer, and the contact length " +
-         in_millimetres(unit_mm * finer.contact) + "; scan bare skin, or from nearer";
+         in_millimetres(unit_mm * finer.contact) + "; " + kSeeToFinerSkin;
+}
+
+tl::unexpected<Error> too_few_or_noisy() {
+  return fail(ErrorCode::kInsufficientData,
+              "the points near the tape plane are too few or too noisy to tell the girth",
+              "scan again, with more or better frames");
 }
 
 bool is_most_of(double doubt, const MeasuredSection& section) {
   return doubt > kMostOfDoubt * section.stretched_u95;
+}
+
+bool is_most_of_contact(double doubt, const MeasuredSection& section) {
+  return doubt > kMostOfDoubt * section.contact_u95;
+}
+
+/// Whether a length is more doubtful than it should be, and nothing that is named explains it.
+bool is_unexplained(const SectionUnknowns& unknowns, const MeasuredSection& section,
+                    double length) {
+  if (is_most_of(unknowns.skin.stretched, section)) return false;
+  const double notable = kNotableDoubt * length;
+  const bool stretched =
+      section.stretched_u95 > notable && !is_most_of(unknowns.finer.stretched, section);
+  // Of a folded one the contact length was warned of.
+  const bool contact = section.contact_u95 > notable && !(unknowns.folds > 0.0) &&
+                       !is_most_of_contact(unknowns.finer.contact, section);
+  return stretched || contact;
 }
 
 const char* reason_of_doubt(const SectionUnknowns& unknowns, const MeasuredSection& section) {
@@ -139,21 +163,9 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
         (band.own_sigma ? "have the file's sigma_mm made anew, or leave it out"
                         : "leave --sigma-mm out, or give a smaller one"));
   }
-  // Of a folded one the contact length was warned of.
-  const double doubt = unknowns.folds > 0.0 ? section.stretched_u95
-                                            : std::max(section.stretched_u95, section.contact_u95);
-  const bool has_reason = is_most_of(skin.stretched, section) ||
-                          is_most_of(finer.stretched, section) ||
-                          finer.contact > kMostOfDoubt * section.contact_u95;
-  warn_if(!has_reason && doubt > kNotableDoubt * loops.front().contour.length(),
+  warn_if(is_unexplained(unknowns, section, loops.front().contour.length()),
           reason_of_doubt(unknowns, section));
   return warnings;
-}
-
-tl::unexpected<Error> too_few_or_noisy() {
-  return fail(ErrorCode::kInsufficientData,
-              "the points near the tape plane are too few or too noisy to tell the girth",
-              "scan again, with more or better frames");
 }
 
 tl::unexpected<Error> too_many_zigzags() {
@@ -165,7 +177,7 @@ tl::unexpected<Error> too_many_zigzags() {
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                                    const MeasuredSection& section) {
   if (is_most_of(unknowns.finer.stretched, section)) {
-    return fail(ErrorCode::kInsufficientData, kFinerSkin, "scan bare skin, or from nearer");
+    return fail(ErrorCode::kInsufficientData, kFinerSkin, kSeeToFinerSkin);
   }
   if (is_most_of(unknowns.skin.stretched, section)) {
     return fail(ErrorCode::kInsufficientData,
@@ -173,6 +185,11 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                 "take it away, or scan from nearer");
   }
   return too_few_or_noisy();
+}
+
+tl::unexpected<Error> too_folded(const SectionUnknowns& unknowns, const MeasuredSection& section) {
+  if (!is_most_of_contact(unknowns.finer.contact, section)) return too_few_or_noisy();
+  return fail(ErrorCode::kInsufficientData, kFinerSkin, kSeeToFinerSkin);
 }
 
 }  // namespace instep

@@ -27,10 +27,10 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
 /// Instead of a girth that is too uncertain to be told.
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns, const MeasuredSection& section);
 
+/// Instead of one of which the contact length is.
+tl::unexpected<Error> too_folded(const SectionUnknowns& unknowns, const MeasuredSection& section);
+
 /// Instead of one that turns to and fro, as without some points it does not.
 tl::unexpected<Error> too_many_zigzags();
-
-/// Of points of which no more than that can be said.
-tl::unexpected<Error> too_few_or_noisy();
 
 }  // namespace instep

@@ -66,7 +66,8 @@ MissedLength left_missed(const MeasuredSection& smooth, const MeasuredSection& p
 }
 
 /// The section as one even skin where it is that, else as its patches tell it: they see a narrow
-/// collar, which the polynomial across a ribbon levels. How far the skin may wander where nobody
+/// collar, which the polynomial across a ribbon levels, and follow some of the waves that it does
+/// not. How far the skin may wander where nobody
 /// looked is known of the patches alone.
 MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
                          const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
@@ -208,7 +209,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   if (!(section.stretched_u95 <= kMostDoubt * length)) {
     told = refused(band, contour, too_doubtful(unknowns, section));
   } else if (!(section.contact_u95 <= kMostFolded * length)) {
-    told = refused(band, contour, too_few_or_noisy());
+    told = refused(band, contour, too_folded(unknowns, section));
   }
   note_unsure_parts(band, unknowns, told);
   if (told.refusal) return told;

@@ -22,9 +22,23 @@ std::vector<Eigen::Vector3d> drawn(const Eigen::Vector3d& steps) {
   return points;
 }
 
-TEST(CoordinateStep, IsTheCoarsestOfTheAxes) {
-  EXPECT_NEAR(coordinate_step(drawn({0.1, 0.5, 0.25})), 0.5, 1e-9);
-  EXPECT_NEAR(coordinate_step(drawn({0.0, 0.0, 0.3})), 0.3, 1e-9);
+TEST(CoordinateStep, IsTheFinestOfTheAxes) {
+  EXPECT_NEAR(coordinate_step(drawn({0.2, 0.5, 0.25})), 0.2, 1e-9);
+  EXPECT_LT(coordinate_step(drawn({0.0, 0.0, 1.0})), 1e-6) << "rows of a scanner";
+}
+
+TEST(CoordinateStep, IsThatOfAxesThatVary) {
+  auto points = drawn({0.5, 0.5, 0.5});
+  for (auto& point : points) point.z() = 3.3;
+  EXPECT_NEAR(coordinate_step(points), 0.5, 1e-9);
+}
+
+/// Two bodies apart, written as numbers of seven digits.
+TEST(CoordinateStep, IsToldAcrossGaps) {
+  auto points = drawn({0.2, 0.2, 0.2});
+  for (std::size_t i = 0; i < points.size(); i += 2) points[i].array() += 200.0;
+  for (auto& point : points) point = point.cast<float>().cast<double>();
+  EXPECT_NEAR(coordinate_step(points), 0.2, 1e-4);
 }
 
 TEST(CoordinateStep, IsWhateverTheFirstCoordinateIs) {
