@@ -56,105 +56,76 @@ struct FootDoubts {
   std::optional<UnseenEnds> ends;
 };
 
-/// From what the landmarks as found and each redraw of them give, those left out that give nothing;
-/// nothing where the landmarks as found do, or too few redraws are left.
-template <typename Taker>
-std::optional<double> spread_over_redraws(const FootScan& foot, const Taker& taken) {
-  const std::optional<double> told =
-      taken(RedrawnLandmarks{foot.landmarks, RigidTransform::Identity()});
-  if (!told) return std::nullopt;
-  std::vector<std::optional<double>> values;
-  for (const auto& redrawn : foot.redraws.landmarks) values.push_back(taken(redrawn));
-  return u95_by_redraws(*told, values, foot.redraws.parting);
-}
-
-std::optional<double> taken_by(const LengthDefinition& definition, const Landmarks& landmarks) {
-  const auto length = definition.length(landmarks);
+/// `redrawn`: landmarks as they may lie; a tape of them is laid round the foot's own points.
+std::optional<double> taken_by(const LengthDefinition& definition, const FootScan&,
+                               const RedrawnLandmarks& redrawn) {
+  const auto length = definition.length(redrawn.landmarks);
   return length ? std::optional(*length) : std::nullopt;
 }
 
-/// `foot_from_landmarks`: the tape of any landmarks is laid round the same points.
-std::optional<double> taken_by(
-    const GirthDefinition& definition, const Landmarks& landmarks, const FootScan& foot,
-    const RigidTransform& foot_from_landmarks = RigidTransform::Identity()) {
-  const auto tape = definition.tape(landmarks);
+std::optional<double> taken_by(const GirthDefinition& definition, const FootScan& foot,
+                               const RedrawnLandmarks& redrawn) {
+  const auto tape = definition.tape(redrawn.landmarks);
   if (!tape) return std::nullopt;
-  return rough_tape(foot.cloud.positions, tape->transformed(foot_from_landmarks));
+  return rough_tape(foot.cloud.positions, tape->transformed(redrawn.foot_from_redrawn));
 }
 
-std::optional<double> u95_of(const LengthDefinition& definition, const FootScan& foot) {
-  return spread_over_redraws(foot, [&](const RedrawnLandmarks& redrawn) {
-    return taken_by(definition, redrawn.landmarks);
-  });
+/// By the landmarks as found.
+template <typename Definition>
+std::optional<double> taken_here(const Definition& definition, const FootScan& foot) {
+  return taken_by(definition, foot, {foot.landmarks, RigidTransform::Identity()});
 }
 
-std::optional<double> u95_of(const GirthDefinition& definition, const FootScan& foot) {
-  return spread_over_redraws(foot, [&](const RedrawnLandmarks& redrawn) {
-    return taken_by(definition, redrawn.landmarks, foot, redrawn.foot_from_redrawn);
-  });
-}
-
-/// How far a measure moves where its landmarks lie elsewhere by what redraws share; nothing where
-/// `taken` does not tell.
-template <typename Taker>
-std::optional<double> u95_of_shared(const std::vector<const char*>& names, const FootScan& foot,
-                                    const Taker& taken) {
-  double squares = 0.0;
-  for (const char* name : names) {
-    const auto found = foot.landmarks.find(name);
-    if (found == foot.landmarks.end()) continue;
-    for (const auto& off : found->second.deviations_off_mm) {
-      Landmarks moved = foot.landmarks;
-      moved[name].position_mm += off;
-      const std::optional<double> here = taken(foot.landmarks);
-      const std::optional<double> there = taken(moved);
-      if (!here || !there) return std::nullopt;
-      squares += std::pow(*there - *here, 2);
-    }
+/// From what the landmarks as found and each redraw of them give, those left out that give nothing;
+/// nothing where the landmarks as found do, or too few redraws are left.
+template <typename Definition>
+std::optional<double> u95_of(const Definition& definition, const FootScan& foot) {
+  const auto told = taken_here(definition, foot);
+  if (!told) return std::nullopt;
+  std::vector<std::optional<double>> values;
+  for (const auto& redrawn : foot.redraws.landmarks) {
+    values.push_back(taken_by(definition, foot, redrawn));
   }
-  return kDeviations * std::sqrt(squares);
+  return u95_by_redraws(*told, values, foot.redraws.parting);
 }
 
-std::optional<double> u95_of_shared(const LengthDefinition& definition, const FootScan& foot) {
-  return u95_of_shared(definition.landmarks, foot,
-                       [&](const Landmarks& landmarks) { return taken_by(definition, landmarks); });
-}
-
-std::optional<double> u95_of_shared(const GirthDefinition& definition, const FootScan& foot) {
-  return u95_of_shared(definition.landmarks, foot, [&](const Landmarks& landmarks) {
-    return taken_by(definition, landmarks, foot);
-  });
-}
-
-/// How far a measure moves if the foot goes on where its ends were not seen; nothing where `taken`
-/// does not tell.
-template <typename Taker>
-std::optional<double> u95_of_ends(const FootScan& foot, const FootDoubts& about,
-                                  const Taker& taken) {
-  if (!about.ends) return 0.0;
-  const std::optional<double> here =
-      taken(RedrawnLandmarks{foot.landmarks, RigidTransform::Identity()});
+/// How far a measure moves from the landmarks as found to others, each for itself; nothing where
+/// either do not give it.
+template <typename Definition>
+std::optional<double> moved_by(const std::vector<RedrawnLandmarks>& others,
+                               const Definition& definition, const FootScan& foot) {
+  if (others.empty()) return 0.0;
+  const auto here = taken_here(definition, foot);
   double squares = 0.0;
-  for (const auto& longer : about.ends->if_longer) {
-    const std::optional<double> there = taken(longer);
+  for (const auto& other : others) {
+    const auto there = taken_by(definition, foot, other);
     if (!here || !there) return std::nullopt;
     squares += std::pow(*there - *here, 2);
   }
   return std::sqrt(squares);
 }
 
-std::optional<double> u95_of_ends(const LengthDefinition& definition, const FootScan& foot,
-                                  const FootDoubts& about) {
-  return u95_of_ends(foot, about, [&](const RedrawnLandmarks& longer) {
-    return taken_by(definition, longer.landmarks);
-  });
+/// By where its landmarks lie instead if what redraws share is off.
+template <typename Definition>
+std::optional<double> u95_of_shared(const Definition& definition, const FootScan& foot) {
+  std::vector<RedrawnLandmarks> others;
+  for (const char* name : definition.landmarks) {
+    const auto found = foot.landmarks.find(name);
+    if (found == foot.landmarks.end()) continue;
+    for (const auto& off : found->second.deviations_off_mm) {
+      others.push_back({foot.landmarks, RigidTransform::Identity()});
+      others.back().landmarks[name].position_mm += off;
+    }
+  }
+  const auto moved = moved_by(others, definition, foot);
+  return moved ? std::optional(kDeviations * *moved) : std::nullopt;
 }
 
-std::optional<double> u95_of_ends(const GirthDefinition& definition, const FootScan& foot,
+/// By where they lie if the foot goes on beyond ends that were not seen.
+template <typename Definition>
+std::optional<double> u95_of_ends(const Definition& definition, const FootScan& foot,
                                   const FootDoubts& about) {
-  return u95_of_ends(foot, about, [&](const RedrawnLandmarks& longer) {
-    return taken_by(definition, longer.landmarks, foot, longer.foot_from_redrawn);
-  });
+  return about.ends ? moved_by(about.ends->if_longer, definition, foot) : 0.0;
 }
 
 /// All parts that are known, together.

@@ -70,8 +70,7 @@ MissedLength left_missed(const MeasuredSection& smooth, const MeasuredSection& p
 
 /// The section as one even skin where it is that, else as its patches tell it: they see a narrow
 /// collar, which the polynomial across a ribbon levels, and follow some of the waves that it does
-/// not. How far the skin may wander where nobody
-/// looked is known of the patches alone.
+/// not. How far the skin may wander where nobody looked is known of the patches alone.
 MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
                          const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
                          const SectionEvidence& evidence) {
