@@ -47,7 +47,9 @@ struct Girth {
   /// same again. Of lines that are far apart those that were kept, or averages of them; of parts
   /// that were seen many times as densely as the rest those that were kept.
   std::size_t band_points = 0;
-  double sigma_mm = 0.0;  ///< noise that was used: the usual one near the plane, or its mean
+  /// Noise that was used: the usual one near the plane, or its mean; 0 by the methods that use
+  /// none.
+  double sigma_mm = 0.0;
   /// Longest stretch of the section without a seen point under it.
   double largest_gap_mm = 0.0;
   std::vector<std::string> warnings;

@@ -26,9 +26,6 @@ constexpr std::size_t kFewestBandPoints = 10;
 constexpr double kNarrowestBandInSpacings = 0.5;
 constexpr double kWidestBandInSpacings = 4.0;
 
-/// Of a hull without points under it: more is refused, and less is worth a warning.
-constexpr double kWidestGap = 0.25;
-constexpr double kNotableGap = 0.1;
 /// A hull this much shorter than a tape round all that lies about the plane, up to this part of the
 /// cloud's size from it, goes round a crowd in it.
 constexpr double kCrowd = 0.5;
@@ -96,8 +93,8 @@ bool has_much_inside(const std::vector<Eigen::Vector2d>& hull, const PlaneSlab& 
 
 void warn(const PlaneSlab& band, double length_of_twice, double gap, Girth& girth) {
   girth.warnings.push_back("a hull of points knows no skin: contact is given as stretched");
-  if (gap > kNotableGap * girth.stretched_mm) {
-    girth.warnings.push_back("a part of the section without points was bridged");
+  if (gap > kNotableGapOfHull * girth.stretched_mm) {
+    girth.warnings.emplace_back(kHullBridgedWarning);
   }
   if (length_of_twice > (1.0 + kSteadyGrowth) * girth.stretched_mm) {
     char growth[32];
@@ -136,7 +133,7 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
     if (cloud.was_seen(band.indices[i])) seen.push_back(points.back());
   }
   const double gap = largest_gap(girth.contour, points);
-  if (gap > kWidestGap * length) {
+  if (gap > kWidestBridge * length) {
     return fail(ErrorCode::kInsufficientData,
                 "more than a quarter of the hull at the tape plane has no points",
                 "scan the body all round, or use --method rbf");
@@ -144,7 +141,6 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
   girth.stretched_mm = girth.contact_mm = length;
   girth.points = cloud.size();
   girth.band_points = band.places.size();
-  girth.sigma_mm = options.sigma_mm.value_or(0.0);
   girth.largest_gap_mm = largest_gap(girth.contour, seen);
   warn(band, perimeter(hull_of(within(about->slab, 2.0 * half_width))), gap, girth);
   return girth;

@@ -110,31 +110,24 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
   auto lines = section_of(meshed.mesh, *band);
   if (!lines) return tl::make_unexpected(lines.error());
 
-  Girth girth;
-  double seam = 0.0;  // of the loop that will be chosen
-  double largest_area = 0.0;
-  std::vector<std::vector<Eigen::Vector2d>> loops;
   for (auto& line : *lines) {
-    if (!line.closed) continue;
-    const double area = std::abs(signed_area(line.points));
-    if (area > largest_area) seam = line.widest_seam;
-    largest_area = std::max(largest_area, area);
     for (auto& point : line.points) point = band->to_plane(point);
-    loops.push_back(std::move(line.points));
   }
-  girth.contour = choose_loop(std::move(loops), girth.warnings);
+  Girth girth;
+  SectionLine loop = choose_loop(std::move(*lines), girth.warnings);
+  girth.contour = std::move(loop.points);
   const auto hull = convex_hull(girth.contour);
   if (!is_ring(hull)) return no_mesh();
   girth.contact_mm = perimeter(girth.contour);
   girth.stretched_mm = perimeter(hull);
   girth.points = cloud.size();
-  girth.band_points = band->points.size();
-  girth.sigma_mm = band->unit_mm * band->sigma;
-  girth.largest_gap_mm = std::max(gap_under(girth.contour, *band, meshed), band->unit_mm * seam);
+  girth.band_points = band->points_taken();
+  girth.sigma_mm = band->noise_mm();
+  const double seam = band->unit_mm * loop.widest_seam;
+  girth.largest_gap_mm = std::max(gap_under(girth.contour, *band, meshed), seam);
   const double spacing = band->unit_mm * band->grain;
   if (girth.largest_gap_mm > kNotableGapInSpacings * spacing ||
-      band->unit_mm * seam >
-          std::max(kHoleInSpacings * spacing, kNotableHole * girth.stretched_mm)) {
+      seam > std::max(kHoleInSpacings * spacing, kNotableHole * girth.stretched_mm)) {
     girth.warnings.emplace_back(kBridgedWarning);
   }
   for (auto& disbelief : disbelief_of(*band)) girth.warnings.push_back(std::move(disbelief));

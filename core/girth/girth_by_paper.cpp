@@ -34,7 +34,7 @@ constexpr double kCircleGrowth = 1.25;
 constexpr std::size_t kMostInCircle = 60;
 
 constexpr std::size_t kFewestPoints = 10;
-/// Neighbours from which the spacing is told, and about how many points are asked.
+/// About how many points are asked for the spacing.
 constexpr std::size_t kSpacingPlaces = 4000;
 /// The band is looked for in slabs of this part of the cloud's size, and so many times this much
 /// thinner or thicker ones.
@@ -43,12 +43,8 @@ constexpr double kSlabGrowth = 1.4;
 constexpr int kThinnerSlabs = 12;
 /// How far from the plane lies what is about it, against the cloud's size.
 constexpr double kAbout = 0.01;
-/// The ring is lost where less than this part of the initial points leads to an intersection, or
-/// where a longer part of it has none.
+/// The ring is lost where less than this part of the initial points leads to an intersection.
 constexpr double kFewestMet = 0.5;
-constexpr double kWidestGap = 0.25;
-/// A part without an intersection that is worth a warning.
-constexpr double kNotableGap = 0.1;
 /// A ring this much shorter than a tape round the neighbourhood goes round a crowd in it.
 constexpr double kCrowd = 0.5;
 /// A ring this much longer than a tape round all points of S swells where nothing was seen; and
@@ -220,7 +216,7 @@ struct Ring {
 };
 
 bool is_lost(const Ring& ring, const PartialCloud& part) {
-  return !is_ring(ring.hull) || ring.gap > kWidestGap * ring.length ||
+  return !is_ring(ring.hull) || ring.gap > kWidestBridge * ring.length ||
          ring.length < kCrowd * part.tape_about_mm ||
          ring.length > kSwollen * ring.round_the_points;
 }
@@ -234,8 +230,8 @@ void warn(const Ring& ring, std::size_t initial, std::size_t met, Girth& girth) 
   if (ring.length > kNotableSwelling * ring.round_the_points) {
     girth.warnings.push_back("the surface swells beyond all points near the plane");
   }
-  if (ring.gap > kNotableGap * ring.length) {
-    girth.warnings.push_back("a part of the section without points was bridged");
+  if (ring.gap > kNotableGapOfHull * ring.length) {
+    girth.warnings.emplace_back(kHullBridgedWarning);
   }
   if (girth.contact_mm > kJumping * girth.stretched_mm) {
     girth.warnings.push_back(
@@ -273,7 +269,6 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
   girth.contact_mm = perimeter(girth.contour);
   girth.points = cloud.size();
   girth.band_points = part->slab.places.size();
-  girth.sigma_mm = options.sigma_mm.value_or(0.0);
   girth.largest_gap_mm = largest_gap(hull, seen_within(cloud, part->slab, section.threshold()));
   warn(ring, section.initial(), met.size(), girth);
   return girth;

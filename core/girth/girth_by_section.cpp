@@ -1,7 +1,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/polygon.h"
@@ -48,32 +50,69 @@ double diagonal(const std::vector<SectionLine>& lines) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-Girth closed_girth(const std::vector<SectionLine>& lines) {
-  std::vector<std::vector<Eigen::Vector2d>> loops;
-  std::size_t open = 0;
+double hull_area(const SectionLine& line) {
+  return signed_area(convex_hull(line.points));
+}
+
+/// Whether there is no loop, or an open piece goes round more than any loop does: then the body is
+/// what is open.
+bool is_open(const std::vector<SectionLine>& lines) {
+  double open = 0.0;
+  double closed = 0.0;
   for (const auto& line : lines) {
-    if (line.closed) {
-      loops.push_back(line.points);
-    } else {
-      ++open;
-    }
+    double& largest = line.closed ? closed : open;
+    largest = std::max(largest, hull_area(line));
   }
+  return !(closed > 0.0) || open > closed;
+}
+
+Girth closed_girth(std::vector<SectionLine> lines, double harmless_seam) {
   Girth girth;
-  for (const auto& line : lines) {
-    girth.largest_gap_mm = std::max(girth.largest_gap_mm, line.widest_seam);
-  }
-  girth.contour = choose_loop(std::move(loops), girth.warnings);
+  const auto open = std::count_if(lines.begin(), lines.end(),
+                                  [](const SectionLine& line) { return !line.closed; });
+  SectionLine loop = choose_loop(std::move(lines), girth.warnings);
+  girth.largest_gap_mm = loop.widest_seam;
+  girth.contour = std::move(loop.points);
   girth.contact_mm = perimeter(girth.contour);
   girth.stretched_mm = perimeter(convex_hull(girth.contour));
   if (open > 0) {
     girth.warnings.push_back(std::to_string(open) + " open pieces of the section do not count");
   }
+  if (girth.largest_gap_mm > harmless_seam) {
+    girth.warnings.emplace_back("faces that are not stitched leave gaps, which were bridged");
+  }
   return girth;
 }
 
+/// From an end of a piece to the nearest one of another, or across the piece if it is the only one.
+double gap_at(const Eigen::Vector2d& end, const SectionLine& own,
+              const std::vector<SectionLine>& pieces) {
+  if (pieces.size() == 1) return (own.points.front() - own.points.back()).norm();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& piece : pieces) {
+    if (&piece == &own) continue;
+    nearest = std::min(
+        {nearest, (piece.points.front() - end).norm(), (piece.points.back() - end).norm()});
+  }
+  return nearest;
+}
+
+double widest_gap(const std::vector<SectionLine>& pieces) {
+  double widest = 0.0;
+  for (const auto& piece : pieces) {
+    widest = std::max({widest, piece.widest_seam, gap_at(piece.points.front(), piece, pieces),
+                       gap_at(piece.points.back(), piece, pieces)});
+  }
+  return widest;
+}
+
 /// The hull closes what the pieces leave open.
-Girth open_girth(const std::vector<SectionLine>& lines) {
+Girth open_girth(std::vector<SectionLine> lines) {
   Girth girth;
+  for (const auto& line : lines) {
+    if (line.closed) girth.warnings.push_back(other_loop_warning(line.length()));
+  }
+  std::erase_if(lines, [](const SectionLine& line) { return line.closed; });
   std::vector<Eigen::Vector2d> points;
   for (const auto& line : lines) {
     girth.contact_mm += line.length();
@@ -81,12 +120,8 @@ Girth open_girth(const std::vector<SectionLine>& lines) {
   }
   girth.contour = convex_hull(std::move(points));
   girth.stretched_mm = perimeter(girth.contour);
-  for (const auto& line : lines) {
-    if (line.closed) continue;
-    girth.largest_gap_mm =
-        std::max(girth.largest_gap_mm, (line.points.front() - line.points.back()).norm());
-  }
-  girth.warnings.push_back(
+  girth.largest_gap_mm = widest_gap(lines);
+  girth.warnings.emplace_back(
       "the section is open: the stretched length bridges it, the contact length is that of the "
       "pieces");
   return girth;
@@ -98,19 +133,16 @@ Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane)
   if (auto sound = check_mesh(mesh); !sound) return tl::make_unexpected(sound.error());
   const auto raw = cut(mesh, plane, 0.0);
   const double size = diagonal(raw);
-  const auto lines = cut(mesh, plane, kWidestSeam * size);
+  auto lines = cut(mesh, plane, kWidestSeam * size);
   if (lines.empty() || !(size > 0.0)) {
     return fail(ErrorCode::kInvalidInput, "the tape plane cuts no face of the mesh",
                 "give control points on the body");
   }
-  const bool open_outweighs = !lines.front().closed;
-  Girth girth = open_outweighs ? open_girth(lines) : closed_girth(lines);
+  Girth girth = is_open(lines) ? open_girth(std::move(lines))
+                               : closed_girth(std::move(lines), kHarmlessSeam * size);
   if (!is_ring(convex_hull(girth.contour))) {
     return fail(ErrorCode::kInvalidInput, "the tape plane cuts no ring of faces",
                 "give control points on the body");
-  }
-  if (!open_outweighs && girth.largest_gap_mm > kHarmlessSeam * size) {
-    girth.warnings.push_back("faces that are not stitched leave gaps, which were bridged");
   }
   girth.points = mesh.positions.size();
   return girth;

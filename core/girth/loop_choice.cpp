@@ -3,21 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "core/geometry/polygon.h"
 
 namespace instep {
 
-std::vector<Eigen::Vector2d> choose_loop(std::vector<std::vector<Eigen::Vector2d>> loops,
-                                         std::vector<std::string>& warnings) {
-  std::stable_sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
-    return std::abs(signed_area(a)) > std::abs(signed_area(b));
+SectionLine choose_loop(std::vector<SectionLine> lines, std::vector<std::string>& warnings) {
+  std::erase_if(lines, [](const SectionLine& line) { return !line.closed; });
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
+    return std::abs(signed_area(a.points)) > std::abs(signed_area(b.points));
   });
-  for (std::size_t i = 1; i < loops.size(); ++i) {
-    warnings.push_back(other_loop_warning(perimeter(loops[i])));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    warnings.push_back(other_loop_warning(lines[i].length()));
   }
-  auto chosen = std::move(loops.front());
-  if (signed_area(chosen) < 0.0) std::reverse(chosen.begin(), chosen.end());
+  SectionLine chosen = std::move(lines.front());
+  if (signed_area(chosen.points) < 0.0) std::reverse(chosen.points.begin(), chosen.points.end());
   return chosen;
 }
 

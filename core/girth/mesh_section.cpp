@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <utility>
-
-#include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {
@@ -137,62 +133,11 @@ class Chainer {
   std::vector<std::vector<std::size_t>> at_;
 };
 
-/// The two open ends that lie nearest to each other: of one line or of two.
-struct Seam {
-  double gap = std::numeric_limits<double>::infinity();
-  std::size_t first = 0, second = 0;
-  bool first_at_front = false, second_at_front = false;
-};
-
-Seam narrowest_seam(const std::vector<SectionLine>& lines) {
-  Seam best;
-  const auto consider = [&](std::size_t i, bool i_front, std::size_t j, bool j_front) {
-    const auto end = [&](std::size_t k, bool front) {
-      return front ? lines[k].points.front() : lines[k].points.back();
-    };
-    const double gap = (end(i, i_front) - end(j, j_front)).norm();
-    if (gap < best.gap) best = {gap, i, j, i_front, j_front};
-  };
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].closed) continue;
-    if (lines[i].points.size() > 2) consider(i, false, i, true);
-    for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      if (lines[j].closed) continue;
-      for (const bool i_front : {false, true}) {
-        for (const bool j_front : {false, true}) consider(i, i_front, j, j_front);
-      }
-    }
-  }
-  return best;
-}
-
-void join(std::vector<SectionLine>& lines, const Seam& seam) {
-  SectionLine& first = lines[seam.first];
-  first.widest_seam = std::max({first.widest_seam, lines[seam.second].widest_seam, seam.gap});
-  if (seam.first == seam.second) {
-    first.closed = true;
-    return;
-  }
-  auto& second = lines[seam.second].points;
-  if (seam.first_at_front) std::reverse(first.points.begin(), first.points.end());
-  if (!seam.second_at_front) std::reverse(second.begin(), second.end());
-  first.points.insert(first.points.end(), second.begin(), second.end());
-  lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(seam.second));
-}
-
 }  // namespace
-
-double SectionLine::length() const {
-  if (points.size() < 2) return 0.0;
-  return perimeter(points) - (closed ? 0.0 : (points.front() - points.back()).norm());
-}
 
 std::vector<SectionLine> cut(const TriangleMesh& mesh, const TapePlane& plane, double seam) {
   const CutFaces faces = cut_faces(mesh, plane);
-  auto lines = Chainer(faces).chain();
-  for (Seam next = narrowest_seam(lines); next.gap <= seam; next = narrowest_seam(lines)) {
-    join(lines, next);
-  }
+  auto lines = stitched(Chainer(faces).chain(), seam);
   std::stable_sort(lines.begin(), lines.end(),
                    [](const auto& a, const auto& b) { return a.length() > b.length(); });
   return lines;

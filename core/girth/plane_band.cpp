@@ -310,6 +310,10 @@ std::string disbelief_of_noise(const PlaneBand& band) {
 
 }  // namespace
 
+double PlaneBand::noise_mm() const {
+  return unit_mm * std::max(sigma / usual_share, mean_scatter(scattered));
+}
+
 /// What stands for skin that nobody saw is told of by who put it there: what points show is no word
 /// on it.
 double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double share,
@@ -317,7 +321,9 @@ double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double s
   const double times = uneven.empty() ? 1.0 : times_at(uneven, place);
   const double error = error_mm / unit_mm;
   if (!own_sigma && error > 0.0) return error;
-  if (!own_sigma) return std::max(times * sigma, scatter_at(scattered, place));
+  if (!own_sigma) {
+    return std::max(times * sigma * share / usual_share, scatter_at(scattered, place));
+  }
   const double told = (cloud.was_seen(source) ? told_scale * times : 1.0) * cloud.sigma_mm[source];
   return std::max(share * told / unit_mm, error);
 }

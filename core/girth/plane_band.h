@@ -45,6 +45,12 @@ struct PlaneBand {
     return middle_mm + unit_mm * place;
   }
 
+  /// With those that were thinned out.
+  std::size_t points_taken() const { return points.size() + thinned_out; }
+  /// Of points as they came, not of averages of them: the usual noise, or its mean over parts that
+  /// scatter.
+  double noise_mm() const;
+
   double share_of(std::size_t point) const { return shares.empty() ? 1.0 : shares[point]; }
   double error_of(std::size_t point) const { return errors_mm.empty() ? 0.0 : errors_mm[point]; }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_course.h"
 
 namespace instep {
@@ -57,10 +58,6 @@ class Stations {
   double length() const { return static_cast<double>(kStations) * step_; }
 
  private:
-  static double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() * b.y() - a.y() * b.x();
-  }
-
   double step_;
   std::vector<Eigen::Vector2d> places_;
   std::vector<double> swept_ = {0.0};  ///< twice the area from the first one on

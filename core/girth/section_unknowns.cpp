@@ -37,6 +37,12 @@ double folds_by_noise(const PlaneBand& band, const Contour& section) {
   return mean_fold_depth(section, more) < kFoldInSigmas * band.sigma ? more : 0.0;
 }
 
+/// What scatters in a part may be ribs, or two layers and the skin either of them.
+double reach_of_layers(const PlaneBand& band, const std::optional<SkinLayers>& layers) {
+  const double scatter = 2.0 * std::numbers::pi * mean_scatter(band.scattered);
+  return layers ? std::max(reach_of(*layers), scatter) : scatter;
+}
+
 /// As one even skin through all points of a ribbon shows it, or the surface in the band: of each
 /// length whichever shows more.
 MissedLength missed_of_finer_skin(const PlaneBand& band, const PointCloud& cloud,
@@ -63,13 +69,15 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
       bends_in_space(course, surface, band.spacing + kTipInSigmas * band.sigma),
       bends_between_points(course, surface, band.spacing),
       layers_near_plane(band, surface, near),
+      0.0,
       {},
       {},
       zigzags_of(ContourCourse(measured.contour), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
       doubt_of_edge(band, section.index)};
+  unknowns.reach = reach_of_layers(band, unknowns.layers);
   // What lies off the one layer is the other one, which counts already.
-  const bool is_layered = unknowns.layers && unknowns.layers->are_all_round();
+  const bool is_layered = unknowns.layers && unknowns.layers->are_all_round;
   if (is_layered) return unknowns;
   unknowns.skin = unfollowed_skin(band, loops);
   unknowns.finer = missed_of_finer_skin(band, cloud, surface, section, measured);
@@ -82,16 +90,13 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
 void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSection& section) {
   // Noise that is not what was told of it is hardly independent from point to point either.
   const double distrust = std::min(band.told_scale, kMostDistrust);
-  // What scatters in a part may be ribs, or two layers and the skin either of them.
-  const double scatter = 2.0 * std::numbers::pi * mean_scatter(band.scattered);
-  const double reach = unknowns.layers ? std::max(reach_of(*unknowns.layers), scatter) : scatter;
   const auto with_bends = [&](double told, double UnseenBends::*length) {
     double squares = std::pow(distrust * told, 2) + std::pow(unknowns.edge, 2) +
                      std::pow(std::min(told, unknowns.between_points.*length), 2);
     for (const auto& bends : {unknowns.bends, unknowns.between_lines, unknowns.in_space}) {
       squares += std::pow(bends.*length, 2);
     }
-    return std::sqrt(squares) + reach;
+    return std::sqrt(squares) + unknowns.reach;
   };
   // Folds are waves too.
   section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +

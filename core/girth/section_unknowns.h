@@ -23,6 +23,7 @@ struct SectionUnknowns {
   UnseenBends in_space;        ///< at the tips of thin parts
   UnseenBends between_points;  ///< that are exact
   std::optional<SkinLayers> layers;
+  double reach = 0.0;  ///< of either length, to layers or to what scatters in a part
   UnfollowedSkin skin;
   MissedLength finer;  ///< skin that the measured line does not follow
   /// The skin's, or made by strays beside it. They do not widen intervals here: which of the two it

@@ -81,6 +81,7 @@ bool is_most_of_contact(double doubt, const MeasuredSection& section) {
 bool is_unexplained(const SectionUnknowns& unknowns, const MeasuredSection& section,
                     double length) {
   if (is_most_of(unknowns.skin.stretched, section)) return false;
+  if (is_most_of(unknowns.reach, section)) return false;
   const double notable = kNotableDoubt * length;
   const bool stretched =
       section.stretched_u95 > notable && !is_most_of(unknowns.finer.stretched, section);
@@ -136,7 +137,7 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
           "many points near the plane lie off the skin and were left out: take away what shines or "
           "moves before the cameras");
   for (auto& disbelief : disbelief_of(band)) warnings.push_back(std::move(disbelief));
-  const bool is_layered = layers && layers->are_all_round();
+  const bool is_layered = layers && layers->are_all_round;
   if (!is_layered && !band.scattered.empty()) {
     warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
@@ -176,6 +177,12 @@ tl::unexpected<Error> too_many_zigzags() {
 
 tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                                    const MeasuredSection& section) {
+  if (is_most_of(unknowns.reach, section)) {
+    return fail(ErrorCode::kInsufficientData,
+                "the points at the tape plane lie in two layers or scatter in a part of the "
+                "section, so far that nothing tells where the tape belongs",
+                "see to the cameras' poses and to what shines there, or scan one layer alone");
+  }
   if (is_most_of(unknowns.finer.stretched, section)) {
     return fail(ErrorCode::kInsufficientData, kFinerSkin, kSeeToFinerSkin);
   }

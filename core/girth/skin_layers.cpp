@@ -123,6 +123,7 @@ std::optional<SkinLayers> layers_in_sectors(const std::vector<PlacedHeight>& hei
   if (!furthest) return std::nullopt;
   const double share = static_cast<double>(layered + 2) / static_cast<double>(count);
   furthest->turn *= std::min(1.0, share);
+  furthest->are_all_round = layered == count;
   return furthest;
 }
 

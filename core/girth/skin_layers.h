@@ -13,9 +13,8 @@ namespace instep {
 struct SkinLayers {
   double inner = 0.0;  ///< the lower one
   double outer = 0.0;
-  double turn = 2.0 * std::numbers::pi;  ///< the directions round the section in which they lie
-
-  bool are_all_round() const { return turn >= 2.0 * std::numbers::pi; }
+  double turn = 2.0 * std::numbers::pi;  ///< the directions in which they may lie, at most
+  bool are_all_round = true;             ///< wherever it was looked
 };
 
 /// Whether heights of points over one surface fall into two heaps, as those of a skin and of a sock

@@ -270,6 +270,7 @@ PlaneSlab slab_of(std::vector<Stretch> stretches, const PlaneSlab& slab) {
     averaged.indices.push_back(slab.indices[stretch.number]);
     averaged.places.push_back(stretch.place);
     averaged.shares.push_back(stretch.share);
+    if (!slab.errors_mm.empty()) averaged.errors_mm.push_back(slab.errors_mm[stretch.number]);
   }
   return averaged;
 }

@@ -113,9 +113,8 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   girth.stretched_mm = band.unit_mm * section.stretched;
   girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
   girth.contact_u95_mm = band.unit_mm * section.contact_u95;
-  girth.band_points = band.points.size() + band.thinned_out;
-  girth.sigma_mm =
-      band.unit_mm * std::max(band.sigma / band.usual_share, mean_scatter(band.scattered));
+  girth.band_points = band.points_taken();
+  girth.sigma_mm = band.noise_mm();
   girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
   return girth;
 }
@@ -220,7 +219,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.girth.points = slabs.cloud().size();
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.is_bridged = has_notable_gap(band, evidence);
-  told.has_layers = unknowns.layers && unknowns.layers->are_all_round();
+  told.has_layers = unknowns.layers && unknowns.layers->are_all_round;
   told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
   told.of_few = unexplained > kMostUnexplained;
   told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);

@@ -25,7 +25,6 @@ using Triangle = PartialMesh::Triangle;
 constexpr std::size_t kNeighbours = 20;
 /// Third corners that an edge tries, the best first.
 constexpr std::size_t kTried = 8;
-/// Neighbours that tell how coarse the sampling is.
 /// Longest edge, against the spacing at its ends.
 constexpr double kReach = 4.0;
 /// Cosine of the sharpest bend between neighbouring triangles: 120 degrees.

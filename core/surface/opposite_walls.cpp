@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/geometry/moments.h"
+#include "core/stride.h"
 
 namespace instep {
 namespace {
@@ -29,6 +30,7 @@ constexpr double kLevel = 0.7;
 /// that lie over each other half, or a third where one has four times the points; of the two sides
 /// of a roof, by 40 points, a twentieth.
 constexpr double kInterleaved = 0.25;
+constexpr std::size_t kMostAsked = 256;
 /// Points of a wall spread by this much of their length across it at least (sums of squares).
 constexpr double kThinLine = 0.08;
 
@@ -65,10 +67,13 @@ double variance_of(double squares, std::size_t points, std::size_t planes) {
   return freedom > 0.0 ? squares / freedom : std::numeric_limits<double>::infinity();
 }
 
-/// Whether the walls lie over each other, seen along a direction.
+/// Whether the walls lie over each other, seen along a direction: an even part of many points tells
+/// it, each against all.
 bool are_interleaved(const Points& points, const Sides& sides, const Eigen::Vector3d& direction) {
   std::size_t mixed = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  std::size_t asked = 0;
+  const std::size_t stride = stride_to_at_most(kMostAsked, points.size());
+  for (std::size_t i = 0; i < points.size(); i += stride) {
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t other = i;
     for (std::size_t j = 0; j < points.size(); ++j) {
@@ -78,8 +83,9 @@ bool are_interleaved(const Points& points, const Sides& sides, const Eigen::Vect
       other = j;
     }
     if (sides[other] != sides[i]) ++mixed;
+    ++asked;
   }
-  return static_cast<double>(mixed) > kInterleaved * static_cast<double>(points.size());
+  return static_cast<double>(mixed) > kInterleaved * static_cast<double>(asked);
 }
 
 /// Of each point the nearer one, until nothing changes or the last of the rounds.

@@ -30,7 +30,7 @@ struct OppositeWalls {
   /// and few points better than that, if they turn by more than 60 degrees, if they lie beside each
   /// other as those of a roof do and not over each other, if they face along the third axis, as two
   /// rows do that lie level, or if one has fewer than six points, or these lie on a line.
-  /// O(points), or where there may be two walls its square.
+  /// O(points), or where there may be two walls up to 256 times as much.
   static std::optional<OppositeWalls> among(const std::vector<Eigen::Vector3d>& points);
 };
 

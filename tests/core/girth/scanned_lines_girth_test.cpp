@@ -9,6 +9,7 @@
 
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/scanned_lines.h"
 
 namespace instep {
@@ -224,6 +225,23 @@ TEST(ScannedLinesGirth, TakesTheNoiseThatIsGivenInPlaceOfThatOfThePoints) {
   EXPECT_EQ(both.stretched_mm, alone.stretched_mm);
   EXPECT_EQ(both.stretched_u95_mm, alone.stretched_u95_mm);
   EXPECT_TRUE(both.warnings.empty()) << both.warnings.front();
+}
+
+/// Points that stand alone among averages were taken for as sure as these where one noise was told
+/// of all.
+TEST(ScannedLinesGirth, IsTheSameWhetherTheNoiseIsToldOnceOrOfEachPoint) {
+  PointCloud cloud = noisy_rings();
+  test::RandomNumbers random(2);
+  for (int i = 0; i < 40; ++i) {
+    const double angle = random.uniform(0.0, 2.0 * std::numbers::pi);
+    cloud.positions.emplace_back(40.0 * std::cos(angle), 36.0 * std::sin(angle),
+                                 random.uniform(-20.0, 20.0));
+  }
+  const Girth once = girth_of(cloud, kSigma);
+  cloud.sigma_mm.assign(cloud.size(), kSigma);
+  const Girth each = girth_of(cloud, std::nullopt);
+  EXPECT_NEAR(once.stretched_mm, each.stretched_mm, 1e-9);
+  EXPECT_NEAR(*once.stretched_u95_mm, *each.stretched_u95_mm, 1e-9);
 }
 
 /// It was that of averages, so that whoever gave it as advised was told the same again.

@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "core/girth/girth.h"
+#include "core/girth/section_evidence.h"
+#include "core/girth/section_loops.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cases/point_patterns.h"
 #include "tests/support/cylinder_tape.h"
 #include "tests/support/random_numbers.h"
 
@@ -83,18 +86,21 @@ TEST(SkinLayers, AreNotFoundInAFewStraysNorInAFewHeights) {
 
 TEST(SkinLayers, ReachFurtherTheFurtherRoundTheyGo) {
   const SkinLayers all_round{-1.0, 0.5};
-  EXPECT_TRUE(all_round.are_all_round());
+  EXPECT_TRUE(all_round.are_all_round);
   EXPECT_GT(reach_of(all_round), 2.0 * std::numbers::pi);
   const SkinLayers half_round{-1.0, 0.5, std::numbers::pi};
-  EXPECT_FALSE(half_round.are_all_round());
   EXPECT_DOUBLE_EQ(reach_of(half_round), 0.5 * reach_of(all_round));
 }
 
-bool names_layers(const Girth& girth) {
+bool names(const Girth& girth, const char* what) {
   for (const auto& warning : girth.warnings) {
-    if (warning.find("two layers") != std::string::npos) return true;
+    if (warning.find(what) != std::string::npos) return true;
   }
   return false;
+}
+
+bool names_layers(const Girth& girth) {
+  return names(girth, "two layers");
 }
 
 /// An ellipse, some of whose points lie so far within, in directions up to so far from +x.
@@ -126,6 +132,7 @@ TEST(SkinLayers, OfAGirthAreNamedAndItsIntervalReachesBoth) {
               << apart << " " << share;
           EXPECT_NEAR(girth->contact_mm, outer, *girth->contact_u95_mm) << apart << " " << share;
           EXPECT_TRUE(names_layers(*girth)) << apart << " " << share << " " << sigma;
+          EXPECT_FALSE(names(*girth, "few or noisy")) << apart << " " << share << " " << sigma;
         }
       }
     }
@@ -147,6 +154,25 @@ TEST(SkinLayers, OfOneSideOfAGirthAreNamedAndItsIntervalReachesBoth) {
       }
     }
   }
+}
+
+/// Of so few points two sectors are asked: one of them was taken for all.
+TEST(SkinLayers, OfOneSideOfASparseCloudAreNotAllRound) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const PointCloud cloud =
+        test::chosen(layered(3.0, 0.5, 0.1, seed, 90.0), 1000, test::Pattern::kRandom, seed);
+    SlabSource slabs(cloud, oblique_plane());
+    auto band = band_at(slabs);
+    ASSERT_TRUE(band) << band.error().line();
+    BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
+    loops_on(*band, surface);
+    const auto layers = layers_near_plane(*band, surface, evidence_reach(*band));
+    if (!layers) continue;
+    ++found;
+    EXPECT_FALSE(layers->are_all_round) << seed;
+  }
+  EXPECT_GT(found, 2);
 }
 
 TEST(SkinLayers, AreNotNamedInNoiseOrWhereAFewPointsAreStrays) {

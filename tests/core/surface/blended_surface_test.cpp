@@ -207,15 +207,18 @@ TEST(BlendedSurface, IsFiniteOnAnything) {
   OrientedPoints cloud;
   for (int i = 0; i < 500; ++i) cloud.push_back({any(), any().normalized(), 1e-6});
   auto surface = surface_of(cloud);
+  int fields = 0;
   for (int i = 0; i < 50; ++i) {
     const Vector3d place = any();
     const bool fitted = surface.visit(place);
     const auto field = surface.at(place);
     EXPECT_TRUE(field || !fitted);
     if (!field) continue;
+    ++fields;
     EXPECT_TRUE(std::isfinite(field->value));
     EXPECT_TRUE(field->gradient.allFinite());
   }
+  EXPECT_GT(fields, 0);
 }
 
 /// Lines that set out from a dense part which the rest did not go on from asked for 18,000 patches,
