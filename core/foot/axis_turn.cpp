@@ -1,6 +1,7 @@
 #include "core/foot/axis_turn.h"
 
 #include <cmath>
+#include <vector>
 
 #include "core/foot/ball_points.h"
 #include "core/foot/border_profile.h"
@@ -44,21 +45,32 @@ std::optional<double> to_ball_centre(const Points& points, double length) {
   return std::atan2(centre.y(), centre.x());
 }
 
-/// Least squares over the middles of the heel's breadths.
-std::optional<double> along_heel(const Points& points, double length) {
+/// Of the heel's breadths, from behind forwards.
+std::optional<std::vector<Vector2d>> heel_middles(const Points& points, double length) {
   constexpr int kSteps = 20;
   const BorderProfile medial = border(points, 1.0, kHeelSmoothingMm);
   const BorderProfile lateral = border(points, -1.0, kHeelSmoothingMm);
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Vector2d right = Vector2d::Zero();
+  std::vector<Vector2d> middles;
   for (int i = 0; i <= kSteps; ++i) {
     const double share = kHeelFromShare + (kHeelToShare - kHeelFromShare) * i / kSteps;
     const auto inner = medial.reach(share * length);
     const auto outer = lateral.reach(share * length);
     if (!inner || !outer) return std::nullopt;
-    const Vector2d row(1.0, share * length);
+    middles.emplace_back(share * length, 0.5 * (*inner - *outer));
+  }
+  return middles;
+}
+
+/// Least squares over the middles.
+std::optional<double> along_heel(const Points& points, double length) {
+  const auto middles = heel_middles(points, length);
+  if (!middles) return std::nullopt;
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Vector2d right = Vector2d::Zero();
+  for (const auto& middle : *middles) {
+    const Vector2d row(1.0, middle.x());
     normal += row * row.transpose();
-    right += 0.5 * (*inner - *outer) * row;
+    right += middle.y() * row;
   }
   return std::atan((normal.inverse() * right).y());
 }
@@ -82,6 +94,14 @@ std::optional<double> along_outline(const Points& points) {
 }
 
 }  // namespace
+
+std::optional<double> heel_middle(const Points& points, double length_mm) {
+  const auto middles = heel_middles(points, length_mm);
+  if (!middles) return std::nullopt;
+  double sum = 0.0;
+  for (const auto& middle : *middles) sum += middle.y();
+  return sum / static_cast<double>(middles->size());
+}
 
 std::optional<double> axis_turn(AxisRule rule, const Points& points, double length_mm) {
   switch (rule) {

@@ -16,4 +16,8 @@ namespace instep {
 std::optional<double> axis_turn(AxisRule rule, const std::vector<Eigen::Vector3d>& points,
                                 double length_mm);
 
+/// How far the middle between the heel's borders lies to the left of the x axis, over its rear 0.03
+/// to 0.13 of the length. Points as above. Nothing where a border was not seen.
+std::optional<double> heel_middle(const std::vector<Eigen::Vector3d>& points, double length_mm);
+
 }  // namespace instep

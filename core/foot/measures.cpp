@@ -138,10 +138,20 @@ std::optional<double> together(const std::vector<std::optional<double>>& parts) 
   return std::sqrt(squares);
 }
 
-/// Where the points were asked how sure a measure is and could not say, it hangs on a few of them,
-/// as at the border of a hole.
-Result<void> check_known(const std::optional<double>& u95, const FootScan& foot) {
-  if (u95 || foot.redraws.landmarks.empty()) return {};
+/// By all that its landmarks leave open; nothing where nobody asked. Where the points were asked
+/// and could not say, it hangs on a few of them, as at the border of a hole.
+template <typename Definition>
+Result<std::optional<double>> u95_by_landmarks(const Definition& definition, const FootScan& foot,
+                                               const FootDoubts& about) {
+  const auto of_ends = u95_of_ends(definition, foot, about);
+  if (!of_ends) {
+    return fail(ErrorCode::kInsufficientData,
+                "an end of the foot was not seen, and of a longer foot it could not be taken here",
+                "scan again, with all of the foot in view");
+  }
+  const auto u95 = together({u95_of(definition, foot), u95_of_shared(definition, foot), of_ends,
+                             definition.own_doubt_mm});
+  if (u95 || foot.redraws.landmarks.empty()) return u95;
   return fail(ErrorCode::kInsufficientData, "the points do not tell how sure its landmarks are",
               "scan again, with the foot in full view of all cameras");
 }
@@ -187,10 +197,9 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   }
   Measure measure;
   measure.id = definition.id;
-  auto u95 = together({u95_of(definition, foot), u95_of_shared(definition, foot),
-                       u95_of_ends(definition, foot, about)});
-  if (auto known = check_known(u95, foot); !known) return tl::unexpected(known.error());
-  if (u95) u95 = std::hypot(*u95, definition.own_doubt_mm);
+  const auto by_landmarks = u95_by_landmarks(definition, foot, about);
+  if (!by_landmarks) return tl::unexpected(by_landmarks.error());
+  std::optional<double> u95 = *by_landmarks;
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
   if (u95) {
     measure.parts = DoubtParts{about.shared.of(definition.length), *u95};
@@ -251,13 +260,11 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   if (auto seen = check_wall(hidden); !seen) return tl::unexpected(seen.error());
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
-  const auto by_landmarks =
-      together({u95_of(definition, foot), u95_of_shared(definition, foot),
-                u95_of_ends(definition, foot, about), definition.own_doubt_mm});
-  if (auto known = check_known(by_landmarks, foot); !known) return tl::unexpected(known.error());
-  if (by_landmarks && girth->stretched_u95_mm) {
+  const auto by_landmarks = u95_by_landmarks(definition, foot, about);
+  if (!by_landmarks) return tl::unexpected(by_landmarks.error());
+  if (*by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
-    measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen), *by_landmarks};
+    measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   measure.plane = *plane;

@@ -88,6 +88,7 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
   for (const auto& point : outline) {
     if (point.x() > 0.75 * length_mm) front.push_back(point);
   }
+  if (front.empty()) return std::nullopt;
   const BorderProfile forwards(front, Vector2d::UnitY(), Vector2d::UnitX(), kToeSmoothingMm,
                                kToeStripMm, kToeBendMm);
   const double expected = ball->medial - kSecondToeShare * ball->breadth;

@@ -12,15 +12,16 @@ namespace instep {
 /// that reached out of view: it is longer, by nobody knows how much.
 struct UnseenEnds {
   std::string warning;
-  /// The landmarks as they would be if it went on for another 10 mm: of each end for itself. Where
-  /// more was cut off, the warning alone tells.
+  /// The landmarks as they would be if it went on: at the toes for another 10 mm, where more was
+  /// cut off the warning alone tells; at the heel for as much as its skin, which is about as round
+  /// on all feet, lacks of facing backwards, 25 mm at most, its axis turned. Of each end for
+  /// itself.
   std::vector<RedrawnLandmarks> if_longer;
 };
 
 /// Nothing of a foot that was seen whole, of one of which only some millimetres were cut off, as a
-/// rule, and of a last, the front of which may be an edge. That a foot without its heel may have
-/// another axis is not in it. `foot` has its landmarks. O(points), and once more the cost of the
-/// landmarks for each end, without redraws.
+/// rule, and of a last, the front of which may be an edge. `foot` has its landmarks. O(points), and
+/// once more the cost of the landmarks for each end, without redraws.
 std::optional<UnseenEnds> unseen_ends(const FootScan& foot);
 
 }  // namespace instep

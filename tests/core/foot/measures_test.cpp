@@ -164,6 +164,7 @@ TEST(Measures, KnowWhatMovesAllRedrawsOfALandmark) {
   auto moved = foot;
   moved.landmarks.at("heel_point").position_mm += heel.deviations_off_mm.front();
   const auto elsewhere = measure_foot(moved).value();
+  int hanging = 0;
   for (const auto& measure : sure.measures) {
     const auto* now = unsure.find(measure.id);
     ASSERT_NE(now, nullptr) << measure.id;
@@ -174,9 +175,11 @@ TEST(Measures, KnowWhatMovesAllRedrawsOfALandmark) {
     const double moves = std::abs(elsewhere.find(measure.id)->value() - measure.value());
     EXPECT_NEAR(more, hangs ? 1.96 * moves : 0.0, 0.4) << measure.id;
     if (hangs) {
+      ++hanging;
       EXPECT_GT(more, 0.8) << measure.id;
     }
   }
+  EXPECT_GT(hanging, 0);
 }
 
 TEST(Measures, OfLengthKnowWhatMovesAllRedrawsOfALandmark) {

@@ -55,6 +55,12 @@ std::vector<Vector2d> outline(double area_mm2, double noise_mm, std::uint64_t se
   return points;
 }
 
+TEST(SecondToe, IsNotToldOfAFootThatEndsAtTheBall) {
+  auto points = outline(0.3, 0.0, 1);
+  std::erase_if(points, [](const Vector2d& point) { return point.x() > 0.74 * kLengthMm; });
+  EXPECT_FALSE(find_second_toe(points, kLengthMm));
+}
+
 TEST(SecondToe, IsToldWhereItsTipLies) {
   const auto toe = find_second_toe(outline(0.3, 0.0, 1), kLengthMm);
   ASSERT_TRUE(toe);

@@ -22,10 +22,12 @@ using Eigen::Vector3d;
 
 /// Without what lies before `least` or after `most` of its length, in its own frame.
 FootScan cut_foot(const FootScan& foot, double least, double most) {
-  FootScan cut = foot;
-  std::erase_if(cut.cloud.positions,
-                [&](const Vector3d& point) { return point.x() < least || point.x() > most; });
-  const auto again = align_foot(cut.cloud).and_then(find_landmarks);
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
+    const double along = foot.cloud.positions[i].x();
+    if (along >= least && along <= most) left.push_back(i);
+  }
+  const auto again = align_foot(foot.cloud.subset(left)).and_then(find_landmarks);
   if (!again) throw std::runtime_error(again.error().line());
   return *again;
 }
@@ -87,6 +89,32 @@ TEST(UnseenEnds, AreInTheIntervalsOfAllThatIsPlacedByTheLength) {
   }
 }
 
+/// The rearmost place of what was left of a heel was a corner of it: the axis turned by 5 to 9
+/// degrees, and breadths were up to 9 mm off, by their intervals 1 to 2.
+TEST(UnseenEnds, OfAHeelDoNotTurnTheFoot) {
+  for (const std::uint64_t seed : {3U, 7U}) {
+    const auto foot = align_foot(test::draw_scanned_foot_without_truth(seed).cloud);
+    ASSERT_TRUE(foot) << foot.error().line();
+    const auto whole = measure_foot(cut_foot(*foot, -1e3, 1e3));
+    for (const double cut_mm : {8.0, 14.0}) {
+      const FootScan heelless = cut_foot(*foot, cut_mm, 1e3);
+      const Vector3d axis = heelless.foot_from_input.linear() * Vector3d::UnitX();
+      EXPECT_LT(std::abs(std::atan2(axis.y(), axis.x())), 0.01) << seed << " " << cut_mm;
+      const auto set = measure_foot(heelless);
+      ASSERT_TRUE(whole && set);
+      for (const char* id : {"foot_length", "foot_breadth", "foot_breadth_horizontal", "ball_girth",
+                             "ball_length", "toe1_angle", "instep_height", "waist_girth"}) {
+        SCOPED_TRACE(std::to_string(seed) + " " + id);
+        const Measure* here = set->find(id);
+        const Measure* there = whole->find(id);
+        ASSERT_TRUE(here && there);
+        EXPECT_NEAR(here->value(), there->value(), std::hypot(*here->u95(), *there->u95()));
+      }
+      EXPECT_NEAR(set->find("foot_breadth")->value_mm, whole->find("foot_breadth")->value_mm, 1.0);
+    }
+  }
+}
+
 TEST(UnseenEnds, AreNoneOfAWholeFoot) {
   const auto foot =
       align_foot(test::draw_scanned_foot_without_truth(2).cloud).and_then(find_landmarks);
@@ -109,9 +137,11 @@ TEST(UnseenEnds, TellWhereLandmarksLieIfTheFootGoesOn) {
   const auto own = [&](const char* name) -> Vector3d {
     return heelless.landmarks.at(name).position_mm;
   };
-  EXPECT_NEAR(place_of("pternion").x(), own("pternion").x() - 10.0, 1e-9);
+  const double unseen = own("pternion").x() - place_of("pternion").x();
+  EXPECT_GT(unseen, 15.0);
+  EXPECT_LT(unseen, 26.0);
   EXPECT_NEAR(place_of("acropodion").x(), own("acropodion").x(), 1e-9);
-  EXPECT_NEAR(place_of("instep_point").x(), own("instep_point").x() - 5.0, 1.0);
+  EXPECT_NEAR(place_of("instep_point").x(), own("instep_point").x() - 0.5 * unseen, 2.0);
 }
 
 }  // namespace
