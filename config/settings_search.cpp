@@ -23,7 +23,7 @@ Result<std::filesystem::path> find_settings(const SettingsPlaces& places,
     tried += (tried.empty() ? "" : ", ") + candidate.string();
   }
   return fail(ErrorCode::kNotFound, "there is no settings file at " + tried,
-              "name one with --config");
+              "name one with --config where a command has it, or in INSTEP_CONFIG");
 }
 
 void override_paths(Settings& settings, const Environment& environment) {

@@ -30,12 +30,13 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+/// By the comment that it begins with ("# .PCD v0.7 - ..."), or by its first word.
 bool looks_like_pcd(std::string_view bytes) {
   TextLines lines(bytes);
-  while (auto line = lines.next()) {
+  for (bool is_first = true; auto line = lines.next(); is_first = false) {
     const auto word = take_word(*line);
     if (!word.empty() && word[0] != '#') return word == "VERSION" || word == "FIELDS";
-    if (line->find(".PCD") != line->npos) return true;
+    if (is_first && (word == "#.PCD" || take_word(*line) == ".PCD")) return true;
   }
   return false;
 }

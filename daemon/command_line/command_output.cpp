@@ -12,11 +12,15 @@
 namespace instep {
 
 void print_error(const Error& error) {
-  std::string line = error.line();
+  print_notice(error.line());
+}
+
+void print_notice(std::string_view text) {
+  std::string line = fmt::format("instep: {}", text);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  const std::string text = "instep: " + line + "\n";
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  line += '\n';
+  std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
 Result<void> print_text(std::string_view text) {

@@ -16,6 +16,10 @@ inline constexpr int kWrongUsage = 2;
 /// Prints "instep: message: advice" as exactly one line on stderr, whatever the message holds.
 void print_error(const Error& error);
 
+/// Prints "instep: text" as exactly one line on stderr: for what stands beside a result that has no
+/// place for it.
+void print_notice(std::string_view text);
+
 /// Prints text to stdout. Fails if stdout takes it not: a full disk, a closed pipe.
 Result<void> print_text(std::string_view text);
 

@@ -70,8 +70,18 @@ Result<TapePlane> plane_of(const GirthCommand& command) {
   return TapePlane::through({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]});
 }
 
+/// Why the noise that was given is not used, if so.
+std::optional<std::string> unused_sigma(const GirthCommand& command, const CloudFile& file) {
+  if (!command.sigma_mm) return std::nullopt;
+  if (command.method != "rbf" && command.method != "mesh") {
+    return "--sigma-mm was not used: the method " + command.method + " knows no noise";
+  }
+  if (!file.cloud.has_sigma()) return std::nullopt;
+  return command.cloud.file + " tells the noise of each point: --sigma-mm was not used";
+}
+
 Result<Girth> measure(const GirthCommand& command, const CloudFile& file, const TapePlane& plane) {
-  const GirthOptions options{command.sigma_mm};
+  const GirthOptions options{file.cloud.has_sigma() ? std::nullopt : command.sigma_mm};
   if (command.method == "hull") return girth_by_hull(file.cloud, plane, options);
   if (command.method == "mesh") return girth_by_mesh(file.cloud, plane, options);
   if (command.method == "rbf") return girth_by_rbf(file.cloud, plane, options);
@@ -114,6 +124,7 @@ Result<void> run(const GirthCommand& command) {
   times.total_ms = milliseconds_since(start);
 
   if (doubt) girth->warnings.insert(girth->warnings.begin(), *doubt);
+  if (const auto unused = unused_sigma(command, *file)) girth->warnings.push_back(*unused);
   girth->warnings.insert(girth->warnings.begin(), file->notes.begin(), file->notes.end());
   const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
   return as_text ? print_text(girth_text(command.method, *girth))
@@ -140,8 +151,9 @@ void add_girth_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   girth
       ->add_option("--sigma-mm", command->sigma_mm,
-                   "noise of a point along its normal, in place of what the file says of it or the "
-                   "points show; if they plainly scatter more than this, it is not believed")
+                   "noise of a point along its normal, where the file tells none of each point, in "
+                   "place of what the points show; if they plainly scatter more than this, it is "
+                   "not believed")
       ->check(check_sigma);
   girth->add_option("--format", command->format, "json (if stdout is no terminal) or text")
       ->check(CLI::IsMember({"json", "text"}));

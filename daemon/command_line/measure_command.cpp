@@ -59,7 +59,10 @@ Result<void> print_measures(const ScanRecord& record, const std::string& format)
   const bool as_text = format.empty() ? stdout_is_terminal() : format == "text";
   if (as_text) return print_text(foot_text(record.foot, record.measures, record.sizes));
   const Json json = foot_json(record.foot, record.measures, record.sizes);
-  return format == "csv" ? print_text(result_csv(json)) : print_json(json);
+  if (format != "csv") return print_json(json);
+  // A table of measures has no room for what is said of the foot.
+  for (const auto& warning : record.foot.warnings) print_notice(warning);
+  return print_text(result_csv(json));
 }
 
 Result<void> run(const MeasureCommand& command) {

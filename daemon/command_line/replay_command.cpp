@@ -1,6 +1,7 @@
 #include "daemon/command_line/replay_command.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "daemon/store/posix_storage.h"
 #include "daemon/store/result_content.h"
 #include "daemon/store/result_store.h"
+#include "drivers/files/file_bytes.h"
 #include "drivers/recording/recording_reader.h"
 
 namespace instep {
@@ -72,11 +74,29 @@ std::string text_of(const json& results) {
   return results.empty() ? text : text + pair_text(results.back().value("pair", json()));
 }
 
+/// Before the long work, so that nothing is measured in vain.
+Result<void> make_ready(ResultStore& store, const std::filesystem::path& folder) {
+  std::error_code failed;
+  const auto parent = folder.parent_path();
+  if (!parent.empty()) std::filesystem::create_directories(parent, failed);
+  if (failed) {
+    auto error = file_error(failed.value(), "make", parent);
+    error.advice = "choose another --out";
+    return tl::make_unexpected(error);
+  }
+  if (auto ready = store.prepare(); !ready) return tl::make_unexpected(ready.error());
+  return {};
+}
+
 Result<void> run(const ReplayCommand& command) {
   const auto station = measuring_settings();
   if (!station) return tl::make_unexpected(station.error());
   const auto capture = read_capture(command.recording);
   if (!capture) return tl::make_unexpected(capture.error());
+  ResultStore store(std::make_shared<PosixStorage>(), command.out);
+  if (!command.out.empty()) {
+    if (auto ready = make_ready(store, command.out); !ready) return ready;
+  }
 
   PipelineSettings settings;
   settings.station = "replay";
@@ -92,10 +112,6 @@ Result<void> run(const ReplayCommand& command) {
       });
   if (!records) return tl::make_unexpected(records.error());
 
-  ResultStore store(std::make_shared<PosixStorage>(), command.out);
-  if (!command.out.empty()) {
-    if (auto ready = store.prepare(); !ready) return tl::make_unexpected(ready.error());
-  }
   json results = json::array();
   for (const auto& record : *records) {
     auto result = result_of(record, command.out.empty() ? nullptr : &store);

@@ -58,8 +58,11 @@ void add_station_commands(CLI::App& app, int& exit_code) {
     return add_command(app, exit_code, name, what, example, options, std::move(act));
   };
 
-  auto* scan = add("scan", "Start a scan, as the pedal does, and print its measures", "instep scan",
-                   [](const Options& o) { return scan_on_station(!o.no_wait, o.as_json()); });
+  auto* scan =
+      add("scan",
+          "Start a scan, as the pedal does, and print its measures; of two feet JSON is "
+          "{\"results\": [...]}",
+          "instep scan", [](const Options& o) { return scan_on_station(!o.no_wait, o.as_json()); });
   scan->add_flag("--no-wait", options->no_wait, "Return as soon as the scan has begun");
   add_format(*scan, *options);
 

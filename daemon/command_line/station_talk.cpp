@@ -134,16 +134,17 @@ Result<void> scan_on_station(bool wait, bool as_json) {
   if (!end) return tl::make_unexpected(end.error());
   auto asking = reach_daemon();
   if (!asking) return tl::make_unexpected(asking.error());
-  json last;
+  json results = json::array();
   for (const auto& scan : end->value("scans", json::array())) {
     auto result = stored_result(*asking, string_at(scan, "id"));
     if (!result) return tl::make_unexpected(result.error());
-    last = std::move(*result);
-    const auto printed = as_json ? print_json(last) : print_text(result_text(last));
-    if (!printed) return printed;
+    results.push_back(std::move(*result));
   }
-  if (as_json || !last.contains("pair")) return {};
-  return print_text(pair_text(last["pair"]));
+  if (as_json) return print_json(results.size() == 1 ? results[0] : json{{"results", results}});
+  std::string text;
+  for (const auto& result : results) text += result_text(result);
+  if (!results.empty()) text += pair_text(results.back().value("pair", json()));
+  return print_text(text);
 }
 
 Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json) {

@@ -43,6 +43,14 @@ std::optional<std::string> pair_of(const ResultStore& store, const std::string& 
   return std::nullopt;
 }
 
+/// What a result consists of; the page to print may be missing, as somebody may have taken it away.
+json files_in(const std::filesystem::path& folder) {
+  json files = {"result.json", "cloud.ply", "sections.svg"};
+  std::error_code missing;
+  if (std::filesystem::exists(folder / "report.svg", missing)) files.push_back("report.svg");
+  return files;
+}
+
 Result<json> answer(ResultStore& store, const Request& request) {
   if (request.verb == "list") return list(store);
   const auto id = store.find(request.id);
@@ -51,7 +59,7 @@ Result<json> answer(ResultStore& store, const Request& request) {
   if (request.verb == "export") {
     return json{{"id", *id},
                 {"folder", store.folder_of(*id).string()},
-                {"files", {"result.json", "cloud.ply", "sections.svg", "report.svg"}}};
+                {"files", files_in(store.folder_of(*id))}};
   }
   const auto pair = pair_of(store, *id);
   const auto removed = store.remove(*id);

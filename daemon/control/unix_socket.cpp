@@ -32,8 +32,9 @@ tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::pa
   const auto code = errno == EACCES || errno == EPERM ? ErrorCode::kPermissionDenied
                     : errno == ENOENT                 ? ErrorCode::kNotFound
                                                       : ErrorCode::kIo;
-  return fail(code, doing + " " + path.string() + " failed: " + std::strerror(errno),
-              "check control.socket and who may use its folder");
+  return fail(
+      code, doing + " " + path.string() + " failed: " + std::strerror(errno),
+      "check control.socket (INSTEP_SOCKET names another place) and who may use its folder");
 }
 
 }  // namespace
@@ -69,6 +70,8 @@ Result<int> listen_on_unix_socket(const std::filesystem::path& path) {
   }
   const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (descriptor < 0) return failed("making a socket for", path);
+  // Where nothing is installed nobody has made it. If it cannot be made, binding says so.
+  ::mkdir(path.parent_path().c_str(), 0755);
   // The mode is right from the start: with the umask it never was wider for a moment.
   const mode_t before = ::umask(0117);
   const bool bound = ::bind(descriptor, generic(*address), sizeof *address) == 0;

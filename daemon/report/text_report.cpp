@@ -62,8 +62,12 @@ std::string girth_text(const std::string& method, const Girth& girth) {
   std::string text = fmt::format("stretched    {} mm\ncontact      {} mm\n",
                                  interval_text(girth.stretched_mm, girth.stretched_u95_mm),
                                  interval_text(girth.contact_mm, girth.contact_u95_mm));
-  text += fmt::format("method       {}, {} of {} points, noise {:.2f} mm\n", method,
-                      girth.band_points, girth.points, girth.sigma_mm);
+  text += fmt::format("method       {}", method);
+  if (girth.band_points > 0) {
+    text += fmt::format(", {} of {} points", girth.band_points, girth.points);
+  }
+  if (girth.sigma_mm > 0.0) text += fmt::format(", noise {:.2f} mm", girth.sigma_mm);
+  text += "\n";
   text += fmt::format("largest gap  {} mm\n", tenths(girth.largest_gap_mm));
   for (const auto& warning : girth.warnings) text += fmt::format("! {}\n", warning);
   return text;

@@ -42,7 +42,9 @@ Error storage_error(int error_number, const std::string& doing, const std::files
       error.advice = "let the user of the station write there (instep doctor says how)";
       break;
     case ErrorCode::kNotFound:
-      error.advice = "check store.root";
+      error.advice =
+          "check store.root (INSTEP_STORE names another place): all but its last folder has to be "
+          "there";
       break;
     default:
       error.advice = "check the disk of the results";

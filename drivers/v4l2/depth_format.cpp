@@ -40,7 +40,8 @@ Result<DepthLayout> depth_layout(DepthFormat format, int width, int height,
     return fail(ErrorCode::kUnsupported,
                 fmt::format("it sends {} {}x{}, not {} {}x{}", to_string_of_four(agreed.code),
                             agreed.width, agreed.height, to_string_of_four(code), width, height),
-                "set format, width_px and height_px to a mode it has: v4l2-ctl --list-formats-ext");
+                "set format and the width and height of the intrinsics to a mode it has: "
+                "v4l2-ctl --list-formats-ext");
   }
   DepthLayout layout{agreed.width, agreed.height, 0, agreed.bytes_per_line, 0};
   const std::size_t row = kBytesPerPixel * layout.width;

@@ -117,6 +117,16 @@ TEST_F(Installation, FindsItsSettingsBesideThePrograms) {
   EXPECT_THAT(check.text, HasSubstr((prefix() / "etc/instep/instep.toml").string()));
 }
 
+/// An update put the shipped ones in their place: a station measured simulated feet.
+TEST_F(Installation, LeavesTheSettingsOfAStationAlone) {
+  const auto settings = prefix() / "etc/instep/instep.toml";
+  const std::string shipped = bytes_of(settings);
+  std::ofstream(settings) << "# ours\n";
+  ASSERT_EQ(install("", "--prefix " + prefix().string()).exit_code, 0);
+  EXPECT_EQ(bytes_of(settings), "# ours\n");
+  EXPECT_EQ(bytes_of(prefix() / "etc/instep/instep.toml.new"), shipped);
+}
+
 TEST_F(Installation, CanBeStagedForAPackage) {
   const auto stage = folder_.path() / "stage";
   const auto run = install("DESTDIR=" + stage.string(), "--prefix /opt/instep");

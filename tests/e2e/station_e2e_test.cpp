@@ -103,6 +103,19 @@ TEST(Station, IsReachedByEveryCommand) {
   EXPECT_EQ(leftovers(station.store()), 0U);
 }
 
+/// Two objects one after the other were no JSON.
+TEST(Station, TellsAScanOfTwoFeetAsOneObject) {
+  StationProcess station("subject = \"feet\"\n");
+  station.start();
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0);
+  const auto scan = station.run_instep("scan --format json");
+  ASSERT_EQ(scan.exit_code, 0) << scan.text;
+  const auto both = json::parse(scan.text, nullptr, false);
+  ASSERT_TRUE(both.is_object()) << scan.text;
+  ASSERT_EQ(both.at("results").size(), 2U);
+  EXPECT_TRUE(both["results"][0].contains("measures"));
+}
+
 TEST(Station, FailsInOneLineThatHelpsWhenACommandCannotBeDone) {
   StationProcess station;
   station.start();

@@ -159,6 +159,7 @@ TEST_F(CloudFiles, ReadsBinaryPlyOfBothByteOrders) {
 TEST_F(CloudFiles, ReadsTextWithAnySeparator) {
   for (const char* text : {"0 0 0\n10 0.5 0\n0 20.25 3\n-1 2 30",
                            "x,y,z\n0,0,0\r\n10,0.5,0\r\n0,20.25,3\r\n-1,2,30\r\n",
+                           "# made of SCAN.PCD\n0 0 0\n10 0.5 0\n0 20.25 3\n-1 2 30\n",
                            "# by hand\n0;0;0\n\n10;0.5;0\n// more\n0;20.25;3\n-1;2;30\n",
                            "4\n0\t0\t0\n+10\t5e-1\t0\n0\t20.25\t3\n-1\t2\t30\n"}) {
     const auto file = read("points.xyz", text);

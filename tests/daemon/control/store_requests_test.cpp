@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,9 +19,9 @@ const std::string kLeft = "20261121T091502417Z-k3f9";
 const std::string kRight = "20261121T091502418Z-aaaa";
 const std::string kAlone = "20261121T091502419Z-bbbb";
 
-class DeleteRequest : public testing::Test {
+class StoreRequest : public testing::Test {
  protected:
-  DeleteRequest() : store(std::make_shared<PosixStorage>(), folder.path() / "scans") {
+  StoreRequest() : store(std::make_shared<PosixStorage>(), folder.path() / "scans") {
     EXPECT_TRUE(store.prepare());
     const json pair{{"left", kLeft}, {"right", kRight}};
     put(kLeft, json{{"pair", pair}}.dump());
@@ -29,31 +30,40 @@ class DeleteRequest : public testing::Test {
   void put(const std::string& id, const std::string& result) {
     ASSERT_TRUE(store.put(id, {result, "ply", "<svg/>", "<svg/>"}));
   }
-  json remove(const std::string& id) {
-    return json::parse(answer_from_store(store, {"delete", id}));
+  json answer(const std::string& verb, const std::string& id) {
+    return json::parse(answer_from_store(store, {verb, id}));
   }
 
   test::TemporaryFolder folder;
   ResultStore store;
 };
 
-TEST_F(DeleteRequest, TellsTheScanThatStillHoldsTheNumbersOfTheFoot) {
-  EXPECT_EQ(remove(kLeft).at("pair"), kRight);
+TEST_F(StoreRequest, DeletingTellsTheScanThatStillHoldsTheNumbersOfTheFoot) {
+  EXPECT_EQ(answer("delete", kLeft).at("pair"), kRight);
   EXPECT_FALSE(store.find(kLeft));
-  EXPECT_FALSE(remove(kRight).contains("pair")) << "the other is gone";
+  EXPECT_FALSE(answer("delete", kRight).contains("pair")) << "the other is gone";
   EXPECT_FALSE(store.find(kRight));
 }
 
-TEST_F(DeleteRequest, TellsOfNoneForOneFootNorForADamagedResult) {
+TEST_F(StoreRequest, DeletingTellsOfNoneForOneFootNorForADamagedResult) {
   for (const std::string result :
        {"{}", "[1", R"({"pair":3})", R"({"pair":{"left":"latest","right":"../x"}})",
         R"({"pair":{"left":7}})"}) {
     put(kAlone, result);
-    const json answer = remove(kAlone);
-    EXPECT_EQ(answer.at("id"), kAlone) << result;
-    EXPECT_FALSE(answer.contains("pair")) << result;
+    const json gone = answer("delete", kAlone);
+    EXPECT_EQ(gone.at("id"), kAlone) << result;
+    EXPECT_FALSE(gone.contains("pair")) << result;
     EXPECT_FALSE(store.find(kAlone)) << result;
   }
+}
+
+/// A result could not be taken away once its page to print was gone.
+TEST_F(StoreRequest, ExportingNamesWhatIsThere) {
+  const json whole = {"result.json", "cloud.ply", "sections.svg", "report.svg"};
+  EXPECT_EQ(answer("export", kLeft).at("files"), whole);
+  std::filesystem::remove(store.folder_of(kLeft) / "report.svg");
+  const json rest = {"result.json", "cloud.ply", "sections.svg"};
+  EXPECT_EQ(answer("export", kLeft).at("files"), rest);
 }
 
 }  // namespace
