@@ -72,7 +72,11 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
   foot.foot_from_input = foot_from_cloud * foot.foot_from_input;
   foot.cloud = transformed(foot_from_cloud, foot.cloud);
   foot.landmarks.clear();
-  foot.landmarks["pternion"] = {axis.pternion, 1.0, "rearmost point of the heel along the axis"};
+  foot.landmarks["pternion"] =
+      axis.is_heel_seen
+          ? Landmark{axis.pternion, 1.0, "rearmost point of the heel along the axis"}
+          : Landmark{axis.pternion, 0.5,
+                     "midway between the borders of the heel, whose end was not seen"};
   foot.landmarks["acropodion"] = {axis.acropodion, 1.0,
                                   "foremost point of the toes along the axis"};
   if (!axis.toe2_tip) return;

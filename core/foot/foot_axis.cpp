@@ -1,7 +1,9 @@
 #include "core/foot/foot_axis.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/foot/axis_turn.h"
 #include "core/foot/border_crest.h"
@@ -23,6 +25,15 @@ constexpr double kStandsStillRad = 3e-4;
 // far back it reaches is read on a small one, which no kink beside it can pull.
 constexpr CrestPatch kHeelPatch{15.0, 14.0};
 constexpr CrestPatch kReachPatch{7.0, 8.5};
+/// The heel, against the foot's length.
+constexpr double kHeelShare = 0.15;
+/// How high the end of one that was not seen is taken to lie: well over the sole.
+constexpr double kHeelHeightShare = 0.075;
+/// A crest that reaches so much further than the skin does was drawn out through points that are
+/// few or uneven: with 7,120 vertices of a last by 9 mm.
+constexpr double kFurthestCrestMm = 3.0;
+/// Points nearer to the heel's middle are skin there.
+constexpr double kSkinMm = 6.0;
 
 Points outline_points(const Points& points, double length) {
   Points low;
@@ -46,30 +57,44 @@ Points moved(const RigidTransform& transform, Points points) {
   return points;
 }
 
-/// On the skin.
-Vector3d rearmost_seen(const Points& points, double length) {
+Vector3d rearmost_skin(const Points& heel, double length) {
   const Vector3d back = -Vector3d::UnitX();
-  const Points end = beyond(points, back, -0.15 * length);
-  const Vector3d start = robust_extreme(end, back);
+  const Vector3d start = robust_extreme(heel, back);
   const BorderView from_behind{Vector3d::UnitY(), back, Vector3d::UnitZ(), 0.0,
                                kOutlineHeightShare * length};
-  const auto crest = crest_near(end, from_behind, {start.y(), -start.x(), start.z()}, kHeelPatch);
+  const auto crest = crest_near(heel, from_behind, {start.y(), -start.x(), start.z()}, kHeelPatch);
   if (!crest) return start;
-  const auto close = crest_near(end, from_behind, *crest, kReachPatch);
-  return {close ? -close->reach : start.x(), crest->along, crest->across};
+  const auto close = crest_near(heel, from_behind, *crest, kReachPatch);
+  const double end = close ? -close->reach : start.x();
+  if (std::abs(end - start.x()) > kFurthestCrestMm) return start;
+  return {end, crest->along, crest->across};
 }
+
+struct HeelEnd {
+  Vector3d place;
+  bool is_seen = true;
+};
 
 /// Of a heel that was not seen to its end the rearmost place is a corner of what is left, and the
 /// axis through it was 5 to 9 degrees off with 12 mm of a heel missing: midway between the borders
-/// it is 0.2.
-Vector3d rearmost(const Points& points, double length) {
-  const Vector3d seen = rearmost_seen(points, length);
-  const Points end = beyond(points, -Vector3d::UnitX(), -seen.x() - 0.15 * length);
-  const auto facing = end_facing(end, seen, -Vector3d::UnitX());
-  if (facing && *facing >= kLeastFacingOfHeel) return seen;
+/// it is 0.2. There no skin is then; on that of a shoe last, which may face to the side where it
+/// reaches furthest, there is.
+HeelEnd heel_end(const Points& points, double length) {
+  const Vector3d back = -Vector3d::UnitX();
+  const Points heel = beyond(points, back, -kHeelShare * length);
+  const Vector3d seen = rearmost_skin(heel, length);
+  const auto facing = end_facing(heel, seen, back);
+  if (facing && *facing >= kLeastFacingOfHeel) return {seen};
   const Vector3d below(seen.x(), seen.y(), 0.0);
-  const auto middle = heel_middle(moved(RigidTransform(Eigen::Translation3d(-below)), end), length);
-  return {seen.x(), seen.y() + middle.value_or(0.0), seen.z()};
+  const auto middle =
+      heel_middle(moved(RigidTransform(Eigen::Translation3d(-below)), heel), length);
+  if (!middle) return {seen};
+  const Vector3d end(seen.x(), seen.y() + *middle, kHeelHeightShare * length);
+  const bool is_skin = std::any_of(heel.begin(), heel.end(), [&](const Vector3d& point) {
+    return (point - end).norm() < kSkinMm;
+  });
+  if (is_skin) return {seen};
+  return {end, false};
 }
 
 Vector3d foremost(const Points& points, double from) {
@@ -137,10 +162,11 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
   double share = 1.0;
   for (int round = 0; round < kMostRounds; ++round) {
     const Points points = moved(axis.foot_from_standing, low);
-    const Vector3d rear = rearmost(points, start.length_mm);
+    const auto [rear, is_seen] = heel_end(points, start.length_mm);
     const Vector3d heel(rear.x(), rear.y(), 0.0);
     axis.foot_from_standing = RigidTransform(Eigen::Translation3d(-heel)) * axis.foot_from_standing;
     axis.pternion = rear - heel;
+    axis.is_heel_seen = is_seen;
     axis.acropodion = foremost(points, rear.x() + 0.75 * start.length_mm) - heel;
     const auto toe =
         find_second_toe(outline_of_right_foot(points, heel, medial_sign), start.length_mm);

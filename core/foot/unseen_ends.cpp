@@ -30,6 +30,9 @@ constexpr double kMostUnseenHeelMm = 25.0;
 /// 0.36 at most.
 constexpr double kUnseenHeelTurn = 0.01;
 
+/// The heel, against the foot's length.
+constexpr double kHeelShare = 0.15;
+
 double facing_of_toes(const FootScan& foot) {
   const Eigen::Vector3d& tip = foot.landmarks.at("acropodion").position_mm;
   return end_facing(foot.cloud.positions, tip, Eigen::Vector3d::UnitX()).value_or(0.0);
@@ -41,7 +44,7 @@ double facing_of_heel(const FootScan& foot) {
   std::vector<Eigen::Vector3d> heel;
   for (const auto& point : foot.cloud.positions) {
     const bool is_low = point.z() < kOutlineHeightShare * length;
-    if (is_low && point.x() < kOutlineHeightShare * length) heel.push_back(point);
+    if (is_low && point.x() < kHeelShare * length) heel.push_back(point);
   }
   if (heel.empty()) return 0.0;
   const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();

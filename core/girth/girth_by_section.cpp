@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -50,20 +51,24 @@ double diagonal(const std::vector<SectionLine>& lines) {
   return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
-double hull_area(const SectionLine& line) {
-  return signed_area(convex_hull(line.points));
-}
-
-/// Whether there is no loop, or an open piece goes round more than any loop does: then the body is
-/// what is open.
+/// Whether the body is what is open: there is no loop, or the open pieces are longer together than
+/// the largest and their hull goes round more. One wall beside a body goes round nothing.
 bool is_open(const std::vector<SectionLine>& lines) {
-  double open = 0.0;
-  double closed = 0.0;
+  std::vector<Eigen::Vector2d> open;
+  double open_length = 0.0;
+  double largest_loop = 0.0;
+  double loop_length = 0.0;
   for (const auto& line : lines) {
-    double& largest = line.closed ? closed : open;
-    largest = std::max(largest, hull_area(line));
+    if (!line.closed) {
+      open.insert(open.end(), line.points.begin(), line.points.end());
+      open_length += line.length();
+    } else if (const double area = std::abs(signed_area(line.points)); area > largest_loop) {
+      largest_loop = area;
+      loop_length = line.length();
+    }
   }
-  return !(closed > 0.0) || open > closed;
+  if (!(largest_loop > 0.0)) return true;
+  return open_length > loop_length && signed_area(convex_hull(std::move(open))) > largest_loop;
 }
 
 Girth closed_girth(std::vector<SectionLine> lines, double harmless_seam) {
@@ -84,24 +89,12 @@ Girth closed_girth(std::vector<SectionLine> lines, double harmless_seam) {
   return girth;
 }
 
-/// From an end of a piece to the nearest one of another, or across the piece if it is the only one.
-double gap_at(const Eigen::Vector2d& end, const SectionLine& own,
-              const std::vector<SectionLine>& pieces) {
-  if (pieces.size() == 1) return (own.points.front() - own.points.back()).norm();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& piece : pieces) {
-    if (&piece == &own) continue;
-    nearest = std::min(
-        {nearest, (piece.points.front() - end).norm(), (piece.points.back() - end).norm()});
-  }
-  return nearest;
-}
-
-double widest_gap(const std::vector<SectionLine>& pieces) {
+/// From piece to piece round the section.
+double widest_gap(std::vector<SectionLine> pieces) {
   double widest = 0.0;
-  for (const auto& piece : pieces) {
-    widest = std::max({widest, piece.widest_seam, gap_at(piece.points.front(), piece, pieces),
-                       gap_at(piece.points.back(), piece, pieces)});
+  for (const auto& round : stitched(std::move(pieces), std::numeric_limits<double>::infinity())) {
+    const double left = round.closed ? 0.0 : (round.points.front() - round.points.back()).norm();
+    widest = std::max({widest, round.widest_seam, left});
   }
   return widest;
 }
@@ -120,7 +113,7 @@ Girth open_girth(std::vector<SectionLine> lines) {
   }
   girth.contour = convex_hull(std::move(points));
   girth.stretched_mm = perimeter(girth.contour);
-  girth.largest_gap_mm = widest_gap(lines);
+  girth.largest_gap_mm = widest_gap(std::move(lines));
   girth.warnings.emplace_back(
       "the section is open: the stretched length bridges it, the contact length is that of the "
       "pieces");

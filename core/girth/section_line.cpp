@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/geometry/disjoint_sets.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 
@@ -17,6 +18,8 @@ namespace {
 constexpr std::size_t kNeighbours = 8;
 /// Ends are joined up to some times the narrowest gap that is left, then the next ones looked at.
 constexpr double kAtOnce = 4.0;
+/// Of a line's own length: a wider gap between its ends, as of a strip beside others, is no seam.
+constexpr double kOwnSeam = 0.25;
 
 /// Two open ends; the front of line n is 2 n, its back 2 n + 1.
 struct Seam {
@@ -33,7 +36,9 @@ struct Seam {
 class Stitching {
  public:
   explicit Stitching(std::vector<SectionLine> lines)
-      : lines_(std::move(lines)), seam_at_(2 * lines_.size()) {}
+      : lines_(std::move(lines)), seam_at_(2 * lines_.size()), chains_(lines_.size()) {
+    for (const auto& line : lines_) lengths_.push_back(line.length());
+  }
 
   void join_up_to(double widest) {
     double within = 0.0;
@@ -42,9 +47,8 @@ class Stitching {
       within = std::clamp(kAtOnce * seams.front().gap, within, widest);
       for (const auto& seam : seams) {
         if (seam.gap > within) break;
-        if (seam_at_[seam.first] || seam_at_[seam.second]) continue;
-        seam_at_[seam.first] = Seam{seam.gap, seam.first, seam.second};
-        seam_at_[seam.second] = Seam{seam.gap, seam.second, seam.first};
+        const bool are_free = !seam_at_[seam.first] && !seam_at_[seam.second];
+        if (are_free && may_join(seam)) join(seam);
       }
     }
   }
@@ -69,12 +73,25 @@ class Stitching {
     return end % 2 == 0 ? points.front() : points.back();
   }
 
-  bool may_join(std::size_t one, std::size_t other) const {
-    return one / 2 != other / 2 || (one != other && lines_[one / 2].points.size() > 2);
+  /// As far as the lines are joined by now.
+  bool may_join(const Seam& seam) {
+    if (seam.first == seam.second) return false;
+    const std::size_t chain = chains_.of(seam.first / 2);
+    return chain != chains_.of(seam.second / 2) || seam.gap <= kOwnSeam * lengths_[chain];
+  }
+
+  void join(const Seam& seam) {
+    seam_at_[seam.first] = Seam{seam.gap, seam.first, seam.second};
+    seam_at_[seam.second] = Seam{seam.gap, seam.second, seam.first};
+    const std::size_t one = chains_.of(seam.first / 2);
+    const std::size_t other = chains_.of(seam.second / 2);
+    if (chains_.join(one, other)) {
+      lengths_[chains_.of(one)] = lengths_[one] + lengths_[other] + seam.gap;
+    }
   }
 
   /// Of the ends that are free, narrowest first.
-  std::vector<Seam> nearest_seams() const {
+  std::vector<Seam> nearest_seams() {
     std::vector<std::size_t> ends;
     std::vector<Eigen::Vector3d> places;
     for (std::size_t end = 0; end < seam_at_.size(); ++end) {
@@ -87,9 +104,8 @@ class Stitching {
     for (std::size_t i = 0; i < ends.size(); ++i) {
       for (const auto& near : index.nearest(index.points()[i], kNeighbours)) {
         const auto [first, second] = std::minmax(ends[i], ends[near.index]);
-        if (may_join(first, second)) {
-          seams.push_back({std::sqrt(near.squared_distance), first, second});
-        }
+        const Seam seam{std::sqrt(near.squared_distance), first, second};
+        if (may_join(seam)) seams.push_back(seam);
       }
     }
     std::sort(seams.begin(), seams.end());
@@ -117,6 +133,8 @@ class Stitching {
 
   std::vector<SectionLine> lines_;
   std::vector<std::optional<Seam>> seam_at_;
+  DisjointSets chains_;
+  std::vector<double> lengths_;  ///< of each chain, at the number that it goes by
   std::vector<bool> laid_;
 };
 
@@ -128,6 +146,8 @@ double SectionLine::length() const {
 }
 
 std::vector<SectionLine> stitched(std::vector<SectionLine> lines, double widest) {
+  // As of faces that touch the plane in a corner alone: thousands may lie at one place.
+  std::erase_if(lines, [](const SectionLine& line) { return !(line.length() > 0.0); });
   Stitching stitching(std::move(lines));
   stitching.join_up_to(widest);
   return std::move(stitching).laid_together();

@@ -17,10 +17,11 @@ struct SectionLine {
   double length() const;
 };
 
-/// The lines with open ends that lie within `widest` of each other joined, nearest first, of one
-/// line or of two: the seams of faces that were never stitched. The two ends of a line of two
-/// points are not joined with each other. Open lines come first. O(points + ends log ends), where
-/// ends do not crowd.
+/// The lines with open ends that lie within `widest` of each other joined, of one line or of two:
+/// the seams of faces that were never stitched. The nearest come first, as far as they differ by
+/// more than a few times; a line's own ends are joined where the gap is less than a quarter of its
+/// length. Lines without length are left out; open ones come first. O(points + ends log ends),
+/// where ends do not crowd.
 std::vector<SectionLine> stitched(std::vector<SectionLine> lines, double widest);
 
 }  // namespace instep

@@ -7,20 +7,28 @@
 #include <cerrno>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <system_error>
 
+#include "daemon/report/csv_report.h"
+#include "daemon/report/json_fields.h"
+
 namespace instep {
+namespace {
 
-void print_error(const Error& error) {
-  print_notice(error.line());
-}
-
-void print_notice(std::string_view text) {
+/// As exactly one line.
+void print_to_stderr(std::string_view text) {
   std::string line = fmt::format("instep: {}", text);
   std::replace_if(
       line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
+}
+
+}  // namespace
+
+void print_error(const Error& error) {
+  print_to_stderr(error.line());
 }
 
 Result<void> print_text(std::string_view text) {
@@ -33,6 +41,13 @@ Result<void> print_text(std::string_view text) {
 
 Result<void> print_json(const nlohmann::ordered_json& object) {
   return print_text(object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+Result<void> print_table(const nlohmann::json& result) {
+  for (const auto& warning : list_at(result, "warnings")) {
+    if (warning.is_string()) print_to_stderr(warning.get<std::string>());
+  }
+  return print_text(result_csv(result));
 }
 
 int finish_command(const Result<void>& outcome) {

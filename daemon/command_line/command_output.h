@@ -16,16 +16,16 @@ inline constexpr int kWrongUsage = 2;
 /// Prints "instep: message: advice" as exactly one line on stderr, whatever the message holds.
 void print_error(const Error& error);
 
-/// Prints "instep: text" as exactly one line on stderr: for what stands beside a result that has no
-/// place for it.
-void print_notice(std::string_view text);
-
 /// Prints text to stdout. Fails if stdout takes it not: a full disk, a closed pipe.
 Result<void> print_text(std::string_view text);
 
 /// Prints one JSON object, in the order of its keys, and a line end to stdout. Names that are no
 /// UTF-8 are mended.
 Result<void> print_json(const nlohmann::ordered_json& object);
+
+/// Prints the measures of a result as CSV. What is said of the foot as a whole, for which a table
+/// has no room, goes to stderr.
+Result<void> print_table(const nlohmann::json& result);
 
 /// The exit code for the outcome of a command, whose error is printed.
 int finish_command(const Result<void>& outcome);

@@ -15,7 +15,6 @@
 #include "daemon/command_line/station_settings.h"
 #include "daemon/page/pdf_page.h"
 #include "daemon/page/report_page.h"
-#include "daemon/report/csv_report.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/text_report.h"
 #include "drivers/files/file_bytes.h"
@@ -59,10 +58,7 @@ Result<void> print_measures(const ScanRecord& record, const std::string& format)
   const bool as_text = format.empty() ? stdout_is_terminal() : format == "text";
   if (as_text) return print_text(foot_text(record.foot, record.measures, record.sizes));
   const Json json = foot_json(record.foot, record.measures, record.sizes);
-  if (format != "csv") return print_json(json);
-  // A table of measures has no room for what is said of the foot.
-  for (const auto& warning : record.foot.warnings) print_notice(warning);
-  return print_text(result_csv(json));
+  return format == "csv" ? print_table(json) : print_json(json);
 }
 
 Result<void> run(const MeasureCommand& command) {

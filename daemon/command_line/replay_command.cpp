@@ -84,8 +84,10 @@ Result<void> make_ready(ResultStore& store, const std::filesystem::path& folder)
     error.advice = "choose another --out";
     return tl::make_unexpected(error);
   }
-  if (auto ready = store.prepare(); !ready) return tl::make_unexpected(ready.error());
-  return {};
+  auto ready = store.prepare();
+  if (ready) return {};
+  ready.error().advice = "choose another --out";
+  return tl::make_unexpected(std::move(ready).error());
 }
 
 Result<void> run(const ReplayCommand& command) {

@@ -13,7 +13,6 @@
 #include "daemon/command_line/status_text.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
-#include "daemon/report/csv_report.h"
 #include "daemon/report/json_fields.h"
 #include "daemon/report/pair_report.h"
 #include "drivers/files/file_bytes.h"
@@ -203,7 +202,7 @@ Result<void> show_scan(const std::string& id, const std::string& format) {
   const auto result = stored_result(*client, id);
   if (!result) return tl::make_unexpected(result.error());
   if (format == "json") return print_json(*result);
-  if (format == "csv") return print_text(result_csv(*result));
+  if (format == "csv") return print_table(*result);
   return print_text(result_text(*result) + pair_text(result->value("pair", json())));
 }
 

@@ -144,7 +144,7 @@ TEST(ContourTrace, FindsNothingWhereThereIsNoLoop) {
   EXPECT_FALSE(trace_contour(sphere, {kRadius, 0.0}, 0.02, 0.2, 2.0)) << "longer than allowed";
 }
 
-/// Random points make no surface; whatever is found must keep its bounds, and soon.
+/// Random points make no surface; whatever is found must keep its bounds.
 TEST(ContourTrace, KeepsItsBoundsOnRandomPoints) {
   int traced = 0;
   for (const std::uint64_t seed : {1U, 2U, 3U}) {

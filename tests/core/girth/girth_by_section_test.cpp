@@ -102,6 +102,54 @@ TEST(GirthBySection, ChoosesTheLoopBesideALongerOpenPiece) {
 }
 
 /// The gaps of what does not count are no gaps of the girth.
+/// Straight walls whose corners are missing, each of which goes round nothing.
+TEST(GirthBySection, ChoosesABodyInPiecesBeforeALoopWithin) {
+  TriangleMesh mesh;
+  for (const double y : {0.0, 60.0}) add_walls(mesh, {12, y, 0}, {88, y, 10}, 1);
+  for (const double x : {0.0, 100.0}) add_walls(mesh, {x, 12, 0}, {x, 48, 10}, 2);
+  add_walls(mesh, {50, 30, 0}, {55, 35, 10});
+  const auto girth = girth_by_section(mesh, level_plane(4));
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->stretched_mm, 2.0 * 76.0 + 2.0 * 36.0 + 4.0 * std::hypot(12.0, 12.0), 1e-9);
+  EXPECT_NEAR(girth->largest_gap_mm, std::hypot(12.0, 12.0), 1e-9);
+}
+
+/// A tile further from the next than from its own other end was the girth: 4 mm of 251.
+TEST(GirthBySection, DoesNotCloseATileOnItself) {
+  TriangleMesh mesh;
+  constexpr int kTiles = 60;
+  const double step = 2.0 * std::numbers::pi / kTiles;
+  const auto corner = [](double angle, double z) {
+    return Vector3d(40.0 * std::cos(angle), 40.0 * std::sin(angle), z);
+  };
+  for (int i = 0; i < kTiles; ++i) {
+    for (const double from : {0.0, 0.225}) {
+      const double a = (i + from) * step;
+      const double b = (i + from + 0.225) * step;
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      for (const auto& place : {corner(a, 0), corner(b, 0), corner(b, 10), corner(a, 10)}) {
+        mesh.positions.push_back(place);
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  const auto girth = girth_by_section(mesh, level_plane(4));
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->stretched_mm, test::kCylinderGirth, 1.0);
+  EXPECT_NEAR(girth->largest_gap_mm, 80.0 * std::sin(0.275 * step), 1e-3);
+}
+
+/// Fragments in the hole of an open section do not make it narrower than what is between them.
+TEST(GirthBySection, TellsTheGapBetweenFragmentsInAHole) {
+  TriangleMesh mesh;
+  add_walls(mesh, {0, 0, 0}, {100, 60, 10}, 3);
+  for (const double y : {6.0, 54.0}) add_walls(mesh, {-5, y, 0}, {5, y, 10}, 1);
+  const auto girth = girth_by_section(mesh, level_plane(4));
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->largest_gap_mm, 48.0, 1e-9);
+}
+
 TEST(GirthBySection, TellsNoSeamOfAnotherLoop) {
   TriangleMesh mesh;
   add_walls(mesh, {0, 0, 0}, {30, 20, 10});
