@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t kNeighbours = 8;
 /// Ends are joined up to some times the narrowest gap that is left, then the next ones looked at.
 constexpr double kAtOnce = 4.0;
-/// Of a line's own length: a wider gap between its ends, as of a strip beside others, is no seam.
+/// Of the line that it closes: a wider gap between the ends of one, as of a strip beside others, is
+/// no seam.
 constexpr double kOwnSeam = 0.25;
 
 /// Two open ends; the front of line n is 2 n, its back 2 n + 1.
@@ -77,7 +78,8 @@ class Stitching {
   bool may_join(const Seam& seam) {
     if (seam.first == seam.second) return false;
     const std::size_t chain = chains_.of(seam.first / 2);
-    return chain != chains_.of(seam.second / 2) || seam.gap <= kOwnSeam * lengths_[chain];
+    return chain != chains_.of(seam.second / 2) ||
+           seam.gap <= kOwnSeam * (lengths_[chain] + seam.gap);
   }
 
   void join(const Seam& seam) {

@@ -19,9 +19,9 @@ struct SectionLine {
 
 /// The lines with open ends that lie within `widest` of each other joined, of one line or of two:
 /// the seams of faces that were never stitched. The nearest come first, as far as they differ by
-/// more than a few times; a line's own ends are joined where the gap is less than a quarter of its
-/// length. Lines without length are left out; open ones come first. O(points + ends log ends),
-/// where ends do not crowd.
+/// more than a few times; a line's own ends are joined where the gap is no more than a quarter of
+/// what it closes. Lines without length are left out; open ones come first. O(points + ends log
+/// ends), where ends do not crowd.
 std::vector<SectionLine> stitched(std::vector<SectionLine> lines, double widest);
 
 }  // namespace instep

@@ -115,6 +115,20 @@ TEST(UnseenEnds, OfAHeelDoNotTurnTheFoot) {
   }
 }
 
+/// It was the points' fault, which "do not tell how sure its landmarks are".
+TEST(UnseenEnds, AreTheReasonWhereALongerFootCouldNotBeMeasuredSo) {
+  const auto foot = align_foot(test::draw_scanned_foot_without_truth(7).cloud);
+  ASSERT_TRUE(foot) << foot.error().line();
+  const double length = foot->landmarks.at("acropodion").position_mm.x();
+  const auto set = measure_foot(cut_foot(*foot, -1e3, length - 25.0));
+  ASSERT_TRUE(set) << set.error().line();
+  const auto withheld = std::find_if(set->withheld.begin(), set->withheld.end(),
+                                     [](const auto& one) { return one.id == "short_heel_girth"; });
+  ASSERT_NE(withheld, set->withheld.end());
+  EXPECT_NE(withheld->reason.find("an end of the foot was not seen"), std::string::npos)
+      << withheld->reason;
+}
+
 TEST(UnseenEnds, AreNoneOfAWholeFoot) {
   const auto foot =
       align_foot(test::draw_scanned_foot_without_truth(2).cloud).and_then(find_landmarks);
