@@ -21,9 +21,9 @@ constexpr double kLeastFacingOfToes = 0.7;
 /// What then may be missing, set by eye: of the front of a foot that eight views of a real camera
 /// saw the sides and the top of, some 5 mm. How the skin faces tells nothing of how much it is.
 constexpr double kUnseenToesMm = 10.0;
-/// What is missing of a heel, against what its skin lacks of facing backwards: of 10 drawn feet
-/// with 4 to 24 mm cut off 30 to 43 mm, two with strays apart. Where the borders of what is left
-/// run straight on, nothing tells how much it is.
+/// What is missing of a heel at most, against what its skin lacks of facing backwards: of 16 drawn
+/// feet with 4 to 24 mm cut off half have less than 29 mm, and 95 % less than 40. Where the borders
+/// of what is left run straight on, nothing tells how much it is.
 constexpr double kUnseenHeelMm = 45.0;
 constexpr double kMostUnseenHeelMm = 25.0;
 /// How far the axis is off then, in radians: of 20 feet with 12 mm cut off 0.2 degrees on average,

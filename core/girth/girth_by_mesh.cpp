@@ -28,6 +28,8 @@ constexpr double kNotableHole = 0.05;
 constexpr double kHarmlessNoise = 0.05;
 /// A surface is cut into few pieces; what falls into more is a crowd of points without one.
 constexpr std::size_t kMostPieces = 100;
+/// Crumbs of mesh that noise lifts off the skin close on themselves, whatever their shape.
+constexpr double kOfCrumbs = 1.0;
 
 /// The part of a band that is meshed, in the band's own coordinates.
 struct MeshedBand {
@@ -62,13 +64,13 @@ tl::unexpected<Error> no_mesh() {
 /// The lines in which the plane cuts the mesh, with its holes bridged as far as is allowed.
 Result<std::vector<SectionLine>> section_of(const TriangleMesh& mesh, const PlaneBand& band) {
   std::vector<Eigen::Vector2d> crossings;
-  const auto pieces = cut(mesh, plane_of_band(), 0.0);
+  const auto pieces = cut(mesh, plane_of_band(), {});
   for (const auto& piece : pieces) {
     crossings.insert(crossings.end(), piece.points.begin(), piece.points.end());
   }
   if (pieces.empty() || pieces.size() > kMostPieces) return no_mesh();
   const double tape = perimeter(convex_hull(std::move(crossings)));
-  auto lines = cut(mesh, plane_of_band(), kWidestBridge * tape);
+  auto lines = cut(mesh, plane_of_band(), {.widest = kWidestBridge * tape, .own = kOfCrumbs});
   if (!lines.front().closed) return does_not_close(band);
   return lines;
 }

@@ -92,7 +92,8 @@ Girth closed_girth(std::vector<SectionLine> lines, double harmless_seam) {
 /// From piece to piece round the section.
 double widest_gap(std::vector<SectionLine> pieces) {
   double widest = 0.0;
-  for (const auto& round : stitched(std::move(pieces), std::numeric_limits<double>::infinity())) {
+  for (const auto& round :
+       stitched(std::move(pieces), {.widest = std::numeric_limits<double>::infinity()})) {
     const double left = round.closed ? 0.0 : (round.points.front() - round.points.back()).norm();
     widest = std::max({widest, round.widest_seam, left});
   }
@@ -124,9 +125,9 @@ Girth open_girth(std::vector<SectionLine> lines) {
 
 Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane) {
   if (auto sound = check_mesh(mesh); !sound) return tl::make_unexpected(sound.error());
-  const auto raw = cut(mesh, plane, 0.0);
+  const auto raw = cut(mesh, plane, {});
   const double size = diagonal(raw);
-  auto lines = cut(mesh, plane, kWidestSeam * size);
+  auto lines = cut(mesh, plane, {.widest = kWidestSeam * size});
   if (lines.empty() || !(size > 0.0)) {
     return fail(ErrorCode::kInvalidInput, "the tape plane cuts no face of the mesh",
                 "give control points on the body");

@@ -135,9 +135,9 @@ class Chainer {
 
 }  // namespace
 
-std::vector<SectionLine> cut(const TriangleMesh& mesh, const TapePlane& plane, double seam) {
+std::vector<SectionLine> cut(const TriangleMesh& mesh, const TapePlane& plane, const Seams& seams) {
   const CutFaces faces = cut_faces(mesh, plane);
-  auto lines = stitched(Chainer(faces).chain(), seam);
+  auto lines = stitched(Chainer(faces).chain(), seams);
   std::stable_sort(lines.begin(), lines.end(),
                    [](const auto& a, const auto& b) { return a.length() > b.length(); });
   return lines;

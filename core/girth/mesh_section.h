@@ -10,10 +10,10 @@ namespace instep {
 
 /// Cuts the faces with the plane and chains what is cut, exactly: corners with equal coordinates
 /// count as one, a corner in the plane counts as above it, so that every crossed edge is met by
-/// both of its faces. Then the lines are stitched() over up to `seam`. Longest line first.
+/// both of its faces. Then the lines are stitched(). Longest line first.
 ///
 /// Faces with corners out of range or coordinates that are not finite must have been refused
 /// before. O(faces + cut faces log cut faces), and what stitched() costs.
-std::vector<SectionLine> cut(const TriangleMesh& mesh, const TapePlane& plane, double seam);
+std::vector<SectionLine> cut(const TriangleMesh& mesh, const TapePlane& plane, const Seams& seams);
 
 }  // namespace instep

@@ -18,9 +18,6 @@ namespace {
 constexpr std::size_t kNeighbours = 8;
 /// Ends are joined up to some times the narrowest gap that is left, then the next ones looked at.
 constexpr double kAtOnce = 4.0;
-/// Of the line that it closes: a wider gap between the ends of one, as of a strip beside others, is
-/// no seam.
-constexpr double kOwnSeam = 0.25;
 
 /// Two open ends; the front of line n is 2 n, its back 2 n + 1.
 struct Seam {
@@ -36,8 +33,8 @@ struct Seam {
 /// Finds which ends belong together; the lines themselves are laid together at the end.
 class Stitching {
  public:
-  explicit Stitching(std::vector<SectionLine> lines)
-      : lines_(std::move(lines)), seam_at_(2 * lines_.size()), chains_(lines_.size()) {
+  Stitching(std::vector<SectionLine> lines, double own)
+      : lines_(std::move(lines)), own_(own), seam_at_(2 * lines_.size()), chains_(lines_.size()) {
     for (const auto& line : lines_) lengths_.push_back(line.length());
   }
 
@@ -77,9 +74,12 @@ class Stitching {
   /// As far as the lines are joined by now.
   bool may_join(const Seam& seam) {
     if (seam.first == seam.second) return false;
-    const std::size_t chain = chains_.of(seam.first / 2);
-    return chain != chains_.of(seam.second / 2) ||
-           seam.gap <= kOwnSeam * (lengths_[chain] + seam.gap);
+    const std::size_t one = seam.first / 2;
+    const std::size_t other = seam.second / 2;
+    const std::size_t chain = chains_.of(one);
+    if (chain != chains_.of(other)) return true;
+    if (one == other && lines_[one].points.size() <= 2) return false;
+    return seam.gap <= own_ * (lengths_[chain] + seam.gap);
   }
 
   void join(const Seam& seam) {
@@ -134,6 +134,7 @@ class Stitching {
   }
 
   std::vector<SectionLine> lines_;
+  double own_;
   std::vector<std::optional<Seam>> seam_at_;
   DisjointSets chains_;
   std::vector<double> lengths_;  ///< of each chain, at the number that it goes by
@@ -147,11 +148,11 @@ double SectionLine::length() const {
   return perimeter(points) - (closed ? 0.0 : (points.front() - points.back()).norm());
 }
 
-std::vector<SectionLine> stitched(std::vector<SectionLine> lines, double widest) {
+std::vector<SectionLine> stitched(std::vector<SectionLine> lines, const Seams& seams) {
   // As of faces that touch the plane in a corner alone: thousands may lie at one place.
   std::erase_if(lines, [](const SectionLine& line) { return !(line.length() > 0.0); });
-  Stitching stitching(std::move(lines));
-  stitching.join_up_to(widest);
+  Stitching stitching(std::move(lines), seams.own);
+  stitching.join_up_to(seams.widest);
   return std::move(stitching).laid_together();
 }
 

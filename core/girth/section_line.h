@@ -17,11 +17,17 @@ struct SectionLine {
   double length() const;
 };
 
-/// The lines with open ends that lie within `widest` of each other joined, of one line or of two:
-/// the seams of faces that were never stitched. The nearest come first, as far as they differ by
-/// more than a few times; a line's own ends are joined where the gap is no more than a quarter of
-/// what it closes. Lines without length are left out; open ones come first. O(points + ends log
-/// ends), where ends do not crowd.
-std::vector<SectionLine> stitched(std::vector<SectionLine> lines, double widest);
+/// Which gaps between open ends count as seams of faces that were never stitched.
+struct Seams {
+  double widest = 0.0;
+  /// Between the ends of one line, at most this part of what it closes; never of two points. A
+  /// strip beside others that it belongs to would close on itself.
+  double own = 0.25;
+};
+
+/// The lines with open ends joined over seams, of one line or of two. The nearest come first, as
+/// far as they differ by more than a few times. Lines without length are left out; open ones come
+/// first. O(points + ends log ends), where ends do not crowd.
+std::vector<SectionLine> stitched(std::vector<SectionLine> lines, const Seams& seams);
 
 }  // namespace instep
