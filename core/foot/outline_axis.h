@@ -12,6 +12,8 @@ namespace instep {
 /// Part of the foot's length up to which points count as its outline from above: 40 mm for a foot
 /// of 270 mm. The whole heel and the toes are below, the leg is not.
 inline constexpr double kOutlineHeightShare = 0.15;
+/// Part of the foot's length that is looked at for the heel's end.
+inline constexpr double kHeelShare = 0.15;
 
 /// Where a standing body's heel is and which way its toes point, from nothing but its outline and
 /// heights.

@@ -30,9 +30,6 @@ constexpr double kMostUnseenHeelMm = 25.0;
 /// 0.36 at most.
 constexpr double kUnseenHeelTurn = 0.01;
 
-/// The heel, against the foot's length.
-constexpr double kHeelShare = 0.15;
-
 double facing_of_toes(const FootScan& foot) {
   const Eigen::Vector3d& tip = foot.landmarks.at("acropodion").position_mm;
   return end_facing(foot.cloud.positions, tip, Eigen::Vector3d::UnitX()).value_or(0.0);

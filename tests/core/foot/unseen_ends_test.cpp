@@ -90,7 +90,7 @@ TEST(UnseenEnds, AreInTheIntervalsOfAllThatIsPlacedByTheLength) {
 }
 
 /// The rearmost place of what was left of a heel was a corner of it: the axis turned by 5 to 9
-/// degrees, and breadths were up to 9 mm off, by their intervals 1 to 2.
+/// degrees, and breadths were up to 9 mm off, by intervals of some 2.5.
 TEST(UnseenEnds, OfAHeelDoNotTurnTheFoot) {
   for (const std::uint64_t seed : {3U, 7U}) {
     const auto foot = align_foot(test::draw_scanned_foot_without_truth(seed).cloud);
