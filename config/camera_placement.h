@@ -13,6 +13,7 @@ namespace instep {
 struct CameraPlacement {
   std::string name;  ///< 1 to 64 characters; tells the camera apart in results and messages
   RigidTransform station_from_camera = RigidTransform::Identity();
+  bool is_rough = false;  ///< the pose is by tape measure: to start a calibration from
   /// As calibrated. Nothing = as the device says, where a device can say it.
   std::optional<CameraIntrinsics> intrinsics;
 };

@@ -3,39 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
+
+#include "config/pose_matrix.h"
+#include "config/tape_measured_pose.h"
 
 namespace instep {
 namespace {
 
-constexpr double kFarthestCamera_mm = 1e5;
-
-RigidTransform read_pose(SettingsTable& table, SettingsFaults& faults) {
-  const auto numbers = table.numbers("station_from_camera", 16);
-  if (numbers.empty()) {
-    if (!table.has("station_from_camera")) {
-      faults.add(
-          table.line(),
-          "camera.station_from_camera is missing: where the camera stands, as the 16 numbers "
-          "of a 4x4 matrix, row by row, in millimetres");
-    }
-    return RigidTransform::Identity();
-  }
-  const Eigen::Matrix4d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  if (!is_rigid(matrix)) {
+/// By the matrix or by tape measure, whichever is there; what is absent or faulty stands nowhere.
+void read_pose(SettingsTable& table, CameraPlacement& placement, SettingsFaults& faults) {
+  const auto matrix = read_pose_matrix(table, faults);
+  const auto measured = read_tape_measured_pose(table, faults);
+  const bool has_matrix = table.has("station_from_camera");
+  const bool has_measured = has_tape_measured_pose(table);
+  if (has_matrix && has_measured) {
     faults.add(table.line(),
-               "camera.station_from_camera is no rotation and shift: write the rows of a rigid 4x4 "
-               "matrix, the last of them 0, 0, 0, 1");
-    return RigidTransform::Identity();
+               "camera.station_from_camera says where the camera stands, and stands_at_mm, "
+               "looks_at_mm or roll_deg say it again: keep one of the two");
   }
-  if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kFarthestCamera_mm) {
-    faults.add(
-        table.line(),
-        "camera.station_from_camera puts the camera more than 100 m away: write millimetres");
-    return RigidTransform::Identity();
+  if (!has_matrix && !has_measured) {
+    faults.add(table.line(),
+               "camera.station_from_camera is missing: where the camera stands, as the 16 numbers "
+               "of a 4x4 matrix, row by row, in millimetres; or, for a camera that is to be "
+               "calibrated, roughly as stands_at_mm = [x, y, z] and looks_at_mm = [x, y, z]");
   }
-  return nearest_rigid(matrix);
+  placement.station_from_camera = matrix ? *matrix : measured.value_or(RigidTransform::Identity());
+  placement.is_rough = measured.has_value();
 }
 
 std::optional<CameraIntrinsics> read_intrinsics(SettingsTable& camera, SettingsFaults& faults) {
@@ -77,7 +70,7 @@ CameraPlacement read_camera_placement(SettingsTable& table, SettingsFaults& faul
                "camera.name is missing: call the camera what you call it, such as "
                "name = \"left\"");
   }
-  placement.station_from_camera = read_pose(table, faults);
+  read_pose(table, placement, faults);
   placement.intrinsics = read_intrinsics(table, faults);
   return placement;
 }

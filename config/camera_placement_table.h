@@ -18,8 +18,9 @@ namespace instep {
 ///     cy = 239.5
 ///     distortion = [ 0, 0, 0, 0, 0 ]
 ///
-/// The name and the pose (row by row, millimetres) must be there; the intrinsics, and in them the
-/// distortion (k1, k2, p1, p2, k3), may be left out. What cannot be right leaves a fault.
+/// The name and the pose must be there, the pose as a matrix (pose_matrix.h) or by tape measure
+/// (tape_measured_pose.h), not both; the intrinsics, and in them the distortion (k1, k2, p1, p2,
+/// k3), may be left out. What cannot be right leaves a fault.
 CameraPlacement read_camera_placement(SettingsTable& table, SettingsFaults& faults);
 
 }  // namespace instep

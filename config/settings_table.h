@@ -98,6 +98,10 @@ class SettingsTable {
   std::string full(const std::string& key) const;
   const std::string& name() const { return name_; }
   unsigned line() const { return table_.source().begin.line; }
+  /// Of what the key says; of the table if it has no such key.
+  unsigned line(const std::string& key) const {
+    return has(key) ? table_.get(key)->source().begin.line : line();
+  }
 
  private:
   const toml::node* find(const std::string& key);

@@ -1,0 +1,41 @@
+#include "config/pose_matrix.h"
+
+#include <string>
+
+namespace instep {
+namespace {
+
+/// Of a matrix for which is_rigid() holds.
+RigidTransform without_rounding(const Eigen::Matrix4d& matrix) {
+  // Rotations that were written with all their digits are off by a few units of the last one.
+  constexpr double kAllDigits = 1e-12;
+  if (!is_rigid(matrix, kAllDigits)) return nearest_rigid(matrix);
+  RigidTransform rigid = RigidTransform::Identity();
+  rigid.linear() = matrix.topLeftCorner<3, 3>();
+  rigid.translation() = matrix.topRightCorner<3, 1>();
+  return rigid;
+}
+
+}  // namespace
+
+std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFaults& faults) {
+  const std::string key = "station_from_camera";
+  const auto numbers = table.numbers(key, 16);
+  if (numbers.empty()) return std::nullopt;
+  const Eigen::Matrix4d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  if (!is_rigid(matrix)) {
+    faults.add(table.line(key), table.full(key) +
+                                    " is no rotation and shift: write the rows of a rigid 4x4 "
+                                    "matrix, the last of them 0, 0, 0, 1");
+    return std::nullopt;
+  }
+  if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kFarthestCamera_mm) {
+    faults.add(table.line(key),
+               table.full(key) + " puts the camera more than 100 m away: write millimetres");
+    return std::nullopt;
+  }
+  return without_rounding(matrix);
+}
+
+}  // namespace instep
