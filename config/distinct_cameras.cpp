@@ -13,16 +13,8 @@ bool is_both(const std::string& one, const std::string& other) {
 
 /// Empty for the cameras of a simulation or a recording, which bring their own names.
 std::string name_of(const CameraSettings& camera) {
-  switch (camera.kind) {
-    case CameraKind::kOpenni:
-      return camera.openni.placement.name;
-    case CameraKind::kV4l2:
-      return camera.v4l2.placement.name;
-    case CameraKind::kSimulated:
-    case CameraKind::kRecording:
-      return {};
-  }
-  return {};
+  const CameraPlacement* placement = camera.placement();
+  return placement == nullptr ? std::string() : placement->name;
 }
 
 /// What the two share that only one camera can have; empty if they can be told apart.

@@ -22,7 +22,7 @@ std::string describe(const OpenniSettings& settings) {
   std::string text = fmt::format("{}, the OpenNI2 sensor {}", placement.name,
                                  serial.empty() ? "that is plugged in" : serial);
   if (!library_folder.empty()) text += " through the library in " + library_folder.string();
-  return text + (placement.intrinsics ? ", calibrated" : ", lens as the sensor says");
+  return text + (placement.intrinsics ? ", lens as the settings say" : ", lens as the sensor says");
 }
 
 }  // namespace instep

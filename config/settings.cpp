@@ -5,6 +5,21 @@
 namespace instep {
 namespace {
 
+/// Of constant settings a constant one.
+template <typename Camera>
+auto placement_of(Camera& camera) -> decltype(&camera.openni.placement) {
+  switch (camera.kind) {
+    case CameraKind::kOpenni:
+      return &camera.openni.placement;
+    case CameraKind::kV4l2:
+      return &camera.v4l2.placement;
+    case CameraKind::kSimulated:
+    case CameraKind::kRecording:
+      return nullptr;
+  }
+  return nullptr;
+}
+
 std::string describe_camera(const CameraSettings& camera,
                             const SimulatedStationSettings& simulation) {
   if (camera.kind == CameraKind::kRecording) return "the recording " + camera.path.string();
@@ -44,15 +59,26 @@ std::string describe_sizes(const SizeRules& sizes) {
 
 }  // namespace
 
+const CameraPlacement* CameraSettings::placement() const {
+  return placement_of(*this);
+}
+
+CameraPlacement* CameraSettings::placement() {
+  return placement_of(*this);
+}
+
 std::string describe(const Settings& settings) {
   const auto& [station, capture, pedal, outputs, cameras, simulation, store, measures, sizes,
-               control, log] = settings;
+               control, log, calibration] = settings;
   std::string text = fmt::format("station  {}, points every {} mm, side {}\n", station.name,
                                  station.point_spacing_mm,
                                  station.side ? to_string(*station.side) : "told from the shape");
   for (const auto& camera : cameras) {
-    text += fmt::format("cameras  {}\n", describe_camera(camera, simulation));
+    const bool is_rough = camera.placement() != nullptr && camera.placement()->is_rough;
+    text += fmt::format("cameras  {}{}\n", describe_camera(camera, simulation),
+                        is_rough ? ", placed by tape measure" : "");
   }
+  if (calibration) text += describe(*calibration);
   text += fmt::format("capture  {} frames of each camera after {} to warm up, within {} ms\n",
                       capture.frames_per_camera, capture.warmup_frames, capture.deadline.count());
   text += fmt::format("pedal    {}\n", describe_pedal(pedal));

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "config/applied_calibration.h"
 #include "config/openni_settings.h"
 #include "config/output_settings.h"
 #include "config/pedal_sources.h"
@@ -61,6 +62,10 @@ struct CameraSettings {
   std::filesystem::path path;  ///< of a recording: its folder
   OpenniSettings openni;       ///< of kOpenni
   V4l2Settings v4l2;           ///< of a V4L2 camera
+
+  /// Of a real camera; nullptr where the source brings its own cameras and their poses.
+  const CameraPlacement* placement() const;
+  CameraPlacement* placement();
 };
 
 enum class SimulatedNoise { kNone, kTypical, kPessimistic };
@@ -112,6 +117,8 @@ struct Settings {
   SizeRules sizes;
   ControlSettings control;
   LogSettings log;
+  /// Where real cameras' poses come from that are not the file's own.
+  std::optional<AppliedCalibration> calibration;
 };
 
 /// What the settings say, as the lines that `instepd --check` prints.

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <system_error>
+#include <utility>
 
+#include "config/calibration_loader.h"
 #include "config/distinct_cameras.h"
 #include "config/huge_numbers.h"
 #include "config/settings_table.h"
@@ -293,31 +291,25 @@ SettingsReading read_settings(std::string_view text, const std::filesystem::path
   return reading;
 }
 
-Result<Settings> load_settings(const std::filesystem::path& file) {
+Result<Settings> load_uncalibrated_settings(const std::filesystem::path& file) {
   std::error_code missing;
   if (!std::filesystem::is_regular_file(file, missing)) {
     return fail(ErrorCode::kNotFound, "there is no settings file " + file.string(),
                 "name one with --config");
   }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    const auto code = errno == EACCES ? ErrorCode::kPermissionDenied : ErrorCode::kIo;
-    return fail(code,
-                "the settings file " + file.string() + " cannot be opened: " + std::strerror(errno),
-                "let the user of the station read it");
-  }
-  std::string text(kLargestSettingsFile + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kLargestSettingsFile) {
-    return fail(ErrorCode::kInvalidInput, "the settings file " + file.string() + " is far too long",
-                "check that it is a settings file");
-  }
-  SettingsReading reading = read_settings(text, std::filesystem::absolute(file));
+  const auto text = read_settings_text(file, "settings file");
+  if (!text) return tl::make_unexpected(text.error());
+  SettingsReading reading = read_settings(*text, std::filesystem::absolute(file));
   if (reading.good()) return std::move(reading.settings);
   std::string all;
   for (const auto& fault : reading.faults) all += (all.empty() ? "" : "\n") + fault;
   return fail(ErrorCode::kInvalidInput, all, "");
+}
+
+Result<Settings> load_settings(const std::filesystem::path& file) {
+  auto settings = load_uncalibrated_settings(file);
+  if (!settings) return settings;
+  return with_calibration_beside(file, std::move(*settings));
 }
 
 }  // namespace instep

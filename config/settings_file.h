@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "config/settings_text.h"
 #include "core/result.h"
 
 namespace instep {
-
-/// The largest settings file that is read; a real one has 3 kB.
-inline constexpr std::size_t kLargestSettingsFile = 256 * 1024;
 
 /// What was found in a settings file: the settings if there is no fault, else every fault as
 /// "file:line: what is wrong and what would be right", in the order of the file.
@@ -29,6 +27,12 @@ SettingsReading read_settings(std::string_view toml, const std::filesystem::path
 
 /// Reads the file and hands it to read_settings(). Fails with kNotFound, kPermissionDenied or kIo
 /// if there is no reading it, and with kInvalidInput, all faults in the message, if it is wrong.
+/// The calibration that lies beside it (calibration_file.h) puts the real cameras where it found
+/// them; a faulty one fails too, with what to do about it.
 Result<Settings> load_settings(const std::filesystem::path& file);
+
+/// The same with the file's own poses, whatever lies beside it: for whoever calibrates anew, which
+/// has to go on where the old calibration is faulty.
+Result<Settings> load_uncalibrated_settings(const std::filesystem::path& file);
 
 }  // namespace instep

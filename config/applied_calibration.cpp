@@ -1,0 +1,32 @@
+#include "config/applied_calibration.h"
+
+#include <fmt/format.h>
+
+namespace instep {
+
+std::string describe(const AppliedCalibration& calibration) {
+  const auto& [file, time, placed, left_out, unknown] = calibration;
+  std::string text =
+      fmt::format("poses    {} as calibrated at {}, {}\n",
+                  placed.empty() ? "no camera" : fmt::format("{}", fmt::join(placed, ", ")), time,
+                  file.string());
+  if (!left_out.empty()) {
+    text +=
+        fmt::format("poses    {} as the settings say, for want of calibration: instep calibrate\n",
+                    fmt::join(left_out, ", "));
+  }
+  if (!unknown.empty()) {
+    text += fmt::format("poses    of {} are calibrated too, but no [[camera]] is called so\n",
+                        fmt::join(unknown, ", "));
+  }
+  return text;
+}
+
+std::string source_of_poses(const AppliedCalibration& calibration) {
+  if (calibration.placed.empty()) return "as the settings say";
+  const std::string text = "instep calibrate, " + calibration.time;
+  if (calibration.left_out.empty()) return text;
+  return fmt::format("{}; {} as the settings say", text, fmt::join(calibration.left_out, ", "));
+}
+
+}  // namespace instep

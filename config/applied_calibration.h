@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace instep {
+
+/// What a calibration file that lies beside the settings did to them. Cameras are named, in the
+/// order of their file.
+struct AppliedCalibration {
+  std::filesystem::path file;
+  std::string time;                 ///< StationCalibration::time
+  std::vector<std::string> placed;  ///< real cameras of the settings that stand as it says
+  /// Real cameras of the settings that it does not hold. They stand as the settings say, which is
+  /// in another frame than the calibrated ones: worth a warning.
+  std::vector<std::string> left_out;
+  std::vector<std::string> unknown;  ///< cameras that it holds and the settings do not
+};
+
+/// The lines of `instepd --check` say it so.
+std::string describe(const AppliedCalibration& calibration);
+
+/// Where the real cameras' poses come from, as results say it: "instep calibrate, <its time>", and
+/// which cameras it left out.
+std::string source_of_poses(const AppliedCalibration& calibration);
+
+}  // namespace instep

@@ -1,0 +1,170 @@
+#include "config/calibration_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cstring>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <string>
+
+namespace instep {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr const char* kTime = "calibrated_at = \"2026-11-28T02:11:12Z\"\n";
+constexpr const char* kPose =
+    "station_from_camera = [0, 1, 0, 10,  1, 0, 0, 20,  0, 0, -1, 500,  0, 0, 0, 1]\n";
+
+std::string camera(const std::string& name) {
+  return "[[camera]]\nname = \"" + name + "\"\n" + kPose;
+}
+
+Result<StationCalibration> read(const std::string& toml) {
+  return read_calibration(toml, "/etc/c.toml");
+}
+
+RigidTransform drawn_pose(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const auto draw = [&] { return normal(random); };
+  RigidTransform pose = RigidTransform::Identity();
+  pose.linear() = Eigen::Quaterniond(draw(), draw(), draw(), draw()).normalized().matrix();
+  pose.translation() = 700.0 * Eigen::Vector3d(draw(), draw(), draw());
+  return pose;
+}
+
+bool same_bits(const RigidTransform& one, const RigidTransform& other) {
+  return std::memcmp(one.data(), other.data(), 16 * sizeof(double)) == 0;
+}
+
+TEST(CalibrationFile, HoldsTimeNamesAndPoses) {
+  const auto calibration = read(kTime + camera("left") + camera("right"));
+  ASSERT_TRUE(calibration) << calibration.error().line();
+  EXPECT_EQ(calibration->time, "2026-11-28T02:11:12Z");
+  ASSERT_EQ(calibration->cameras.size(), 2U);
+  EXPECT_EQ(calibration->cameras[1].name, "right");
+  EXPECT_TRUE((calibration->cameras[1].station_from_camera * Eigen::Vector3d(1, 2, 300))
+                  .isApprox(Eigen::Vector3d(12, 21, 200), 1e-12));
+}
+
+TEST(CalibrationFile, IsWrittenForPeopleARowALine) {
+  StationCalibration calibration{"2026-11-28T02:11:12Z", {{"left", RigidTransform::Identity()}}};
+  calibration.cameras[0].station_from_camera.translation() << 0.5, -0.0, 1e-7;
+  EXPECT_THAT(calibration_toml(calibration),
+              AllOf(HasSubstr("# "), HasSubstr("delete it"),
+                    HasSubstr("\n  1, 0, 0, 0.5,\n  0, 1, 0, -0.0,\n  0, 0, 1, 1e-07,\n")));
+}
+
+TEST(CalibrationFile, ReadsBackToTheSameBits) {
+  std::mt19937_64 random(11);
+  for (int round = 0; round < 200; ++round) {
+    StationCalibration written{"2026-11-28T02:11:12Z", {}};
+    for (int i = 0; i < 4; ++i) {
+      written.cameras.push_back({"camera-" + std::to_string(i), drawn_pose(random)});
+    }
+    written.cameras[0].station_from_camera.translation().y() = -0.0;
+    const auto again = read(calibration_toml(written));
+    ASSERT_TRUE(again) << again.error().line();
+    for (std::size_t i = 0; i < written.cameras.size(); ++i) {
+      EXPECT_TRUE(
+          same_bits(again->cameras[i].station_from_camera, written.cameras[i].station_from_camera))
+          << "round " << round << ", camera " << i;
+    }
+  }
+}
+
+TEST(CalibrationFile, KeepsAnyNameThatSettingsTake) {
+  for (const std::string name : {"left \"2\"", "C:\\left", "l'avant", "'\"\\", "früh", "# [[x]]"}) {
+    const auto again =
+        read(calibration_toml({"2026-11-28T02:11:12Z", {{name, RigidTransform::Identity()}}}));
+    ASSERT_TRUE(again) << again.error().line();
+    EXPECT_EQ(again->cameras[0].name, name);
+  }
+}
+
+TEST(CalibrationFile, TellsAllOfItsFaultsAndWhatToDo) {
+  const auto calibration = read("calibrated_at = 3\n[[camera]]\nname = \"left\"\n");
+  ASSERT_FALSE(calibration);
+  EXPECT_EQ(calibration.error().code, ErrorCode::kInvalidInput);
+  EXPECT_EQ(calibration.error().message,
+            "/etc/c.toml:1: calibrated_at must be text in quotes, but it is a whole number\n"
+            "/etc/c.toml:2: camera.station_from_camera is missing");
+  EXPECT_THAT(calibration.error().advice, HasSubstr("instep calibrate"));
+}
+
+struct Fault {
+  std::string toml;
+  std::string message;  ///< how it begins
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.message;
+}
+
+class CalibrationFileFault : public testing::TestWithParam<Fault> {};
+
+TEST_P(CalibrationFileFault, IsTheOnlyOneAndHasItsLine) {
+  const auto calibration = read(GetParam().toml);
+  ASSERT_FALSE(calibration);
+  EXPECT_THAT(calibration.error().message,
+              testing::StartsWith("/etc/c.toml:" + GetParam().message));
+  EXPECT_EQ(calibration.error().message.find('\n'), std::string::npos)
+      << calibration.error().message;
+}
+
+std::string seventeen_cameras() {
+  std::string text = kTime;
+  for (int i = 0; i < 17; ++i) text += camera(std::to_string(i));
+  return text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, CalibrationFileFault,
+    testing::Values(
+        Fault{camera("left"), "1: calibrated_at must be a time such as"},
+        Fault{"\ncalibrated_at = \"today\"\n" + camera("left"), "2: calibrated_at must be a time"},
+        Fault{"calibrated_at = \"2026-11-28T02:11:12Z \"\n" + camera("left"),
+              "1: calibrated_at must be a time"},
+        Fault{"calibrated_at = 2026-11-28T02:11:12Z\n" + camera("left"),
+              "1: calibrated_at must be text in quotes, but it is a date or time"},
+        Fault{"calibrated_at = \"\"\n" + camera("left"), "1: calibrated_at must have 1 to 64"},
+        Fault{kTime, "1: there is no [[camera]]"},
+        Fault{std::string(kTime) + "camera = []\n", "2: camera must be written as [[camera]]"},
+        Fault{std::string(kTime) + "camera = 3\n", "2: camera must be written as [[camera]]"},
+        Fault{seventeen_cameras(), "1: there are 17 [[camera]] tables, more than 16"},
+        Fault{kTime + camera("left") + camera("right") + camera("left"),
+              "8: there are two cameras of the name left"},
+        Fault{std::string(kTime) + "[[camera]]\n" + kPose, "2: camera.name is missing"},
+        Fault{std::string(kTime) + "[[camera]]\nname = \"left\"\n",
+              "2: camera.station_from_camera is missing"},
+        Fault{kTime + camera("left") + "fx = 3\n", "5: there is no setting camera.fx"},
+        Fault{"calibrate_at = 1\n" + (kTime + camera("left")),
+              "1: there is no setting calibrate_at: did you mean calibrated_at?"},
+        Fault{std::string(kTime) + "[[camera]]\nname = \"left\"\nstation_from_camera = [1, 2]\n",
+              "4: camera.station_from_camera must be a list of 16 numbers"},
+        Fault{std::string(kTime) + "[[camera]]\nname = \"left\"\nstation_from_camera = "
+                                   "[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n",
+              "4: camera.station_from_camera is no rotation and shift"},
+        Fault{std::string(kTime) + "[[camera]]\nname = \"left\"\nstation_from_camera = "
+                                   "[1,0,0,2e5, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n",
+              "4: camera.station_from_camera puts the camera more than 100 m away"},
+        Fault{kTime + camera("left") + "[[", "5: "}));
+
+TEST(CalibrationFile, NeverThrowsOnDamagedText) {
+  const std::string sound = kTime + camera("left") + camera("right");
+  std::mt19937_64 random(7);
+  for (int i = 0; i < 2000; ++i) {
+    std::string damaged = sound;
+    for (int hits = 0; hits < 3; ++hits) {
+      damaged[random() % damaged.size()] = static_cast<char>(random() % 256);
+    }
+    EXPECT_NO_THROW((void)read(damaged));
+  }
+}
+
+}  // namespace
+}  // namespace instep

@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "config/calibration_file.h"
+#include "config/settings_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string real_camera(const std::string& name) {
+  return "[[camera]]\nkind = \"openni2\"\nserial = \"" + name + "\"\nname = \"" + name +
+         "\"\nstands_at_mm = [500, 0, 60]\nlooks_at_mm = [0, 0, 60]\n";
+}
+
+constexpr const char* kVideoCamera =
+    "[[camera]]\nkind = \"v4l2\"\nserial = \"1\"\nname = \"video\"\ndepth_unit_mm = 1\n"
+    "intrinsics = { width = 640, height = 480, fx = 383, fy = 383, cx = 319, cy = 239 }\n"
+    "station_from_camera = [1, 0, 0, 0,  0, 1, 0, 0,  0, 0, 1, 0,  0, 0, 0, 1]\n";
+
+/// A camera that the calibration puts `height_mm` above the station's origin.
+CalibratedCamera calibrated(const std::string& name, double height_mm) {
+  CalibratedCamera camera{name, RigidTransform::Identity()};
+  camera.station_from_camera.translation().z() = height_mm;
+  return camera;
+}
+
+/// A folder with settings, and with a calibration where a test writes one.
+class CalibrationBesideSettings : public testing::Test {
+ protected:
+  void write_settings(const std::string& cameras) { std::ofstream(settings_file()) << cameras; }
+  void write_calibration(const std::string& text) { std::ofstream(calibration_file()) << text; }
+  void calibrate(const std::vector<CalibratedCamera>& cameras) {
+    write_calibration(calibration_toml({"2026-11-28T02:11:12Z", cameras}));
+  }
+
+  std::filesystem::path settings_file() const { return folder_.path() / "own.toml"; }
+  std::filesystem::path calibration_file() const { return folder_.path() / "calibration.toml"; }
+
+  static double height_mm(const Settings& settings, std::size_t camera) {
+    return settings.cameras[camera].placement()->station_from_camera.translation().z();
+  }
+
+  void fails_with(ErrorCode code, const std::string& advice) const {
+    const auto settings = load_settings(settings_file());
+    ASSERT_FALSE(settings);
+    EXPECT_EQ(settings.error().code, code);
+    EXPECT_THAT(settings.error().message, HasSubstr(calibration_file().string()));
+    EXPECT_THAT(settings.error().advice,
+                AllOf(HasSubstr(advice), HasSubstr("delete it and run instep calibrate again")));
+    EXPECT_TRUE(load_uncalibrated_settings(settings_file())) << "to be calibrated anew";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(CalibrationBesideSettings, LeavesThemAloneWhereThereIsNone) {
+  write_settings(real_camera("left"));
+  const auto settings = load_settings(settings_file());
+  ASSERT_TRUE(settings) << settings.error().line();
+  EXPECT_FALSE(settings->calibration);
+  EXPECT_EQ(height_mm(*settings, 0), 60.0);
+  EXPECT_THAT(describe(*settings), Not(HasSubstr("poses")));
+}
+
+TEST_F(CalibrationBesideSettings, PlacesEveryCameraThatItNames) {
+  write_settings(real_camera("left") + kVideoCamera);
+  calibrate({calibrated("video", 800.0), calibrated("left", 700.0)});
+  const auto settings = load_settings(settings_file());
+  ASSERT_TRUE(settings) << settings.error().line();
+  EXPECT_EQ(height_mm(*settings, 0), 700.0);
+  EXPECT_EQ(height_mm(*settings, 1), 800.0);
+  EXPECT_FALSE(settings->cameras[0].placement()->is_rough);
+  ASSERT_TRUE(settings->calibration);
+  EXPECT_EQ(settings->calibration->file, calibration_file());
+  EXPECT_EQ(settings->calibration->time, "2026-11-28T02:11:12Z");
+  EXPECT_THAT(settings->calibration->placed, ElementsAre("left", "video"));
+  EXPECT_THAT(settings->calibration->left_out, IsEmpty());
+  EXPECT_THAT(settings->calibration->unknown, IsEmpty());
+  EXPECT_EQ(height_mm(*load_uncalibrated_settings(settings_file()), 0), 60.0);
+}
+
+TEST_F(CalibrationBesideSettings, NamesCamerasThatOnlyOneOfTheTwoHas) {
+  write_settings(real_camera("left") + real_camera("right") + "[[camera]]\nkind = \"simulated\"\n");
+  calibrate({calibrated("top", 800.0), calibrated("left", 700.0)});
+  const auto settings = load_settings(settings_file());
+  ASSERT_TRUE(settings) << settings.error().line();
+  EXPECT_THAT(settings->calibration->placed, ElementsAre("left"));
+  EXPECT_THAT(settings->calibration->left_out, ElementsAre("right"));
+  EXPECT_THAT(settings->calibration->unknown, ElementsAre("top"));
+  EXPECT_EQ(height_mm(*settings, 1), 60.0) << "as the settings say";
+  EXPECT_TRUE(settings->cameras[1].placement()->is_rough);
+  EXPECT_THAT(describe(*settings),
+              AllOf(HasSubstr("lens as the sensor says\ncameras  right"),
+                    HasSubstr("lens as the sensor says, placed by tape measure\n"),
+                    HasSubstr("poses    left as calibrated at 2026-11-28T02:11:12Z, "),
+                    HasSubstr("poses    right as the settings say"),
+                    HasSubstr("poses    of top are calibrated too")));
+}
+
+TEST_F(CalibrationBesideSettings, IsNotForSimulatedCameras) {
+  write_settings("[[camera]]\nkind = \"simulated\"\n");
+  calibrate({calibrated("left", 700.0)});
+  const auto settings = load_settings(settings_file());
+  ASSERT_TRUE(settings) << settings.error().line();
+  EXPECT_THAT(settings->calibration->unknown, ElementsAre("left"));
+  EXPECT_THAT(describe(*settings), HasSubstr("poses    no camera as calibrated"));
+}
+
+TEST_F(CalibrationBesideSettings, FailsTheLoadWhereItIsFaulty) {
+  write_settings(real_camera("left"));
+  write_calibration("calibrated_at = \"2026-11-28T02:11:12Z\"\n[[camera]]\nname = \"left\"\n");
+  fails_with(ErrorCode::kInvalidInput, "mend it");
+  EXPECT_THAT(load_settings(settings_file()).error().message, HasSubstr("calibration.toml:2: "));
+}
+
+TEST_F(CalibrationBesideSettings, FailsTheLoadWhereItCannotBeRead) {
+  write_settings(real_camera("left"));
+  write_calibration(std::string(kLargestSettingsFile + 1, '#'));
+  fails_with(ErrorCode::kInvalidInput, "check that it is a calibration file");
+  std::filesystem::remove(calibration_file());
+  std::filesystem::create_symlink("nowhere", calibration_file());
+  fails_with(ErrorCode::kIo, "let the user of the station read it");
+  std::filesystem::remove(calibration_file());
+  std::filesystem::create_directory(calibration_file());
+  fails_with(ErrorCode::kInvalidInput, "see what it is");
+  std::filesystem::remove(calibration_file());
+  ASSERT_EQ(::mkfifo(calibration_file().c_str(), 0600), 0);
+  fails_with(ErrorCode::kInvalidInput, "see what it is");  // and does not wait for a writer
+}
+
+}  // namespace
+}  // namespace instep
