@@ -29,4 +29,10 @@ std::string source_of_poses(const AppliedCalibration& calibration) {
   return fmt::format("{}; {} as the settings say", text, fmt::join(calibration.left_out, ", "));
 }
 
+std::string what_is_lacking(const AppliedCalibration& calibration) {
+  if (calibration.left_out.empty()) return "";
+  return fmt::format("the calibration {} does not hold {}", calibration.file.string(),
+                     fmt::join(calibration.left_out, ", "));
+}
+
 }  // namespace instep

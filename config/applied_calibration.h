@@ -25,4 +25,7 @@ std::string describe(const AppliedCalibration& calibration);
 /// which cameras it left out.
 std::string source_of_poses(const AppliedCalibration& calibration);
 
+/// Which real cameras the calibration lacks, as a sentence that names its file; empty if none.
+std::string what_is_lacking(const AppliedCalibration& calibration);
+
 }  // namespace instep

@@ -27,6 +27,8 @@ namespace {
 
 using nlohmann::json;
 
+constexpr const char* kCalibrate = "instep calibrate";
+
 DoctorCheck good(const char* name, std::string finding) {
   return {name, true, std::move(finding), ""};
 }
@@ -159,6 +161,24 @@ void check_outputs(const Result<json>& status, const Settings& settings,
   }
 }
 
+/// Of real cameras that no calibration placed; a single one has none to fit with.
+std::optional<DoctorCheck> check_uncalibrated(const std::vector<CameraPlacement>& cameras) {
+  if (cameras.size() < 2) return std::nullopt;
+  std::vector<std::string> rough;
+  for (const auto& camera : cameras) {
+    if (camera.is_rough) rough.push_back(camera.name);
+  }
+  if (!rough.empty()) {
+    return bad("calibration",
+               fmt::format("none, and a tape measure is all that says where {} stands",
+                           fmt::join(rough, ", ")),
+               kCalibrate);
+  }
+  return good("calibration", fmt::format("none: {} cameras stand as the settings say; {} finds "
+                                         "out where they do",
+                                         cameras.size(), kCalibrate));
+}
+
 DoctorCheck library_versions() {
   return good("software",
               fmt::format("instep {} for {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
@@ -176,6 +196,19 @@ Result<json> ask_status(const std::filesystem::path& socket) {
 
 }  // namespace
 
+std::optional<DoctorCheck> check_calibration(const Settings& settings) {
+  std::vector<CameraPlacement> cameras;
+  for (const auto& camera : settings.cameras) {
+    if (camera.placement() != nullptr) cameras.push_back(*camera.placement());
+  }
+  if (!settings.calibration) return check_uncalibrated(cameras);
+  if (cameras.empty()) return std::nullopt;
+  const std::string lacking = what_is_lacking(*settings.calibration);
+  if (!lacking.empty()) return bad("calibration", lacking, kCalibrate);
+  return good("calibration",
+              fmt::format("of all {} cameras, {}", cameras.size(), settings.calibration->time));
+}
+
 std::vector<DoctorCheck> examine_machine() {
   const auto found = find_station_settings();
   const Settings settings = station_settings();
@@ -189,6 +222,7 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(check_daemon(status, settings.control.socket));
   if (found) checks.push_back(check_cameras(status, settings));
   check_video_cameras(settings, checks);
+  if (auto calibration = check_calibration(settings)) checks.push_back(std::move(*calibration));
   check_usb_memory(checks);
   check_pedal(status.has_value(), settings, checks);
   check_outputs(status, settings, checks);

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "config/settings.h"
 
 namespace instep {
 
@@ -12,6 +15,12 @@ struct DoctorCheck {
   std::string finding;
   std::string remedy;  ///< empty if good
 };
+
+/// Whether the real cameras stand where a calibration found them. Bad for those that it left out,
+/// and for several of which one is placed by tape measure; several that stand as the settings say
+/// may do so rightly, which is good, with a word. Nothing where there is nothing to calibrate: no
+/// real camera, or a single one and no calibration.
+std::optional<DoctorCheck> check_calibration(const Settings& settings);
 
 /// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes
 /// nothing. Takes up to some seconds: if no daemon runs, the cameras are opened.

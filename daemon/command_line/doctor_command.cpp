@@ -18,8 +18,9 @@ namespace {
 std::string as_text(const std::vector<DoctorCheck>& checks) {
   std::string text;
   for (const auto& check : checks) {
-    text += fmt::format("{:<5} {:<9} {}\n", check.good ? "ok" : "WRONG", check.name, check.finding);
-    if (!check.good) text += fmt::format("      {:<9} -> {}\n", "", check.remedy);
+    text +=
+        fmt::format("{:<5} {:<11} {}\n", check.good ? "ok" : "WRONG", check.name, check.finding);
+    if (!check.good) text += fmt::format("      {:<11} -> {}\n", "", check.remedy);
   }
   return text;
 }

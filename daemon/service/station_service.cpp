@@ -173,7 +173,8 @@ void StationService::reload() {
     settings_.store.keep_days = settings->store.keep_days;
     settings_.store.keep_count = settings->store.keep_count;
     log_info(
-        "read the settings again; cameras, the pedal's kind and place, lamps, projector, "
+        "read the settings again; cameras and their calibration, the pedal's kind and place, "
+        "lamps, projector, "
         "simulation, store and socket change with a restart");
     sweep_store();
   }

@@ -122,7 +122,6 @@ Result<void> add_openni(const OpenniSettings& chosen, Devices& devices) {
     return tl::make_unexpected(error);
   }
   devices.simulated = devices.simulated || (*camera)->description().simulated;
-  devices.calibration = "as the settings say";
   if (const auto usb = usb_address_of(chosen, {})) devices.usb[chosen.placement.name] = *usb;
   devices.cameras.push_back(std::move(*camera));
   return {};
@@ -154,8 +153,11 @@ Result<void> add_v4l2(const V4l2Settings& chosen, Devices& devices) {
   auto camera = V4l2Camera::create(std::move(settings));
   if (!camera) return tl::make_unexpected(camera.error());
   devices.cameras.push_back(std::move(*camera));
-  devices.calibration = "as the settings say";
   return {};
+}
+
+std::string source_of_poses(const Settings& settings) {
+  return settings.calibration ? source_of_poses(*settings.calibration) : "as the settings say";
 }
 
 /// Frames are told apart by their camera's name.
@@ -265,6 +267,7 @@ Result<Devices> open_devices(const Settings& settings) {
         added = add_v4l2(camera.v4l2, devices);
         break;
     }
+    if (camera.placement() != nullptr) devices.calibration = source_of_poses(settings);
     if (added) continue;
     // One that is away does not hide what is wrong with another.
     if (trouble) {

@@ -67,5 +67,35 @@ TEST(Devices, AllThatCannotBeOpenedAreNamedBesideThoseThatCan) {
                                              HasSubstr("(no fault so far: " + name + ")")));
 }
 
+/// A camera that is away is a device all the same, and needs none.
+CameraSettings video_camera(const std::string& name) {
+  CameraSettings camera;
+  camera.kind = CameraKind::kV4l2;
+  camera.v4l2.placement.name = name;
+  camera.v4l2.placement.intrinsics =
+      CameraIntrinsics{.width = 640, .height = 480, .fx = 383, .fy = 383, .cx = 319, .cy = 239};
+  camera.v4l2.serial = "not plugged in: " + name;
+  camera.v4l2.depth_unit_mm = 1.0;
+  return camera;
+}
+
+TEST(Devices, SayWhereTheirPosesComeFrom) {
+  Settings settings;
+  settings.cameras = {video_camera("left"), video_camera("right")};
+  const auto said = [&] {
+    const auto devices = open_devices(settings);
+    return devices ? devices->calibration : devices.error().line();
+  };
+  EXPECT_EQ(said(), "as the settings say");
+  settings.calibration = AppliedCalibration{
+      "/etc/instep/calibration.toml", "2026-11-28T02:11:12Z", {"left", "right"}, {}, {}};
+  EXPECT_EQ(said(), "instep calibrate, 2026-11-28T02:11:12Z");
+  settings.calibration->placed = {"left"};
+  settings.calibration->left_out = {"right"};
+  EXPECT_EQ(said(), "instep calibrate, 2026-11-28T02:11:12Z; right as the settings say");
+  settings.calibration->placed.clear();
+  EXPECT_EQ(said(), "as the settings say");
+}
+
 }  // namespace
 }  // namespace instep

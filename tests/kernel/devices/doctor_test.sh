@@ -28,8 +28,8 @@ says() {
     *) echo "it does not say: $wanted" && echo "$said" && exit 1 ;;
   esac
 }
-says "pedal     there is no GPIO chip" instep doctor
-says "output    lamp.ready: there is no GPIO chip" instep doctor
+says "pedal       there is no GPIO chip" instep doctor
+says "output      lamp.ready: there is no GPIO chip" instep doctor
 
 chip=/sys/kernel/config/gpio-sim/doctor
 mkdir -p $chip/bank0/line3 $chip/bank0/line4
@@ -39,8 +39,8 @@ echo foot >$chip/bank0/line3/name
 echo lamp >$chip/bank0/line4/name
 echo 1 >$chip/live
 udevadm settle --timeout=30
-says "pedal     can be opened" instep doctor
-says "output    lamp.ready can be opened" instep doctor
+says "pedal       can be opened" instep doctor
+says "output      lamp.ready can be opened" instep doctor
 says "\"foot\", the pedal" instep devices --format text
 says "\"lamp\", the lamp.ready" instep devices --format text
 
@@ -56,7 +56,7 @@ first=$(cat /sys/class/gpio/gpiochip*/base)
 echo $((first + 3)) >/sys/class/gpio/export
 says "is held by \"sysfs\"" instep doctor
 echo $((first + 3)) >/sys/class/gpio/unexport
-says "pedal     can be opened" instep doctor
+says "pedal       can be opened" instep doctor
 echo $((first + 4)) >/sys/class/gpio/export
 says "lamp.ready: line \"lamp\" ($(basename "$node")) is held by \"sysfs\"" instep doctor
 echo $((first + 4)) >/sys/class/gpio/unexport

@@ -1,0 +1,78 @@
+#include "daemon/command_line/doctor_checks.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace instep {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+CameraSettings camera(const std::string& name, bool is_rough) {
+  CameraSettings camera;
+  camera.kind = CameraKind::kOpenni;
+  camera.openni.placement.name = name;
+  camera.openni.placement.is_rough = is_rough;
+  return camera;
+}
+
+AppliedCalibration calibration_of(std::vector<std::string> placed,
+                                  std::vector<std::string> left_out) {
+  return {"/etc/c.toml", "2026-11-28T02:11:12Z", std::move(placed), std::move(left_out), {}};
+}
+
+TEST(CalibrationCheck, IsNotMadeWhereThereIsNothingToCalibrate) {
+  Settings settings;
+  EXPECT_FALSE(check_calibration(settings));
+  settings.cameras.resize(2);  // simulated ones
+  EXPECT_FALSE(check_calibration(settings));
+  settings.calibration = calibration_of({}, {});
+  EXPECT_FALSE(check_calibration(settings));
+  settings.calibration.reset();
+  settings.cameras = {camera("left", true)};
+  EXPECT_FALSE(check_calibration(settings)) << "one camera alone";
+}
+
+TEST(CalibrationCheck, NamesTheCommandWherePosesAreTheSettingsOwn) {
+  Settings settings;
+  settings.cameras = {camera("left", false), camera("right", false)};
+  const auto check = check_calibration(settings);
+  ASSERT_TRUE(check);
+  EXPECT_TRUE(check->good);
+  EXPECT_THAT(check->finding, HasSubstr("instep calibrate"));
+}
+
+TEST(CalibrationCheck, IsBadWhereATapeMeasureIsAllThatThereIs) {
+  Settings settings;
+  settings.cameras = {camera("left", false), camera("right", true)};
+  const auto check = check_calibration(settings);
+  ASSERT_TRUE(check);
+  EXPECT_FALSE(check->good);
+  EXPECT_THAT(check->finding, HasSubstr("where right stands"));
+  EXPECT_EQ(check->remedy, "instep calibrate");
+}
+
+TEST(CalibrationCheck, IsBadForCamerasThatTheCalibrationLeftOut) {
+  Settings settings;
+  settings.cameras = {camera("left", false), camera("right", false)};
+  settings.calibration = calibration_of({"left"}, {"right"});
+  const auto check = check_calibration(settings);
+  ASSERT_TRUE(check);
+  EXPECT_FALSE(check->good);
+  EXPECT_THAT(check->finding, AllOf(HasSubstr("/etc/c.toml"), HasSubstr("right")));
+  EXPECT_EQ(check->remedy, "instep calibrate");
+}
+
+TEST(CalibrationCheck, SaysWhenAllWereCalibrated) {
+  Settings settings;
+  settings.cameras = {camera("left", false), camera("right", false)};
+  settings.calibration = calibration_of({"left", "right"}, {});
+  const auto check = check_calibration(settings);
+  ASSERT_TRUE(check);
+  EXPECT_TRUE(check->good);
+  EXPECT_THAT(check->finding, HasSubstr("2026-11-28T02:11:12Z"));
+}
+
+}  // namespace
+}  // namespace instep
