@@ -31,7 +31,7 @@ std::string source_of_poses(const AppliedCalibration& calibration) {
 
 std::string what_is_lacking(const AppliedCalibration& calibration) {
   if (calibration.left_out.empty()) return "";
-  return fmt::format("the calibration {} does not hold {}", calibration.file.string(),
+  return fmt::format("{} does not hold {}", calibration.file.string(),
                      fmt::join(calibration.left_out, ", "));
 }
 

@@ -170,8 +170,7 @@ std::optional<DoctorCheck> check_uncalibrated(const std::vector<CameraPlacement>
   }
   if (!rough.empty()) {
     return bad("calibration",
-               fmt::format("none, and a tape measure is all that says where {} stands",
-                           fmt::join(rough, ", ")),
+               fmt::format("none, and placed by tape measure alone: {}", fmt::join(rough, ", ")),
                kCalibrate);
   }
   return good("calibration", fmt::format("none: {} cameras stand as the settings say; {} finds "

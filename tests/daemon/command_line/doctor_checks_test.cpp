@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace instep {
 namespace {
 
@@ -49,7 +53,7 @@ TEST(CalibrationCheck, IsBadWhereATapeMeasureIsAllThatThereIs) {
   const auto check = check_calibration(settings);
   ASSERT_TRUE(check);
   EXPECT_FALSE(check->good);
-  EXPECT_THAT(check->finding, HasSubstr("where right stands"));
+  EXPECT_THAT(check->finding, HasSubstr("by tape measure alone: right"));
   EXPECT_EQ(check->remedy, "instep calibrate");
 }
 
