@@ -20,7 +20,10 @@ constexpr double kStillMm = 0.01;
 /// While the views move much, one query in so many will do.
 constexpr std::size_t kCoarseStride = 4;
 constexpr std::size_t kFineStride = 1;
-constexpr int kLastSteps = 4;  // at most, each time that more is known of the views
+/// At most, each time that more is known of the views; where nothing but the overlaps holds them,
+/// they slide to their places in many small steps.
+constexpr int kLastSteps = 4;
+constexpr int kLastStepsOfRough = 100;
 /// Where the views lie as still as this at one reach, the next one is half of it. Set by eye.
 constexpr double kSettledMm = 0.3;
 constexpr double kLeastPoseMm = 1e-3;
@@ -92,9 +95,11 @@ ExpectedErrors likely_errors(const std::vector<MovingView>& views,
                              const RegistrationSettings& settings) {
   ExpectedErrors likely = settings.expected;
   const auto matches = match_views(views, settings.last_reach_mm, kCoarseStride);
-  const double off_mm = std::max(kLeastPoseMm, taken_away(views, matches));
-  likely.pose_mm = std::min(likely.pose_mm, off_mm);
-  likely.pose_deg = std::min(likely.pose_deg, off_mm / kArmMm / kDegree);
+  if (!settings.are_poses_rough) {
+    const double off_mm = std::max(kLeastPoseMm, taken_away(views, matches));
+    likely.pose_mm = std::min(likely.pose_mm, off_mm);
+    likely.pose_deg = std::min(likely.pose_deg, off_mm / kArmMm / kDegree);
+  }
   if (matches.empty() || likely.lens == 0.0) return likely;
   const auto equations = equations_of(views, matches, settings.last_reach_mm);
   for (int i = 0; i < kLensRounds; ++i) {
@@ -105,8 +110,10 @@ ExpectedErrors likely_errors(const std::vector<MovingView>& views,
 
 /// A few steps with the last reach. False if cancelled.
 bool settle(std::vector<MovingView>& views, std::size_t stride, const ExpectedErrors& expected,
-            double reach, const GoOn& go_on) {
-  for (int i = 0; i < kLastSteps; ++i) {
+            const RegistrationSettings& settings, const GoOn& go_on) {
+  const double reach = settings.last_reach_mm;
+  const int steps = settings.are_poses_rough ? kLastStepsOfRough : kLastSteps;
+  for (int i = 0; i < steps; ++i) {
     const auto matches = match_views(views, reach, stride);
     if (matches.empty()) return true;
     const double moved_mm = step(views, matches, reach, expected);
@@ -126,7 +133,7 @@ bool solve(std::vector<MovingView>& views, const RegistrationSettings& settings,
   if (!draw_together(views, settings, go_on)) return false;
   for (const std::size_t stride : {kCoarseStride, kCoarseStride, kFineStride}) {
     const auto likely = likely_errors(views, settings);
-    if (!settle(views, stride, likely, settings.last_reach_mm, go_on)) return false;
+    if (!settle(views, stride, likely, settings, go_on)) return false;
   }
   return true;
 }

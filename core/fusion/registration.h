@@ -19,6 +19,9 @@ struct RegistrationSettings {
   std::size_t queries = 4000;   ///< points of a view that look for a match; a quarter at first
   std::size_t targets = 10000;  ///< points of a view that can be matched
   ExpectedErrors expected;      ///< holds what the surfaces leave open
+  /// The given poses are a place to begin and no evidence: the overlaps alone tell where the views
+  /// stand, and what they leave open is as unknown as `expected` says.
+  bool are_poses_rough = false;
   double most_shift_mm = 60.0;  ///< a view that wants to go further does not fit
   double most_turn_deg = 12.0;
   double most_stretch = 0.015;  ///< nor does one that is to grow or shrink by more

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "core/fusion/witness.h"
+#include "core/geometry/rigid_transform.h"
+#include "core/go_on.h"
+#include "core/result.h"
+
+namespace instep {
+
+/// How far cameras may stand from where they are said to: what they show of an object is sought
+/// turned by up to that, and with its middle so far from that of what is known of it already, which
+/// others see from other sides.
+struct RoughPlacing {
+  double most_turn_deg = 40.0;
+  double most_shift_mm = 120.0;
+  double turn_step_deg = 5.0;
+  double shift_step_mm = 12.0;
+  double margin_mm = 12.0;    ///< of Witness::judge(); half of it at the end
+  std::size_t points = 200;   ///< of a view's skin that are asked about
+  std::size_t best_kept = 8;  ///< places that are looked at closer
+  double least_agreement = 0.1;
+};
+
+/// A view that is level on the platform, and the points in the station that it shows of the object.
+struct LevelView {
+  PosedDepth posed;
+  std::vector<Eigen::Vector3d> skin;
+};
+
+/// Turns the views about z and shifts them along the platform until each sees the object where the
+/// others see it: the new station from the given one, for each view. The one that shows most stays;
+/// the others are placed one after the other, first whose place is plainest. A place is good where
+/// the points of one view are confirmed by the other and none is seen through, both ways: of an
+/// object that is not round only one is, and overlaps of a tenth are enough.
+///
+/// A view whose best place less than `least_agreement` of the asked points speak for stays where it
+/// is. Deterministic. Some 0.2 s for a pair of views; `go_on` hears of each pair. Fails with
+/// kCancelled alone.
+Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& views,
+                                                  const RoughPlacing& settings = {},
+                                                  const GoOn& go_on = always);
+
+}  // namespace instep

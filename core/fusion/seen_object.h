@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "core/fusion/working_view.h"
+#include "core/geometry/point_cloud.h"
+
+namespace instep {
+
+/// Where an object that cameras are placed by is looked for, in the station frame.
+struct ObjectSettings {
+  /// Points further from the station's origin, in plan, are background; wide enough for what rough
+  /// poses put elsewhere.
+  double region_radius_mm = 700.0;
+  double least_height_mm = 8.0;  ///< above the platform
+  double most_height_mm = 250.0;
+  double radius_mm = 250.0;  ///< about the middle of what a camera shows of it, in plan
+};
+
+/// Whether a point lies so near to the station's upright axis.
+bool is_within(const Eigen::Vector3d& point, double radius_mm);
+
+/// The pixels, one in nine, by which a level view shows what stands on the platform.
+std::vector<std::uint32_t> object_pixels(const WorkingView& view, const ObjectSettings& settings,
+                                         double platform_height_mm);
+
+/// Their points in the station.
+std::vector<Eigen::Vector3d> object_points(const WorkingView& view, const ObjectSettings& settings,
+                                           double platform_height_mm);
+
+/// By how much the sides of an object hold it from turning about an upright axis, about the one
+/// where they hold least: root mean square of how far their normals pass by it, mm. Of a round
+/// object nothing but the noise of the normals is left: a cylinder of 60 mm gives 0.9, drawn feet
+/// and lasts 25 to 53. Needs normals; 0 where nothing stands upright.
+double turning_lever_mm(const PointCloud& object);
+
+}  // namespace instep
