@@ -1,19 +1,16 @@
 #include "daemon/command_line/record_command.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
-#include "config/settings.h"
 #include "config/settings_file.h"
 #include "daemon/cloud_files/text_tokens.h"
-#include "daemon/command_line/capture_recording.h"
 #include "daemon/command_line/command_output.h"
-#include "daemon/command_line/stop_request.h"
-#include "daemon/station/devices.h"
+#include "daemon/command_line/station_recording.h"
 
 namespace instep {
 namespace {
@@ -50,39 +47,10 @@ RecordingLength length_of(const RecordCommand& command) {
   return length;
 }
 
-/// The light that a scan has; null if there is none, or none to be had.
-std::unique_ptr<OutputLine> light_of(const OutputSettings& outputs) {
-  if (!outputs.projector) return nullptr;
-  auto projector = open_output(*outputs.projector);
-  const auto lit = projector.and_then([](const auto& line) { return line->set(true); });
-  if (lit) return std::move(*projector);
-  fmt::print(stderr, "instep: recorded without the projector: {}\n", lit.error().line());
-  return nullptr;
-}
-
 Result<void> run(const RecordCommand& command) {
   const auto settings = load_settings(command.config);
   if (!settings) return tl::make_unexpected(settings.error());
-  const auto devices = open_devices(*settings);
-  if (!devices) return tl::make_unexpected(devices.error());
-  Recording header;
-  header.platform_height_mm = devices->platform_height_mm;
-  header.simulated = devices->simulated;
-  if (devices->work_out_truth) {
-    auto truth = devices->work_out_truth();
-    if (!truth) return tl::make_unexpected(truth.error());
-    header.truth = std::move(*truth);
-  }
-  const StopRequest stop;  // a killed program would leave the light on
-  const auto light = light_of(settings->outputs);
-  ProgressLine line;
-  const auto turns =
-      settings->capture.one_at_a_time ? CameraTurns::kOneAtATime : CameraTurns::kTogether;
-  const auto recording = capture_recording(devices->cameras, header, length_of(command), turns,
-                                           command.folder, [&](double done) {
-                                             line.show("recording", done);
-                                             return !stop.is_made();
-                                           });
+  const auto recording = record_station(*settings, length_of(command), command.folder);
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},
                      {"simulated", recording->simulated},

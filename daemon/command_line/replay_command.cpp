@@ -9,12 +9,12 @@
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/report/pair_report.h"
+#include "daemon/scan/recorded_capture.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/store/posix_storage.h"
 #include "daemon/store/result_content.h"
 #include "daemon/store/result_store.h"
 #include "drivers/files/file_bytes.h"
-#include "drivers/recording/recording_reader.h"
 
 namespace instep {
 namespace {
@@ -35,21 +35,6 @@ struct ReplayCommand {
   std::string poses = "refine";
   std::string format;
 };
-
-Result<Capture> read_capture(const std::string& folder) {
-  auto recording = read_recording(folder);
-  if (!recording) return tl::make_unexpected(recording.error());
-  auto frames = read_recorded_frames(*recording);
-  if (!frames) return tl::make_unexpected(frames.error());
-  Capture capture;
-  capture.cameras = recording->cameras;
-  capture.frames = std::move(*frames);
-  capture.platform_height_mm = recording->platform_height_mm;
-  capture.simulated = recording->simulated;
-  capture.truth = recording->truth;
-  capture.calibration = "recording";
-  return capture;
-}
 
 /// The object of a result; with its folder if it is to be kept.
 Result<json> result_of(const ScanRecord& record, ResultStore* store) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <future>
 #include <optional>
 #include <utility>
 
@@ -12,55 +11,13 @@
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
 #include "core/fusion/fuse_views.h"
-#include "core/fusion/temporal_fusion.h"
 #include "core/go_on.h"
 #include "core/noticed.h"
+#include "daemon/scan/camera_images.h"
 #include "daemon/scan/stage_clock.h"
 
 namespace instep {
 namespace {
-
-/// The frames of one camera as one depth image. A camera without a good frame fails the scan: a set
-/// that is not whole is never measured as if it were.
-Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& camera,
-                               const GoOn& go_on) {
-  TemporalFusion fusion;
-  for (const auto& frame : capture.frames) {
-    if (frame.camera != camera.geometry.id) continue;
-    // A rejected frame is counted, and the count is part of the result's quality.
-    static_cast<void>(fusion.add(frame));
-    if (!go_on()) return cancelled();
-  }
-  if (fusion.frames_used() == 0) {
-    return fail(ErrorCode::kInsufficientData,
-                "camera " + camera.geometry.id + " gave no usable frame",
-                "check that nothing covers it and that it is plugged in, then scan again");
-  }
-  return fusion.result();
-}
-
-/// Cameras are independent of each other, so each has a thread of its own.
-void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::vector<std::future<void>> running;
-  for (std::size_t job = 0; job < count; ++job) {
-    running.push_back(std::async(std::launch::async, [&work, job] { work(job); }));
-  }
-  for (auto& one : running) one.get();
-}
-
-Result<std::vector<FusedDepth>> fuse_frames_of_each_camera(const Capture& capture,
-                                                           const GoOn& go_on) {
-  std::vector<std::optional<Result<FusedDepth>>> fused(capture.cameras.size());
-  one_thread_each(fused.size(), [&](std::size_t i) {
-    fused[i] = fuse_camera(capture, capture.cameras[i], go_on);
-  });
-  std::vector<FusedDepth> images;
-  for (auto& image : fused) {
-    if (!*image) return tl::make_unexpected(image->error());
-    images.push_back(std::move(**image));
-  }
-  return images;
-}
 
 std::map<std::string, double> frame_quality(const std::vector<FusedDepth>& images) {
   std::map<std::string, double> quality;
@@ -87,15 +44,11 @@ std::vector<std::string> movement_warnings(const std::vector<FusedDepth>& images
 
 Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> images,
                               const PipelineSettings& settings, const GoOn& go_on) {
-  std::vector<View> views;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    views.push_back({capture.cameras[i].geometry, std::move(images[i]), nullptr});
-  }
   FusionSettings fusion;
   fusion.point_spacing_mm = settings.point_spacing_mm;
   fusion.platform_height_mm = capture.platform_height_mm;
   fusion.refine_views = settings.refine_views;
-  return fuse_views(views, fusion, one_thread_each, go_on);
+  return fuse_views(views_of(capture, std::move(images)), fusion, one_thread_each, go_on);
 }
 
 /// The part of the truth that is about one foot: see Capture::truth. It is known by the usual
@@ -182,7 +135,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   const GoOn go_on = [&clock] { return clock.go_on(); };
 
   if (!clock.begin("fuse frames", 0.0)) return cancelled();
-  auto images = fuse_frames_of_each_camera(capture, go_on);
+  auto images = camera_images(capture, go_on);
   if (!images) return tl::make_unexpected(images.error());
   auto quality = frame_quality(*images);
   auto warnings = movement_warnings(*images);

@@ -1,0 +1,51 @@
+#include "daemon/command_line/station_recording.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "daemon/command_line/command_output.h"
+#include "daemon/command_line/stop_request.h"
+#include "daemon/station/devices.h"
+
+namespace instep {
+namespace {
+
+/// The light that a scan has; null if there is none, or none to be had.
+std::unique_ptr<OutputLine> light_of(const OutputSettings& outputs) {
+  if (!outputs.projector) return nullptr;
+  auto projector = open_output(*outputs.projector);
+  const auto lit = projector.and_then([](const auto& line) { return line->set(true); });
+  if (lit) return std::move(*projector);
+  fmt::print(stderr, "instep: recorded without the projector: {}\n", lit.error().line());
+  return nullptr;
+}
+
+}  // namespace
+
+Result<Recording> record_station(const Settings& settings, const RecordingLength& length,
+                                 const std::filesystem::path& folder) {
+  const auto devices = open_devices(settings);
+  if (!devices) return tl::make_unexpected(devices.error());
+  Recording header;
+  header.platform_height_mm = devices->platform_height_mm;
+  header.simulated = devices->simulated;
+  if (devices->work_out_truth) {
+    auto truth = devices->work_out_truth();
+    if (!truth) return tl::make_unexpected(truth.error());
+    header.truth = std::move(*truth);
+  }
+  const StopRequest stop;  // a killed program would leave the light on
+  const auto light = light_of(settings.outputs);
+  ProgressLine line;
+  const auto turns =
+      settings.capture.one_at_a_time ? CameraTurns::kOneAtATime : CameraTurns::kTogether;
+  return capture_recording(devices->cameras, header, length, turns, folder, [&](double done) {
+    line.show("recording", done);
+    return !stop.is_made();
+  });
+}
+
+}  // namespace instep

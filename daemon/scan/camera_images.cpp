@@ -1,0 +1,60 @@
+#include "daemon/scan/camera_images.h"
+
+#include <future>
+#include <optional>
+#include <utility>
+
+namespace instep {
+namespace {
+
+/// The frames of one camera as one depth image. A camera without a good frame fails the scan: a set
+/// that is not whole is never measured as if it were.
+Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& camera,
+                               const GoOn& go_on) {
+  TemporalFusion fusion;
+  for (const auto& frame : capture.frames) {
+    if (frame.camera != camera.geometry.id) continue;
+    // A rejected frame is counted, and the count is part of the result's quality.
+    static_cast<void>(fusion.add(frame));
+    if (!go_on()) return cancelled();
+  }
+  if (fusion.frames_used() == 0) {
+    return fail(ErrorCode::kInsufficientData,
+                "camera " + camera.geometry.id + " gave no usable frame",
+                "check that nothing covers it and that it is plugged in, then scan again");
+  }
+  return fusion.result();
+}
+
+}  // namespace
+
+void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& work) {
+  std::vector<std::future<void>> running;
+  for (std::size_t job = 0; job < count; ++job) {
+    running.push_back(std::async(std::launch::async, [&work, job] { work(job); }));
+  }
+  for (auto& one : running) one.get();
+}
+
+Result<std::vector<FusedDepth>> camera_images(const Capture& capture, const GoOn& go_on) {
+  std::vector<std::optional<Result<FusedDepth>>> fused(capture.cameras.size());
+  one_thread_each(fused.size(), [&](std::size_t i) {
+    fused[i] = fuse_camera(capture, capture.cameras[i], go_on);
+  });
+  std::vector<FusedDepth> images;
+  for (auto& image : fused) {
+    if (!*image) return tl::make_unexpected(image->error());
+    images.push_back(std::move(**image));
+  }
+  return images;
+}
+
+std::vector<View> views_of(const Capture& capture, std::vector<FusedDepth> images) {
+  std::vector<View> views;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    views.push_back({capture.cameras[i].geometry, std::move(images[i]), nullptr});
+  }
+  return views;
+}
+
+}  // namespace instep

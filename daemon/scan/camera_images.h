@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "core/fusion/fuse_views.h"
+#include "core/fusion/temporal_fusion.h"
+#include "core/go_on.h"
+#include "core/result.h"
+#include "daemon/scan/scan_pipeline.h"
+
+namespace instep {
+
+/// core/workers.h with a thread for each job: what concerns one camera is independent of the
+/// others.
+void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& work);
+
+/// The frames of each camera as one depth image, in the order of `capture.cameras`. A camera
+/// without a good frame fails all: a set that is not whole is never used as if it were. Fails with
+/// kInsufficientData then, or kCancelled.
+Result<std::vector<FusedDepth>> camera_images(const Capture& capture, const GoOn& go_on);
+
+/// The views of the cameras of a capture, by the poses that it gives.
+std::vector<View> views_of(const Capture& capture, std::vector<FusedDepth> images);
+
+}  // namespace instep
