@@ -13,7 +13,7 @@ namespace instep {
 /// girth, measure, surface: a cloud in a file, no daemon.
 void add_cloud_commands(CLI::App& app, int& exit_code);
 
-/// replay, simulate, record: recordings, no daemon.
+/// replay, simulate, record, calibrate: recordings and cameras, no daemon.
 void add_recording_commands(CLI::App& app, int& exit_code);
 
 /// scan, status, watch, list, show, export, delete: talk to the daemon.

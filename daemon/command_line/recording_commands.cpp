@@ -1,3 +1,4 @@
+#include "daemon/command_line/calibrate_command.h"
 #include "daemon/command_line/commands.h"
 #include "daemon/command_line/record_command.h"
 #include "daemon/command_line/replay_command.h"
@@ -9,6 +10,7 @@ void add_recording_commands(CLI::App& app, int& exit_code) {
   add_replay_command(app, exit_code);
   add_simulate_command(app, exit_code);
   add_record_command(app, exit_code);
+  add_calibrate_command(app, exit_code);
 }
 
 }  // namespace instep

@@ -8,9 +8,13 @@
 
 namespace instep {
 
-Result<FoundSettings> find_station_settings() {
+Result<std::filesystem::path> find_station_settings_file() {
   const SettingsPlaces places{std::nullopt, running_program_folder(), source_folder()};
-  const auto file = find_settings(places, process_environment);
+  return find_settings(places, process_environment);
+}
+
+Result<FoundSettings> find_station_settings() {
+  const auto file = find_station_settings_file();
   if (!file) return tl::make_unexpected(file.error());
   auto settings = load_settings(*file);
   if (!settings) return tl::make_unexpected(settings.error());

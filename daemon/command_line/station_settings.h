@@ -8,20 +8,24 @@
 
 namespace instep {
 
-/// The settings that the daemon of this machine has, as far as the command line can tell: the same
-/// search, the same environment.
+/// The file of the settings that the daemon of this machine has, as far as the command line can
+/// tell: the same search, the same environment. Fails as find_settings() does.
+Result<std::filesystem::path> find_station_settings_file();
+
+/// The settings that it has.
 struct FoundSettings {
   std::filesystem::path file;
   Settings settings;
 };
 Result<FoundSettings> find_station_settings();
 
-/// What a person or a program is to measure by: the defaults only where there is no file at all. One
-/// that is named or found but unsound fails, as its definitions may be others than the defaults'.
+/// What a person or a program is to measure by: the defaults only where there is no file at all.
+/// One that is named or found but unsound fails, as its definitions may be others than the
+/// defaults'.
 Result<Settings> measuring_settings();
 
-/// For whoever only talks to a daemon: the defaults (and the environment) where there is no sound file: enough to
-/// reach a daemon.
+/// For whoever only talks to a daemon: the defaults (and the environment) where there is no sound
+/// file: enough to reach a daemon.
 Settings station_settings();
 
 }  // namespace instep

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace instep::test {
 namespace {
@@ -30,6 +31,17 @@ BusSensor sensor_of(DepthCamera& camera, int frames) {
   return sensor;
 }
 
+using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+/// As a TOML array, to the last bit.
+std::string list(const std::vector<double>& numbers) {
+  std::ostringstream text;
+  text.precision(17);
+  text << std::showpoint;
+  for (const double number : numbers) text << (text.str().empty() ? "[" : ", ") << number;
+  return text.str() + "]";
+}
+
 }  // namespace
 
 OpenniStation::OpenniStation(OpenniBus& bus, SimulationSettings settings, int frames) : bus_(bus) {
@@ -44,19 +56,32 @@ OpenniStation::OpenniStation(OpenniBus& bus, SimulationSettings settings, int fr
   }
 }
 
+std::string OpenniStation::table_of(std::size_t camera, const std::string& pose) const {
+  return "[[camera]]\nkind = \"openni2\"\nname = \"" + name(camera) + "\"\nserial = \"" +
+         serial(camera) + "\"\nlibrary_folder = \"" + bus_.folder().string() + "\"\n" + pose;
+}
+
 std::string OpenniStation::camera_tables() const {
-  std::ostringstream text;
-  text.precision(17);
-  text << std::showpoint;
+  std::string tables;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    text << "[[camera]]\nkind = \"openni2\"\nname = \"" << geometries_[i].id << "\"\nserial = \""
-         << sensors_[i].serial << "\"\nlibrary_folder = \"" << bus_.folder().string()
-         << "\"\nstation_from_camera = [";
-    const auto& pose = geometries_[i].station_from_camera.matrix();
-    for (int k = 0; k < 16; ++k) text << (k > 0 ? ", " : "") << pose(k / 4, k % 4);
-    text << "]\n";
+    const RowMajor pose = geometries_[i].station_from_camera.matrix();
+    tables += table_of(i, "station_from_camera = " + list({pose.data(), pose.data() + 16}) + "\n");
   }
-  return text.str();
+  return tables;
+}
+
+std::string OpenniStation::camera_tables_by_tape(double off_mm) const {
+  std::string tables;
+  for (std::size_t i = 0; i < sensors_.size(); ++i) {
+    const auto& pose = geometries_[i].station_from_camera;
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    const Eigen::Vector3d off(sign * off_mm, 0.5 * off_mm, -sign * 0.7 * off_mm);
+    const Eigen::Vector3d stands = pose.translation() + off;
+    const Eigen::Vector3d looks = pose * Eigen::Vector3d(0.0, 0.0, 500.0) - off;
+    tables += table_of(i, "stands_at_mm = " + list({stands.data(), stands.data() + 3}) +
+                              "\nlooks_at_mm = " + list({looks.data(), looks.data() + 3}) + "\n");
+  }
+  return tables;
 }
 
 }  // namespace instep::test

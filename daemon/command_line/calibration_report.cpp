@@ -1,0 +1,65 @@
+#include "daemon/command_line/calibration_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "daemon/report/json_number.h"
+
+namespace instep {
+namespace {
+
+Json matrix_json(const RigidTransform& pose) {
+  Json numbers = Json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
+  }
+  return numbers;
+}
+
+}  // namespace
+
+Json to_json(const CalibrationReport& report) {
+  Json cameras = Json::array();
+  for (std::size_t i = 0; i < report.names.size(); ++i) {
+    const auto& found = report.poses.cameras[i];
+    cameras.push_back({{"name", report.names[i]},
+                       {"station_from_camera", matrix_json(found.station_from_camera)},
+                       {"moved_mm", json_number(found.moved_mm)},
+                       {"turned_deg", json_number(found.turned_deg)},
+                       {"u95_mm", json_number(found.known_to_mm)},
+                       {"overlap", json_number(found.overlap)},
+                       {"apart_mm", json_number(found.apart_mm)},
+                       {"sees_platform", found.is_level}});
+  }
+  return {{"cameras", cameras},
+          {"unexplained_mm", json_number(report.poses.unexplained_mm)},
+          {"file", report.file ? Json(report.file->string()) : Json()},
+          {"warnings", report.poses.warnings}};
+}
+
+std::string to_text(const CalibrationReport& report) {
+  std::size_t widest = 6;
+  for (const auto& name : report.names) widest = std::max(widest, name.size());
+  std::string text = fmt::format("{:<{}}  {:>10}  {:>9}  {:>8}  {:>8}  {:>10}\n", "camera", widest,
+                                 "moved", "turned", "within", "shares", "apart");
+  for (std::size_t i = 0; i < report.names.size(); ++i) {
+    const auto& found = report.poses.cameras[i];
+    text += fmt::format("{:<{}}  {:>7.1f} mm  {:>5.1f} deg  {:>5.2f} mm  {:>6.0f} %  {:>7.2f} mm\n",
+                        report.names[i], widest, found.moved_mm, found.turned_deg,
+                        found.known_to_mm, 100.0 * found.overlap, found.apart_mm);
+  }
+  text +=
+      "\nmoved, turned: from where it was said to be. within: where it puts the object, against\n"
+      "the others, 95 %. shares: of what it sees, with others. apart: from them, half of that.\n";
+  for (const auto& warning : report.poses.warnings) text += "warning: " + warning + "\n";
+  text += report.file ? fmt::format(
+                            "\nwritten to {}; instepd takes them when it starts: "
+                            "systemctl restart instepd\n",
+                            report.file->string())
+                      : "\nnothing is written; --out FILE keeps the poses\n";
+  return text;
+}
+
+}  // namespace instep

@@ -1,0 +1,181 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "config/calibration_file.h"
+#include "tests/support/openni_station.h"
+#include "tests/support/run_program.h"
+#include "tests/support/station_process.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep::test {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+RigidTransform pose_of(const json& numbers) {
+  RigidTransform pose = RigidTransform::Identity();
+  for (int i = 0; i < 16; ++i) {
+    pose.matrix()(i / 4, i % 4) = numbers.at(static_cast<std::size_t>(i)).get<double>();
+  }
+  return pose;
+}
+
+/// How far two cameras put a place of a foot apart, mm, by these poses instead of the true ones.
+double apart(const RigidTransform& one, const RigidTransform& true_one, const RigidTransform& other,
+             const RigidTransform& true_other) {
+  double most = 0.0;
+  for (const double x : {-110.0, 110.0}) {
+    for (const double y : {-40.0, 40.0}) {
+      for (const double z : {0.0, 60.0}) {
+        const Eigen::Vector3d place(x, y, z);
+        most = std::max(
+            most, (one * true_one.inverse() * place - other * true_other.inverse() * place).norm());
+      }
+    }
+  }
+  return most;
+}
+
+/// Writes poses into a recording that are far off; returns those that were there.
+std::map<std::string, RigidTransform> spoil_poses(const fs::path& recording) {
+  std::map<std::string, RigidTransform> truth;
+  json content = json::parse(text_of(recording / "recording.json"));
+  double degrees = 15.0;
+  for (auto& camera : content.at("cameras")) {
+    RigidTransform pose = pose_of(camera.at("station_from_camera"));
+    truth[camera.at("id")] = pose;
+    pose.linear() = Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0,
+                                      Eigen::Vector3d(0.3, -0.5, 0.8).normalized())
+                        .toRotationMatrix() *
+                    pose.linear();
+    pose.translation() += Eigen::Vector3d(-4.0, 5.0, 2.0) * degrees;
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = pose.matrix();
+    camera["station_from_camera"] = std::vector<double>(rows.data(), rows.data() + rows.size());
+    degrees = -degrees + 5.0;
+  }
+  std::ofstream(recording / "recording.json") << content.dump();
+  return truth;
+}
+
+TEST(Calibrate, FindsTheCamerasOfARecordingWhosePosesAreFarOff) {
+  const TemporaryFolder folder;
+  const auto visit = folder.path() / "visit";
+  ASSERT_EQ(run_program("instep", {"simulate", "--out", visit, "--subject", "last"}).exit_code, 0);
+  const auto truth = spoil_poses(visit);
+  const auto kept = folder.path() / "poses.toml";
+  const auto run = run_program("instep", {"calibrate", visit, "--out", kept});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_EQ(run.errors, "");
+
+  const json report = json::parse(run.output);
+  EXPECT_EQ(report.at("file"), kept.string());
+  EXPECT_TRUE(report.at("warnings").empty());
+  const auto read = read_calibration(text_of(kept), kept);
+  ASSERT_TRUE(read) << read.error().line();
+  ASSERT_EQ(read->cameras.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& camera = read->cameras[i];
+    const auto& first = read->cameras.front();
+    EXPECT_EQ(report.at("cameras").at(i).at("name"), camera.name);
+    EXPECT_EQ(pose_of(report.at("cameras").at(i).at("station_from_camera")).matrix(),
+              camera.station_from_camera.matrix());
+    EXPECT_LT(apart(camera.station_from_camera, truth.at(camera.name), first.station_from_camera,
+                    truth.at(first.name)),
+              1.0);
+    EXPECT_GT(report.at("cameras").at(i).at("moved_mm").get<double>(), 10.0);
+  }
+}
+
+TEST(Calibrate, RefusesWhatTellsNothingAndKeepsWhatWasThere) {
+  const TemporaryFolder folder;
+  const auto visit = folder.path() / "visit";
+  ASSERT_EQ(run_program("instep", {"simulate", "--out", visit, "--subject", "cylinder"}).exit_code,
+            0);
+  const auto kept = folder.path() / "poses.toml";
+  std::ofstream(kept) << "as before";
+  const auto run = run_program("instep", {"calibrate", visit, "--out", kept});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run.output, "");
+  EXPECT_THAT(run.errors, HasSubstr("too round"));
+  EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1);
+  EXPECT_EQ(text_of(kept), "as before");
+}
+
+TEST(Calibrate, OfASimulatedStationWritesNothing) {
+  const TemporaryFolder folder;
+  const auto settings = folder.path() / "instep.toml";
+  std::ofstream(settings) << StationProcess::small_settings() << "subject = \"last\"\n";
+  const auto run = run_program("instep", {"calibrate", "--config", settings});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_TRUE(json::parse(run.output).at("file").is_null());
+  EXPECT_FALSE(fs::exists(folder.path() / kCalibrationFileName));
+}
+
+TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
+  OpenniBus bus;
+  SimulationSettings settings;
+  settings.seed = 2;
+  const OpenniStation sensors(bus, settings, 18);
+  StationProcess station;
+  station.write_settings(sensors.camera_tables_by_tape(60.0) +
+                         "[station]\nplatform_height_mm = 0\n");
+  const auto calibrated = station.run_instep("calibrate --format text");
+  ASSERT_EQ(calibrated.exit_code, 0) << calibrated.text;
+  const auto kept = station.folder() / kCalibrationFileName;
+  EXPECT_THAT(calibrated.text, HasSubstr("written to " + kept.string()));
+  const auto read = read_calibration(text_of(kept), kept);
+  ASSERT_TRUE(read) << read.error().line();
+  for (std::size_t i = 1; i < sensors.size(); ++i) {
+    EXPECT_LT(apart(read->cameras[i].station_from_camera, sensors.station_from_camera(i),
+                    read->cameras[0].station_from_camera, sensors.station_from_camera(0)),
+              1.0);
+  }
+
+  station.start();
+  const auto ready = station.run_instep("status --wait-ready 60");
+  ASSERT_EQ(ready.exit_code, 0) << ready.text << station.log();
+  ASSERT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
+  const auto exported = station.folder() / "exported";
+  ASSERT_EQ(station.run_instep("export latest --out " + exported.string()).exit_code, 0);
+  json result;
+  for (const auto& entry : fs::recursive_directory_iterator(exported)) {
+    if (entry.path().filename() == "result.json") result = json::parse(text_of(entry.path()));
+  }
+  ASSERT_TRUE(result.is_object());
+  EXPECT_EQ(result.at("calibration"), "instep calibrate, " + read->time);
+  const auto truth = subjects_truth(sensors.scene());
+  ASSERT_TRUE(truth) << truth.error().line();
+  int compared = 0;
+  for (const json& measure : result.at("measures")) {
+    for (const char* id : {"foot_length", "ball_girth", "waist_girth"}) {
+      if (measure.at("id") != id) continue;
+      EXPECT_NEAR(measure.at("value_mm").get<double>(), truth->front().measures.at(id), 1.0) << id;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 3);
+  station.signal(SIGTERM);
+  EXPECT_EQ(station.wait_for_exit(5s), 0);
+}
+
+}  // namespace
+}  // namespace instep::test
