@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "core/fusion/registration.h"
 #include "core/fusion/seen_object.h"
+#include "core/fusion/seen_platform.h"
 #include "core/fusion/seen_through.h"
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
@@ -21,60 +23,35 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr int kStride = 3;                  // every so many pixels, both ways
-constexpr double kBelowMm = 10.0;           // beyond any noise of a platform
+constexpr std::size_t kPlatformShare = 20;  // one in so many of its points is fitted
 constexpr std::size_t kLeastSkin = 100;     // points of an object that is worth placing by
 constexpr std::size_t kAskedPoints = 2000;  // of a view, whether others see through them
 constexpr double kTwoSided = 1.96;          // 95 %
+/// From here on somebody should hear of it; by a tape cameras are placed to some 20 mm. By eye.
+constexpr double kNotableHeightMm = 30.0;
 /// Of exact lenses the fit makes less, see warn_of_wrong_lenses() of pose_check.cpp.
 constexpr double kWorthMendingShare = 3e-3;
 constexpr const char* kObjectAdvice =
-    "stand one thing as large as a foot and not round, such as a last or a shoe, alone in the "
-    "middle of the platform, where every camera sees it from its side";
+    "see that the settings say within 150 mm and 25 degrees where each camera stands, and take "
+    "none "
+    "for another; then stand one thing as large as a foot, such as a last or a shoe and no box and "
+    "nothing round, alone in the "
+    "middle of the platform, where every camera sees its sides";
 
-/// No flat top of an object: what a camera sees beside it lies lower.
-bool is_lowest(const FoundPlatform& platform, const std::vector<Vector3d>& points) {
-  const double reach = 3.0 * platform.scatter_mm + 1.0;
-  std::size_t on_it = 0;
-  std::size_t below = 0;
-  for (const auto& point : points) {
-    const double distance = platform.distance(point);
-    if (distance < -kBelowMm) ++below;
-    if (std::abs(distance) <= reach) ++on_it;
-  }
-  return below < on_it;
-}
-
-std::optional<FoundPlatform> platform_of(const std::vector<const WorkingView*>& views,
-                                         const PoseFinding& settings) {
-  std::vector<Vector3d> points;
-  for (const auto* view : views) {
-    visit_pixels(*view, kStride, [&](std::size_t, const Vector3d& point) {
-      if (is_within(point, settings.platform_radius_mm)) points.push_back(point);
-    });
-  }
-  PlatformSettings search;
-  search.most_tilt_deg = settings.most_tilt_deg;
-  const auto platform = find_platform(points, search);
-  return platform && is_lowest(*platform, points) ? platform : std::nullopt;
-}
-
-/// Level, and at the height that the platform is to have.
-RigidTransform onto_platform(const FoundPlatform& platform, const PoseFinding& settings) {
-  RigidTransform level = platform.level_from_station();
-  level.translation().z() += settings.platform_height_mm - platform.height_mm();
-  return level;
-}
-
-/// All that a view shows near the station, to be fitted to what the others show.
+/// What a view shows near the station, to be fitted to what the others show. Of the platform little
+/// is left: the views are level on it already, and many points of it, whose normals are never quite
+/// upright, would hold the views where they happen to be.
 PosedCloud cloud_of(const WorkingView& view, const PoseFinding& settings) {
   std::vector<std::uint32_t> pixels;
+  std::size_t on_platform = 0;
   visit_pixels(view, 2, [&](std::size_t pixel, const Vector3d& point) {
     const double height = std::abs(point.z() - settings.platform_height_mm);
-    if (height <= settings.object.most_height_mm &&
-        is_within(point, settings.object.region_radius_mm)) {
-      pixels.push_back(static_cast<std::uint32_t>(pixel));
+    if (height > settings.object.most_height_mm ||
+        !is_within(point, settings.object.region_radius_mm)) {
+      return;
     }
+    if (height < settings.object.least_height_mm && ++on_platform % kPlatformShare != 0) return;
+    pixels.push_back(static_cast<std::uint32_t>(pixel));
   });
   return {station_cloud(view, pixels, settings.surface), view.station_from_camera};
 }
@@ -82,6 +59,13 @@ PosedCloud cloud_of(const WorkingView& view, const PoseFinding& settings) {
 tl::unexpected<Error> not_found(const std::string& camera, const std::string& why) {
   return fail(ErrorCode::kInsufficientData,
               "where camera " + camera + " stands cannot be told: " + why, kObjectAdvice);
+}
+
+tl::unexpected<Error> too_round() {
+  return fail(ErrorCode::kInsufficientData,
+              "what stands on the platform is too round: how the cameras stand about it cannot be "
+              "told",
+              "stand a last or a shoe there in its place");
 }
 
 /// The views on their way to their poses.
@@ -102,23 +86,33 @@ class PoseSearch {
     return go_on_() ? Result<void>{} : cancelled();
   }
 
-  void level_each() {
+  Result<void> level_each() {
+    bool is_any_level = false;
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      const auto platform = platform_of({&views_[i]}, settings_);
+      const auto platform = seen_platform({&views_[i]}, settings_.platform, height());
       found_.cameras[i].is_level = platform.has_value();
-      if (platform) move(i, onto_platform(*platform, settings_));
+      if (platform) move(i, onto_platform(*platform, height()));
+      is_any_level = is_any_level || platform.has_value();
+      if (!go_on_()) return cancelled();
     }
+    if (is_any_level) return {};
+    return fail(ErrorCode::kInsufficientData, "no camera sees the platform",
+                "see that the platform is in view round the object, and that the poses in the "
+                "settings are right within 150 mm and 25 degrees");
   }
 
-  Result<void> place_each() {
+  Result<void> place_each(const Workers& workers) {
     std::vector<LevelView> level;
+    double lever_mm = 0.0;
     for (const auto& view : views_) {
-      level.push_back({view.posed(), object_points(view, settings_.object, height())});
+      level.push_back({view.posed(), skin_of(view)});
       if (level.back().skin.size() < kLeastSkin) {
         return not_found(view.id, "it sees nothing that stands on the platform");
       }
+      lever_mm = std::max(lever_mm, turning_lever_mm(level.back().skin));
     }
-    const auto moves = place_roughly(level, settings_.placing, go_on_);
+    if (lever_mm < settings_.least_lever_mm) return too_round();
+    const auto moves = place_roughly(level, settings_.placing, workers, go_on_);
     if (!moves) return tl::make_unexpected(moves.error());
     for (std::size_t i = 0; i < views_.size(); ++i) move(i, (*moves)[i]);
     return {};
@@ -131,6 +125,8 @@ class PoseSearch {
     registering.expected.pose_deg = 30.0;
     std::vector<PosedCloud> clouds;
     for (const auto& view : views_) clouds.push_back(cloud_of(view, settings_));
+    registering.normal_variance =
+        variance_of_level_normals(clouds, height(), settings_.object.least_height_mm);
     const auto registration = register_views(clouds, registering, go_on_);
     if (!registration) return tl::make_unexpected(registration.error());
     for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -138,7 +134,7 @@ class PoseSearch {
       if (view.fit == ViewFit::kDoesNotFit || view.fit == ViewFit::kAlone) {
         return not_found(views_[i].id, "what it sees does not fit what the others see");
       }
-      move(i, view.correction);
+      move(i, view.unstretched_correction);
       views_[i].errors = view.errors;
       found_.cameras[i].overlap = view.overlap;
       found_.cameras[i].apart_mm = view.residual_mm;
@@ -148,17 +144,15 @@ class PoseSearch {
     return {};
   }
 
+  /// Where all together show no plane, each lies as level as it was laid.
   void level_together() {
-    std::vector<const WorkingView*> all;
-    for (const auto& view : views_) all.push_back(&view);
-    const auto platform = platform_of(all, settings_);
-    if (!platform) {
-      found_.warnings.push_back(
-          "no camera sees the platform: its tilt and its height are as the "
-          "given poses say");
-      return;
+    std::vector<const WorkingView*> level;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      if (found_.cameras[i].is_level) level.push_back(&views_[i]);
     }
-    for (std::size_t i = 0; i < views_.size(); ++i) move(i, onto_platform(*platform, settings_));
+    const auto platform = seen_platform(level, settings_.platform, height());
+    if (!platform) return;
+    for (std::size_t i = 0; i < views_.size(); ++i) move(i, onto_platform(*platform, height()));
   }
 
   /// Turn about z and place along the platform are free: no camera tells them.
@@ -181,37 +175,23 @@ class PoseSearch {
     for (std::size_t i = 0; i < views_.size(); ++i) move(i, common);
   }
 
-  Result<void> check_object() const {
-    PointCloud object;
-    for (const auto& view : views_) {
-      object.append(
-          station_cloud(view, object_pixels(view, settings_.object, height()), settings_.surface));
-    }
-    const double lever_mm = turning_lever_mm(object);
-    if (lever_mm >= settings_.least_lever_mm) return {};
-    return fail(
-        ErrorCode::kInsufficientData,
-        "what stands on the platform is too round: how the cameras stand about it cannot be "
-        "told",
-        kObjectAdvice);
-  }
-
   Result<void> check() {
-    const auto unknown_mm = unknown_of_each();
     for (std::size_t i = 0; i < views_.size(); ++i) {
       auto& camera = found_.cameras[i];
-      camera.known_to_mm = unknown_mm[i];
+      warn_of(i);
+      if (views_.size() == 1) continue;
+      camera.known_to_mm = unknown_of(i);
       if (contradicted(i) > settings_.most_contradicted) {
         return not_found(views_[i].id, "other cameras see through what it shows");
       }
-      if (!(camera.known_to_mm <= settings_.most_unknown_mm)) {
+      if (!(*camera.known_to_mm <= settings_.most_unknown_mm)) {
         return not_found(views_[i].id,
-                         "it shares too little of the object with the others, and "
-                         "could stand elsewhere by " +
-                             in_millimetres(camera.known_to_mm));
+                         "it shares too little of the object with the others, and could stand "
+                         "elsewhere by " +
+                             in_millimetres(*camera.known_to_mm));
       }
-      warn_of(i);
     }
+    warn_of_height();
     return {};
   }
 
@@ -228,6 +208,11 @@ class PoseSearch {
 
  private:
   double height() const { return settings_.platform_height_mm; }
+
+  /// What a view shows of the object, with normals.
+  PointCloud skin_of(const WorkingView& view) const {
+    return station_cloud(view, object_pixels(view, settings_.object, height()), settings_.surface);
+  }
 
   void move(std::size_t view, const RigidTransform& new_from_old) {
     views_[view].station_from_camera = new_from_old * views_[view].station_from_camera;
@@ -248,21 +233,25 @@ class PoseSearch {
                : 1.0 - static_cast<double>(kept.size()) / static_cast<double>(asked.cloud.size());
   }
 
-  /// How far each view may put the object from where all together put it, 95 %.
-  std::vector<double> unknown_of_each() const {
-    std::vector<double> unknown(views_.size(), 0.0);
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      const auto skin = object_points(views_[i], settings_.object, height());
-      const std::size_t stride = stride_to_at_most(settings_.placing.points, skin.size());
-      double squares = 0.0;
-      double asked = 0.0;
-      for (std::size_t at = 0; at < skin.size(); at += stride) {
-        squares += variance_at(skin[at], i);
-        asked += 1.0;
-      }
-      unknown[i] = kTwoSided * std::sqrt(squares / std::max(1.0, asked));
+  /// How far a view may put the object from where all together put it, 95 %. What the fit tells of
+  /// its lens is not mended here, and stands aside.
+  double unknown_of(std::size_t view) const {
+    const auto points = object_points(views_[view], settings_.object, height());
+    if (points.empty() || views_[view].errors.empty()) {
+      return std::numeric_limits<double>::infinity();
     }
-    return unknown;
+    Vector3d middle = Vector3d::Zero();
+    for (const auto& point : points) middle += point / static_cast<double>(points.size());
+    const std::size_t stride = stride_to_at_most(settings_.placing.points, points.size());
+    double known = 0.0;
+    double stretched = 0.0;
+    double asked = 0.0;
+    for (std::size_t at = 0; at < points.size(); at += stride) {
+      known += variance_at(points[at], view);
+      stretched += std::pow(found_.cameras[view].stretch, 2) * (points[at] - middle).squaredNorm();
+      asked += 1.0;
+    }
+    return kTwoSided * std::sqrt((known + stretched) / asked);
   }
 
   /// Of where a view puts a place against the mean of all views, which moves with the station.
@@ -298,6 +287,21 @@ class PoseSearch {
     }
   }
 
+  /// A plane that lies elsewhere than the platform was said to, from where all cameras are.
+  void warn_of_height() {
+    double mean_mm = 0.0;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      mean_mm += (views_[i].station_from_camera.translation().z() - given_[i].translation().z()) /
+                 static_cast<double>(views_.size());
+    }
+    if (std::abs(mean_mm) < kNotableHeightMm) return;
+    found_.warnings.push_back(
+        "the cameras stand " + in_millimetres(std::abs(mean_mm)) +
+        (mean_mm > 0.0 ? " higher" : " lower") +
+        " above the platform than they were said to: if they do not, something else that is level "
+        "was taken for it, such as the floor; let nothing but the platform be in view");
+  }
+
   const PoseFinding& settings_;
   const GoOn& go_on_;
   std::vector<WorkingView> views_;
@@ -315,11 +319,10 @@ Result<FoundPoses> find_poses(const std::vector<View>& views, const PoseFinding&
   }
   PoseSearch search(settings, go_on);
   if (auto good = search.open(views, workers); !good) return tl::make_unexpected(good.error());
-  search.level_each();
+  if (auto good = search.level_each(); !good) return tl::make_unexpected(good.error());
   if (views.size() > 1) {
-    if (auto good = search.place_each(); !good) return tl::make_unexpected(good.error());
+    if (auto good = search.place_each(workers); !good) return tl::make_unexpected(good.error());
     if (auto good = search.fit_to_each_other(); !good) return tl::make_unexpected(good.error());
-    if (auto good = search.check_object(); !good) return tl::make_unexpected(good.error());
   }
   search.level_together();
   search.stay_where_they_were();

@@ -134,7 +134,7 @@ void warn_of_wrong_poses(const Registration& registration, const std::vector<Wor
       "by the given poses, camera " + views[*furthest].id + " before others, the same skin lies " +
       in_millimetres(off_mm) + " apart in two views: " +
       (are_refined ? "they were refined; if they should be right, a camera was moved, or its lens "
-                     "or depth is off: calibrate the station"
+                     "or depth is off: calibrate the station (instep calibrate)"
                    : "no interval knows of that; let them be refined (refine_views = true in the "
                      "settings, --poses refine)"));
 }

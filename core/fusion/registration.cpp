@@ -149,7 +149,11 @@ RigidTransform correction_after_stretch(const MovingView& view) {
 /// What the matches and what is known beforehand leave open, as independent errors of all views.
 void tell_errors(const std::vector<MovingView>& views, const std::vector<ViewMatch>& matches,
                  const RegistrationSettings& settings, Registration& registration) {
-  const auto equations = equations_of(views, matches, settings.last_reach_mm);
+  auto equations = equations_of(views, matches, settings.last_reach_mm);
+  if (settings.normal_variance > 0.0) {
+    take_out_noise_of_normals(settings.normal_variance, views, matches, settings.last_reach_mm,
+                              equations);
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
       covariance_of(equations, likely_errors(views, settings), views));
   if (solver.info() != Eigen::Success) return;
@@ -220,6 +224,7 @@ RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
   judged.deeper = view.deeper;
   judged.wider = view.wider;
   judged.correction = correction_after_stretch(view);
+  judged.unstretched_correction = view.pose_correction;
   judged.moved_mm = (view.corrected_centroid() - view.centroid).norm() +
                     kArmMm * Eigen::AngleAxisd(view.pose_correction.linear()).angle();
   const double shared = std::max(judged.overlap, share_of_others_matched(views, at, all));
@@ -286,7 +291,7 @@ Result<Registration> register_views(const std::vector<PosedCloud>& views,
     // One at a time: a bad view spoils its neighbours.
     moving[*worst].taking_part = false;
     auto& out = registration.views[*worst];
-    out.correction = RigidTransform::Identity();
+    out.correction = out.unstretched_correction = RigidTransform::Identity();
     out.deeper = out.wider = out.moved_mm = out.taken_away_mm = 0.0;
   }
   return registration;

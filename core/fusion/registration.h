@@ -22,6 +22,9 @@ struct RegistrationSettings {
   /// The given poses are a place to begin and no evidence: the overlaps alone tell where the views
   /// stand, and what they leave open is as unknown as `expected` says.
   bool are_poses_rough = false;
+  /// Variance of a normal's lean, each way (square radians), that is not to pass for a hold, see
+  /// take_out_noise_of_normals(): for poses of which nothing else is known.
+  double normal_variance = 0.0;
   double most_shift_mm = 60.0;  ///< a view that wants to go further does not fit
   double most_turn_deg = 12.0;
   double most_stretch = 0.015;  ///< nor does one that is to grow or shrink by more
@@ -43,6 +46,9 @@ struct RegisteredView {
   RigidTransform correction = RigidTransform::Identity();
   double deeper = 0.0;
   double wider = 0.0;
+  /// The pose's part of that, about the middle of what the view shows: for who moves it and
+  /// stretches nothing.
+  RigidTransform unstretched_correction = RigidTransform::Identity();
   /// What is left unknown of that: turns, shifts and stretches of what the camera sees, as moved
   /// and stretched, in its frame.
   std::vector<ErrorField> errors;

@@ -3,8 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 
 #include "core/stride.h"
 
@@ -18,29 +20,98 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 /// What is seen through speaks against a place more than what is confirmed speaks for it: a wall
 /// confirms any other wall.
 constexpr double kAgainst = 2.0;
+/// Between normals of the same skin as two views see it, turned by half a step.
+constexpr double kLeastCosine = 0.8;
 /// How often the steps are halved at the best places.
 constexpr int kHalvings = 3;
-constexpr int kMovesAStep = 20;  // at most
+constexpr int kMovesAStep = 6;  // at most
 
-/// Some of a view's points, evenly.
-std::vector<Vector3d> some_of(const std::vector<Vector3d>& skin, std::size_t most) {
+/// A place of the object's surface.
+struct Spot {
+  Vector3d point;
+  Vector3d normal;
+
+  Spot moved(const RigidTransform& move) const { return {move * point, move.linear() * normal}; }
+};
+
+/// Some of a view's, evenly.
+std::vector<Spot> some_of(const PointCloud& skin, std::size_t most) {
   const std::size_t stride = stride_to_at_most(most, skin.size());
-  std::vector<Vector3d> some;
-  for (std::size_t i = 0; i < skin.size(); i += stride) some.push_back(skin[i]);
+  std::vector<Spot> some;
+  for (std::size_t i = 0; i < skin.size(); i += stride) {
+    some.push_back({skin.positions[i], skin.normals[i]});
+  }
   return some;
 }
 
-Vector2d middle_of(const std::vector<Vector3d>& points) {
+Vector2d middle_of(const std::vector<Spot>& spots) {
   Vector2d sum = Vector2d::Zero();
-  for (const auto& point : points) sum += point.head<2>();
-  return sum / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  for (const auto& spot : spots) sum += spot.point.head<2>();
+  return sum / static_cast<double>(std::max<std::size_t>(1, spots.size()));
 }
+
+/// How the surface of what a view shows lies, roughly, wherever it is near.
+class LeanMap {
+ public:
+  LeanMap(const PointCloud& skin, double cell_mm) : cell_mm_(cell_mm) {
+    for (std::size_t i = 0; i < skin.size(); ++i) {
+      const Eigen::Vector3i cell = cell_of(skin.positions[i]);
+      for (int near = 0; near < 27; ++near) {
+        const Eigen::Vector3i step(near % 3 - 1, near / 3 % 3 - 1, near / 9 - 1);
+        leans_.try_emplace(key_of(cell + step), Vector3d::Zero()).first->second += skin.normals[i];
+      }
+    }
+    for (auto& lean : leans_) lean.second.normalize();
+  }
+
+  bool agrees_with(const Spot& spot) const {
+    const auto lean = leans_.find(key_of(cell_of(spot.point)));
+    return lean != leans_.end() && lean->second.dot(spot.normal) >= kLeastCosine;
+  }
+
+ private:
+  Eigen::Vector3i cell_of(const Vector3d& point) const {
+    return (point / cell_mm_).array().floor().cast<int>();
+  }
+  /// Of cells within 2^20 of the origin, which all near a station are.
+  static std::uint64_t key_of(const Eigen::Vector3i& cell) {
+    const auto part = [](int number) { return static_cast<std::uint64_t>(number + (1 << 20)); };
+    return (part(cell.x()) << 42) | (part(cell.y()) << 21) | part(cell.z());
+  }
+
+  double cell_mm_;
+  std::unordered_map<std::uint64_t, Vector3d> leans_;
+};
+
+/// A view that is asked what it thinks of spots of another's skin.
+class SkinWitness {
+ public:
+  SkinWitness(const LevelView& view, double margin_mm)
+      : witness_(view.posed), leans_(view.skin, margin_mm), margin_mm_(margin_mm) {}
+
+  /// `spot`: in the station as this view was given in it.
+  double judge(const Spot& spot) const {
+    if (leans_.agrees_with(spot)) return 1.0;
+    return witness_.judge(spot.point, margin_mm_) == Verdict::kSeesThrough ? -kAgainst : 0.0;
+  }
+
+ private:
+  Witness witness_;
+  LeanMap leans_;
+  double margin_mm_;
+};
+
+/// Each view as a witness with a wide margin and with a narrow one.
+struct Witnesses {
+  std::vector<SkinWitness> wide;
+  std::vector<SkinWitness> narrow;
+};
 
 /// Where a view may stand: turned about the middle of its skin, then shifted.
 struct Place {
   double turn_deg = 0.0;
   Vector2d shift = Vector2d::Zero();
-  double agreement = 0.0;  ///< of the points that were asked about, at most 1
+  double agreement = 0.0;  ///< of the spots that were asked about, at most 1 for each other view
 
   RigidTransform new_from_given(const Vector2d& middle) const {
     const Vector3d centre(middle.x(), middle.y(), 0.0);
@@ -54,34 +125,36 @@ struct Place {
 /// The views that have their place, as they stand now, and one that is sought.
 class PlaceSearch {
  public:
-  PlaceSearch(const std::vector<LevelView>& views, const std::vector<std::size_t>& placed,
-              const std::vector<RigidTransform>& moves, std::size_t sought,
-              const RoughPlacing& settings)
+  PlaceSearch(const std::vector<LevelView>& views, const Witnesses& witnesses,
+              const std::vector<std::size_t>& placed, const std::vector<RigidTransform>& moves,
+              std::size_t sought, const RoughPlacing& settings)
       : settings_(settings),
-        own_witness_(views[sought].posed),
+        witnesses_(witnesses),
+        placed_(placed),
+        sought_(sought),
         own_(some_of(views[sought].skin, settings.points)),
         own_middle_(middle_of(own_)) {
     for (const std::size_t at : placed) {
-      auto posed = views[at].posed;
-      posed.station_from_camera = moves[at] * posed.station_from_camera;
-      witnesses_.emplace_back(posed);
-      for (const auto& point : some_of(views[at].skin, settings.points)) {
-        known_.push_back(moves[at] * point);
+      given_from_new_.push_back(moves[at].inverse());
+      for (const auto& spot : some_of(views[at].skin, settings.points)) {
+        known_.push_back(spot.moved(moves[at]));
       }
     }
     known_middle_ = middle_of(known_);
+    asked_ = static_cast<double>(own_.size()) +
+             static_cast<double>(known_.size()) / static_cast<double>(placed.size());
   }
 
-  /// The best there is.
-  Place best() const {
-    auto places = looked_at_all_over();
+  /// The best there is; any if it is no longer wanted.
+  Place best(const GoOn& go_on) const {
+    auto places = looked_at_all_over(go_on);
     const std::size_t kept = std::min(settings_.best_kept, places.size());
     std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(kept),
                       places.end(),
                       [](const Place& a, const Place& b) { return a.agreement > b.agreement; });
     Place best;
     best.agreement = -kAgainst;
-    for (std::size_t i = 0; i < kept; ++i) {
+    for (std::size_t i = 0; i < kept && go_on(); ++i) {
       const Place near = best_near(places[i]);
       if (near.agreement > best.agreement) best = near;
     }
@@ -91,17 +164,17 @@ class PlaceSearch {
   RigidTransform move_to(const Place& place) const { return place.new_from_given(own_middle_); }
 
  private:
-  std::vector<Place> looked_at_all_over() const {
+  std::vector<Place> looked_at_all_over(const GoOn& go_on) const {
     const int turns = static_cast<int>(settings_.most_turn_deg / settings_.turn_step_deg);
     const int shifts = static_cast<int>(settings_.most_shift_mm / settings_.shift_step_mm);
     std::vector<Place> places;
-    for (int turn = -turns; turn <= turns; ++turn) {
+    for (int turn = -turns; turn <= turns && go_on(); ++turn) {
       for (int along = -shifts; along <= shifts; ++along) {
         for (int across = -shifts; across <= shifts; ++across) {
           const Vector2d aside = settings_.shift_step_mm * Vector2d(along, across);
           places.push_back(
               judged({turn * settings_.turn_step_deg, known_middle_ - own_middle_ + aside, 0.0},
-                     settings_.margin_mm));
+                     witnesses_.wide));
         }
       }
     }
@@ -113,10 +186,9 @@ class PlaceSearch {
     double share = 1.0;
     for (int halving = 0; halving < kHalvings; ++halving) {
       share *= 0.5;
-      const double margin = settings_.margin_mm * std::max(share, 0.5);
-      place = judged(place, margin);
+      place = judged(place, witnesses_.narrow);
       for (int move = 0; move < kMovesAStep; ++move) {
-        const Place next = best_neighbour(place, share, margin);
+        const Place next = best_neighbour(place, share);
         if (!(next.agreement > place.agreement)) break;
         place = next;
       }
@@ -124,7 +196,14 @@ class PlaceSearch {
     return place;
   }
 
-  Place best_neighbour(const Place& place, double share, double margin) const {
+  /// Within the limits, give or take a step.
+  bool is_within_limits(const Place& place) const {
+    const Vector2d aside = place.shift - (known_middle_ - own_middle_);
+    return std::abs(place.turn_deg) <= settings_.most_turn_deg + settings_.turn_step_deg &&
+           aside.cwiseAbs().maxCoeff() <= settings_.most_shift_mm + settings_.shift_step_mm;
+  }
+
+  Place best_neighbour(const Place& place, double share) const {
     Place best = place;
     for (int turn = -1; turn <= 1; ++turn) {
       for (int along = -1; along <= 1; ++along) {
@@ -132,7 +211,8 @@ class PlaceSearch {
           Place next = place;
           next.turn_deg += share * settings_.turn_step_deg * turn;
           next.shift += share * settings_.shift_step_mm * Vector2d(along, across);
-          next = judged(next, margin);
+          if (!is_within_limits(next)) continue;
+          next = judged(next, witnesses_.narrow);
           if (next.agreement > best.agreement) best = next;
         }
       }
@@ -140,31 +220,40 @@ class PlaceSearch {
     return best;
   }
 
-  Place judged(Place place, double margin) const {
+  Place judged(Place place, const std::vector<SkinWitness>& witnesses) const {
     const RigidTransform move = place.new_from_given(own_middle_);
     double sum = 0.0;
-    const auto ask = [&](const Witness& witness, const Vector3d& point) {
-      const Verdict verdict = witness.judge(point, margin);
-      if (verdict == Verdict::kConfirms) sum += 1.0;
-      if (verdict == Verdict::kSeesThrough) sum -= kAgainst;
-    };
-    for (const auto& witness : witnesses_) {
-      for (const auto& point : own_) ask(witness, move * point);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+      const RigidTransform other_from_own = given_from_new_[i] * move;
+      const SkinWitness& other = witnesses[placed_[i]];
+      for (const auto& spot : own_) sum += other.judge(spot.moved(other_from_own));
     }
     const RigidTransform back = move.inverse();
-    for (const auto& point : known_) ask(own_witness_, back * point);
-    place.agreement = sum / static_cast<double>(own_.size() * witnesses_.size() + known_.size());
+    for (const auto& spot : known_) sum += witnesses[sought_].judge(spot.moved(back));
+    place.agreement = sum / asked_;
     return place;
   }
 
   const RoughPlacing& settings_;
-  Witness own_witness_;
-  std::vector<Vector3d> own_;
+  const Witnesses& witnesses_;
+  const std::vector<std::size_t>& placed_;
+  std::size_t sought_;
+  std::vector<Spot> own_;
   Vector2d own_middle_;
-  std::vector<Witness> witnesses_;
-  std::vector<Vector3d> known_;
+  std::vector<RigidTransform> given_from_new_;  ///< of each that is placed
+  std::vector<Spot> known_;
   Vector2d known_middle_ = Vector2d::Zero();
+  double asked_ = 0.0;  ///< spots of a pair of views
 };
+
+Witnesses witnesses_of(const std::vector<LevelView>& views, double margin_mm) {
+  Witnesses witnesses;
+  for (const auto& view : views) {
+    witnesses.wide.emplace_back(view, margin_mm);
+    witnesses.narrow.emplace_back(view, 0.5 * margin_mm);
+  }
+  return witnesses;
+}
 
 std::size_t with_most_skin(const std::vector<LevelView>& views) {
   const auto most = std::max_element(
@@ -176,31 +265,33 @@ std::size_t with_most_skin(const std::vector<LevelView>& views) {
 }  // namespace
 
 Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& views,
-                                                  const RoughPlacing& settings, const GoOn& go_on) {
+                                                  const RoughPlacing& settings,
+                                                  const Workers& workers, const GoOn& go_on) {
   std::vector<RigidTransform> moves(views.size(), RigidTransform::Identity());
   if (views.empty()) return moves;
+  const Witnesses witnesses = witnesses_of(views, settings.margin_mm);
   std::vector<std::size_t> placed = {with_most_skin(views)};
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (i != placed.front() && !views[i].skin.empty()) waiting.push_back(i);
   }
   while (!waiting.empty()) {
-    std::optional<Place> plainest;
-    std::size_t whose = 0;
-    RigidTransform move = RigidTransform::Identity();
-    for (const std::size_t at : waiting) {
-      const PlaceSearch search(views, placed, moves, at, settings);
-      const Place place = search.best();
-      if (!go_on()) return cancelled();
-      if (plainest && place.agreement <= plainest->agreement) continue;
-      plainest = place;
-      whose = at;
-      move = search.move_to(place);
-    }
-    if (plainest->agreement < settings.least_agreement) break;
-    moves[whose] = move;
-    placed.push_back(whose);
-    std::erase(waiting, whose);
+    std::vector<Place> places(waiting.size());
+    std::vector<RigidTransform> ways(waiting.size());
+    workers(waiting.size(), [&](std::size_t i) {
+      const PlaceSearch search(views, witnesses, placed, moves, waiting[i], settings);
+      places[i] = search.best(go_on);
+      ways[i] = search.move_to(places[i]);
+    });
+    if (!go_on()) return cancelled();
+    const auto plainest = static_cast<std::size_t>(
+        std::max_element(places.begin(), places.end(),
+                         [](const Place& a, const Place& b) { return a.agreement < b.agreement; }) -
+        places.begin());
+    if (places[plainest].agreement < settings.least_agreement) break;
+    moves[waiting[plainest]] = ways[plainest];
+    placed.push_back(waiting[plainest]);
+    waiting.erase(waiting.begin() + static_cast<std::ptrdiff_t>(plainest));
   }
   return moves;
 }

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "core/fusion/witness.h"
+#include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"
 #include "core/result.h"
+#include "core/workers.h"
 
 namespace instep {
 
@@ -25,10 +27,10 @@ struct RoughPlacing {
   double least_agreement = 0.1;
 };
 
-/// A view that is level on the platform, and the points in the station that it shows of the object.
+/// A view that is level on the platform, and what it shows of the object.
 struct LevelView {
   PosedDepth posed;
-  std::vector<Eigen::Vector3d> skin;
+  PointCloud skin;  ///< in the station, with normals
 };
 
 /// Turns the views about z and shifts them along the platform until each sees the object where the
@@ -37,11 +39,14 @@ struct LevelView {
 /// the points of one view are confirmed by the other and none is seen through, both ways: of an
 /// object that is not round only one is, and overlaps of a tenth are enough.
 ///
-/// A view whose best place less than `least_agreement` of the asked points speak for stays where it
-/// is. Deterministic. Some 0.2 s for a pair of views; `go_on` hears of each pair. Fails with
-/// kCancelled alone.
+/// A view for whose best place less than `least_agreement` of the asked spots speak stays where it
+/// is. Deterministic. A pair of views takes some 0.3 s; each view is sought anew, among all that
+/// are placed, until it is placed itself, so that the work grows with the cube of their number.
+/// The views that wait are jobs for `workers`; `go_on` hears of each turn. Fails with kCancelled
+/// alone.
 Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& views,
                                                   const RoughPlacing& settings = {},
+                                                  const Workers& workers = one_after_the_other,
                                                   const GoOn& go_on = always);
 
 }  // namespace instep

@@ -1,5 +1,6 @@
 #include "core/fusion/view_equations.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,36 @@ UnknownsVector gradient(const MovingView& view, const Vector3d& point, const Vec
   return row;
 }
 
+double weight_of(const ViewMatch& match, double reach_mm, double shared_variance) {
+  return tukey(match.distance, reach_mm) / (kPointsInOne * (match.variance + shared_variance));
+}
+
+/// How the distance of a match along a direction changes with what is unknown of its two views.
+struct MatchRow {
+  Eigen::Index at;
+  Eigen::Index other_at;
+  UnknownsVector own;
+  UnknownsVector other;
+};
+
+MatchRow row_of(const ViewMatch& match, const Vector3d& direction,
+                const std::vector<MovingView>& views) {
+  // The foot of the point on the other's tangent plane: its nearest sample lies aside, and would
+  // turn all views together, which changes nothing between them.
+  const Vector3d foot = match.point - match.distance * match.normal;
+  return {first_unknown(match.view), first_unknown(match.other),
+          gradient(views[match.view], match.point, direction),
+          -gradient(views[match.other], foot, direction)};
+}
+
+void add_square(const MatchRow& row, double weight, Eigen::MatrixXd& matrix) {
+  const auto& [at, other_at, own, other] = row;
+  matrix.block<kUnknowns, kUnknowns>(at, at) += weight * own * own.transpose();
+  matrix.block<kUnknowns, kUnknowns>(other_at, other_at) += weight * other * other.transpose();
+  matrix.block<kUnknowns, kUnknowns>(at, other_at) += weight * own * other.transpose();
+  matrix.block<kUnknowns, kUnknowns>(other_at, at) += weight * other * own.transpose();
+}
+
 /// What was made of the unknowns by now.
 UnknownsVector found_of(const MovingView& view) {
   const Eigen::AngleAxisd turn(view.pose_correction.linear());
@@ -56,27 +87,34 @@ NormalEquations equations_of(const std::vector<MovingView>& views,
                              const std::vector<ViewMatch>& matches, double reach_mm) {
   const Eigen::Index size = first_unknown(views.size());
   NormalEquations equations{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
-  auto& [matrix, right] = equations;
   const double shared_variance = std::pow(unexplained(matches), 2);
   for (const auto& match : matches) {
-    const double variance = kPointsInOne * (match.variance + shared_variance);
-    const double weight = tukey(match.distance, reach_mm) / variance;
+    const double weight = weight_of(match, reach_mm, shared_variance);
     if (weight == 0.0) continue;
-    const UnknownsVector a = gradient(views[match.view], match.point, match.normal);
-    // The foot of the point on the other's tangent plane: its nearest sample lies aside, and would
-    // turn all views together, which changes nothing between them.
-    const Vector3d foot = match.point - match.distance * match.normal;
-    const UnknownsVector b = -gradient(views[match.other], foot, match.normal);
-    const Eigen::Index at = first_unknown(match.view);
-    const Eigen::Index other = first_unknown(match.other);
-    matrix.block<kUnknowns, kUnknowns>(at, at) += weight * a * a.transpose();
-    matrix.block<kUnknowns, kUnknowns>(other, other) += weight * b * b.transpose();
-    matrix.block<kUnknowns, kUnknowns>(at, other) += weight * a * b.transpose();
-    matrix.block<kUnknowns, kUnknowns>(other, at) += weight * b * a.transpose();
-    right.segment<kUnknowns>(at) -= weight * match.distance * a;
-    right.segment<kUnknowns>(other) -= weight * match.distance * b;
+    const MatchRow row = row_of(match, match.normal, views);
+    add_square(row, weight, equations.matrix);
+    equations.right.segment<kUnknowns>(row.at) -= weight * match.distance * row.own;
+    equations.right.segment<kUnknowns>(row.other_at) -= weight * match.distance * row.other;
   }
   return equations;
+}
+
+void take_out_noise_of_normals(double variance, const std::vector<MovingView>& views,
+                               const std::vector<ViewMatch>& matches, double reach_mm,
+                               NormalEquations& equations) {
+  const double shared_variance = std::pow(unexplained(matches), 2);
+  for (const auto& match : matches) {
+    const double weight = weight_of(match, reach_mm, shared_variance);
+    if (weight == 0.0) continue;
+    const Vector3d along = match.normal.unitOrthogonal();
+    for (const Vector3d& lean : {along, Vector3d(match.normal.cross(along))}) {
+      add_square(row_of(match, lean, views), -variance * weight, equations.matrix);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> told(equations.matrix);
+  if (told.info() != Eigen::Success) return;
+  equations.matrix = told.eigenvectors() * told.eigenvalues().cwiseMax(0.0).asDiagonal() *
+                     told.eigenvectors().transpose();
 }
 
 void add_expected(const ExpectedErrors& expected, const std::vector<MovingView>& views,

@@ -40,6 +40,14 @@ struct NormalEquations {
 NormalEquations equations_of(const std::vector<MovingView>& views,
                              const std::vector<ViewMatch>& matches, double reach_mm);
 
+/// Takes out of the matrix what the noise of normals seems to tell: matches on a level plate say
+/// nothing of where it lies along itself, but of normals that are never quite upright each one
+/// seems to. `variance`: of a normal's lean, each way (square radians). What is left tells nothing
+/// in any direction in which the matches tell no more than that.
+void take_out_noise_of_normals(double variance, const std::vector<MovingView>& views,
+                               const std::vector<ViewMatch>& matches, double reach_mm,
+                               NormalEquations& equations);
+
 /// Adds that the views are off by no more than expected.
 void add_expected(const ExpectedErrors& expected, const std::vector<MovingView>& views,
                   NormalEquations& equations);

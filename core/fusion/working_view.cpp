@@ -23,7 +23,7 @@ Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings)
   if (!is_rigid(geometry.station_from_camera.matrix()) ||
       geometry.station_from_camera.translation().cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
     return fail(ErrorCode::kInvalidInput, "the pose of camera " + geometry.id + " is not sound",
-                "calibrate the station");
+                "correct it, or have it found: instep calibrate");
   }
   WorkingView working{geometry.id, rays, depth, geometry.station_from_camera, {}};
   if (!working.rays) {

@@ -136,12 +136,12 @@ Result<Girth> with_shared_doubt(Girth girth, const TapePlane& plane, const Point
     return fail(ErrorCode::kInsufficientData,
                 "the errors that the points share, as of the cameras that saw them, leave nothing "
                 "to be told of the girth",
-                "calibrate the cameras, or let them see more skin in common");
+                "calibrate the cameras (instep calibrate), or let them see more skin in common");
   }
   if (shared.stretched_u95 > kNotableDoubt * girth.stretched_mm) {
     girth.warnings.emplace_back(
         "the errors that the points share, as of the cameras that saw them, leave the girth "
-        "uncertain: calibrate the cameras, or let them see more skin in common");
+        "uncertain: calibrate the cameras (instep calibrate), or let them see more skin in common");
   }
   return girth;
 }

@@ -66,8 +66,9 @@ std::vector<View> ill_said(std::vector<View> views, double shift_mm, double turn
 }
 
 /// How far each view puts an object's places from where all together put them, root mean square:
-/// the same motion of all is none.
-std::vector<double> apart(const FoundPoses& found, const std::vector<View>& truth) {
+/// the same motion of all is none. `depth_of_first`: what the first one's depths are multiplied by.
+std::vector<double> apart(const FoundPoses& found, const std::vector<View>& truth,
+                          double depth_of_first = 1.0) {
   std::vector<double> squares(truth.size(), 0.0);
   double places = 0.0;
   for (const double x : {-110.0, 110.0}) {
@@ -76,8 +77,9 @@ std::vector<double> apart(const FoundPoses& found, const std::vector<View>& trut
         std::vector<Vector3d> put;
         Vector3d mean = Vector3d::Zero();
         for (std::size_t i = 0; i < truth.size(); ++i) {
+          const Vector3d seen = truth[i].geometry.station_from_camera.inverse() * Vector3d(x, y, z);
           put.push_back(found.cameras[i].station_from_camera *
-                        truth[i].geometry.station_from_camera.inverse() * Vector3d(x, y, z));
+                        ((i == 0 ? depth_of_first : 1.0) * seen));
           mean += put.back() / static_cast<double>(truth.size());
         }
         for (std::size_t i = 0; i < put.size(); ++i) squares[i] += (put[i] - mean).squaredNorm();
@@ -96,11 +98,10 @@ TEST(FindPoses, FindsCamerasThatStandFarFromWhereTheyAreSaidTo) {
     const auto off = apart(*found, good_views());
     for (std::size_t i = 0; i < off.size(); ++i) {
       EXPECT_LT(off[i], 0.5) << "seed " << seed << ", camera " << i;
-      EXPECT_LE(off[i], found->cameras[i].known_to_mm) << "seed " << seed << ", camera " << i;
-      EXPECT_LT(found->cameras[i].known_to_mm, 1.5);
+      EXPECT_LE(off[i], *found->cameras[i].known_to_mm) << "seed " << seed << ", camera " << i;
+      EXPECT_LT(*found->cameras[i].known_to_mm, 1.5);
       EXPECT_TRUE(found->cameras[i].is_level);
     }
-    EXPECT_TRUE(found->warnings.empty());
   }
 }
 
@@ -185,14 +186,71 @@ TEST(FindPoses, LevelsASingleCameraAndMovesItNoFurther) {
   const RigidTransform off = found->cameras[0].station_from_camera * truth.inverse();
   EXPECT_GT(off.linear()(2, 2), std::cos(0.2 * kDegree));
   EXPECT_NEAR((off * Vector3d::Zero()).z(), 0.0, 0.3);
-  EXPECT_EQ(found->cameras[0].known_to_mm, 0.0);
+  EXPECT_FALSE(found->cameras[0].known_to_mm);
 }
 
-TEST(FindPoses, SaysWhereNoCameraSeesThePlatform) {
-  const auto found = find_poses(ill_said(views_of(object(), four_cameras()), 5.0, 0.5, 7));
+TEST(FindPoses, SaysWhichCameraDoesNotSeeThePlatform) {
+  auto views = good_views();
+  // As if it lay beyond this one's reach: what is left is the object.
+  auto& depth = views[1].depth;
+  const Deprojector rays = *Deprojector::create(views[1].geometry.intrinsics);
+  for (std::size_t pixel = 0; pixel < depth.depth_mm.size(); ++pixel) {
+    const Eigen::Vector3f own = rays.ray(pixel) * depth.depth_mm[pixel];
+    if ((views[1].geometry.station_from_camera * own.cast<double>()).z() < 6.0) {
+      depth.depth_mm[pixel] = depth.sigma_mm[pixel] = 0.0F;
+    }
+  }
+  const auto found = find_poses(ill_said(views, 5.0, 0.5, 7));
   ASSERT_TRUE(found) << found.error().line();
-  EXPECT_EQ(found->warnings.size(), 5U);  // of each camera, and of the station
-  for (const auto& camera : found->cameras) EXPECT_FALSE(camera.is_level);
+  ASSERT_EQ(found->warnings.size(), 1U);
+  EXPECT_NE(found->warnings[0].find("camera1 does not see the platform"), std::string::npos)
+      << found->warnings[0];
+  EXPECT_FALSE(found->cameras[1].is_level);
+  for (const double off : apart(*found, good_views())) EXPECT_LT(off, 0.7);
+}
+
+TEST(FindPoses, RefusesWhereNoCameraSeesThePlatform) {
+  const auto found = find_poses(views_of(object(), four_cameras()));
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.error().message.find("no camera sees the platform"), std::string::npos)
+      << found.error().line();
+  EXPECT_FALSE(find_poses({views_of(object(), four_cameras())[0]}));
+}
+
+TEST(FindPoses, TakesThePlatformAndNotTheLargerFloorAboutIt) {
+  auto scene = object();
+  scene.push_back(disc_surface({0, 0, 0}, {0, 0, 1}, 170));
+  scene.push_back(disc_surface({0, 0, -150}, {0, 0, 1}, 900));
+  const auto views = views_of(scene, four_cameras());
+  const auto found = find_poses(ill_said(views, 20.0, 2.0, 9));
+  ASSERT_TRUE(found) << found.error().line();
+  EXPECT_TRUE(found->warnings.empty());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const RigidTransform off =
+        found->cameras[i].station_from_camera * views[i].geometry.station_from_camera.inverse();
+    EXPECT_NEAR((off * Vector3d::Zero()).z(), 0.0, 0.3);
+  }
+}
+
+TEST(FindPoses, SaysThatThePlatformLiesFarFromWhereItWasSaidTo) {
+  auto said = good_views();
+  for (auto& view : said) view.geometry.station_from_camera.translation().z() += 60.0;
+  const auto found = find_poses(said);
+  ASSERT_TRUE(found) << found.error().line();
+  ASSERT_EQ(found->warnings.size(), 1U);
+  EXPECT_NE(found->warnings[0].find("60.0 mm lower"), std::string::npos) << found->warnings[0];
+}
+
+TEST(FindPoses, KnowsThatAWrongDepthLeavesMoreUnknown) {
+  auto views = good_views();
+  for (float& depth : views[0].depth.depth_mm) depth *= 1.01F;
+  const auto found = find_poses(views);
+  ASSERT_TRUE(found) << found.error().line();
+  const auto off = apart(*found, good_views(), 1.01);
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    EXPECT_LE(off[i], *found->cameras[i].known_to_mm) << "camera " << i;
+  }
+  EXPECT_FALSE(found->warnings.empty());
 }
 
 TEST(FindPoses, RefusesPosesThatAreNone) {

@@ -33,7 +33,7 @@ std::vector<WorkingView> views_of_a_foot() {
 }
 
 LevelView level(const WorkingView& view) {
-  return {view.posed(), object_points(view, {}, 0.0)};
+  return {view.posed(), station_cloud(view, object_pixels(view, {}, 0.0), {})};
 }
 
 RigidTransform along_the_platform(double degrees, const Vector3d& shift) {
@@ -68,7 +68,7 @@ TEST(PlaceRoughly, BringsViewsBackThatWereTurnedAndShifted) {
 TEST(PlaceRoughly, LeavesTheOneThatShowsMostWhereItIs) {
   const auto views = views_of_a_foot();
   auto first = level(views[0]);
-  first.skin.resize(first.skin.size() / 2);
+  first.skin = first.skin.subset({0, 1, 2});
   const auto moves = place_roughly({first, level(views[1])});
   ASSERT_TRUE(moves);
   EXPECT_EQ((*moves)[1].matrix(), RigidTransform::Identity().matrix());
@@ -91,7 +91,7 @@ TEST(PlaceRoughly, HasNothingToDoWithoutViewsOrSkin) {
   EXPECT_TRUE(place_roughly({})->empty());
   const auto views = views_of_a_foot();
   auto blind = level(views[1]);
-  blind.skin.clear();
+  blind.skin = PointCloud();
   const auto moves = place_roughly({level(views[0]), blind});
   ASSERT_TRUE(moves);
   EXPECT_EQ((*moves)[1].matrix(), RigidTransform::Identity().matrix());
@@ -99,7 +99,8 @@ TEST(PlaceRoughly, HasNothingToDoWithoutViewsOrSkin) {
 
 TEST(PlaceRoughly, EndsWhereItIsNoLongerWanted) {
   const auto views = views_of_a_foot();
-  const auto moves = place_roughly({level(views[0]), level(views[1])}, {}, [] { return false; });
+  const auto moves = place_roughly({level(views[0]), level(views[1])}, {}, one_after_the_other,
+                                   [] { return false; });
   ASSERT_FALSE(moves);
   EXPECT_EQ(moves.error().code, ErrorCode::kCancelled);
 }
