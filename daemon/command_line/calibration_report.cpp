@@ -18,6 +18,10 @@ Json matrix_json(const RigidTransform& pose) {
   return numbers;
 }
 
+std::string known_text(const std::optional<double>& known_to_mm) {
+  return known_to_mm ? fmt::format("{:.2f} mm", *known_to_mm) : "-";
+}
+
 }  // namespace
 
 Json to_json(const CalibrationReport& report) {
@@ -46,9 +50,9 @@ std::string to_text(const CalibrationReport& report) {
                                  "moved", "turned", "within", "shares", "apart");
   for (std::size_t i = 0; i < report.names.size(); ++i) {
     const auto& found = report.poses.cameras[i];
-    text += fmt::format("{:<{}}  {:>7.1f} mm  {:>5.1f} deg  {:>5.2f} mm  {:>6.0f} %  {:>7.2f} mm\n",
+    text += fmt::format("{:<{}}  {:>7.1f} mm  {:>5.1f} deg  {:>8}  {:>6.0f} %  {:>7.2f} mm\n",
                         report.names[i], widest, found.moved_mm, found.turned_deg,
-                        found.known_to_mm, 100.0 * found.overlap, found.apart_mm);
+                        known_text(found.known_to_mm), 100.0 * found.overlap, found.apart_mm);
   }
   text +=
       "\nmoved, turned: from where it was said to be. within: where it puts the object, against\n"

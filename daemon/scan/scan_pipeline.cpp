@@ -70,8 +70,7 @@ Error of_scan(Error failure) {
   failure.advice =
       "stand with the whole foot flat on the platform, two feet a hand's breadth apart and nothing "
       "else on it, then scan again; where that does not help, check platform_height_mm and "
-      "calibrate "
-      "the cameras";
+      "calibrate the cameras (instep calibrate)";
   return failure;
 }
 
