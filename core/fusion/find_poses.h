@@ -15,7 +15,8 @@
 
 namespace instep {
 
-/// How the cameras of a station are found from rough poses, and when that is believed.
+/// How the cameras of a station are found from rough poses, and when that is believed; the limits
+/// of that are set by eye, and hold for the stations of tests/bench/calibration.
 struct PoseFinding {
   double platform_height_mm = 0.0;  ///< z that the platform is to have in the station frame
   PlatformSearch platform;

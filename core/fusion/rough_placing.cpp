@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 /// What is seen through speaks against a place more than what is confirmed speaks for it: a wall
-/// confirms any other wall.
+/// confirms any other wall. By eye.
 constexpr double kAgainst = 2.0;
 /// Between normals of the same skin as two views see it, turned by half a step.
 constexpr double kLeastCosine = 0.8;

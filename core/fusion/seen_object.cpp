@@ -16,10 +16,6 @@ constexpr int kStride = 3;  // every so many pixels, both ways
 
 }  // namespace
 
-bool is_within(const Vector3d& point, double radius_mm) {
-  return point.head<2>().squaredNorm() <= radius_mm * radius_mm;
-}
-
 std::vector<std::uint32_t> object_pixels(const WorkingView& view, const ObjectSettings& settings,
                                          double platform_height_mm) {
   std::vector<std::uint32_t> pixels;

@@ -19,9 +19,6 @@ struct ObjectSettings {
   double radius_mm = 250.0;  ///< about the middle of what a camera shows of it, in plan
 };
 
-/// Whether a point lies so near to the station's upright axis.
-bool is_within(const Eigen::Vector3d& point, double radius_mm);
-
 /// The pixels, one in nine, by which a level view shows what stands on the platform.
 std::vector<std::uint32_t> object_pixels(const WorkingView& view, const ObjectSettings& settings,
                                          double platform_height_mm);

@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/fusion/seen_object.h"
 #include "core/median.h"
 
 namespace instep {

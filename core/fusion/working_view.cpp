@@ -50,9 +50,13 @@ Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings)
   return working;
 }
 
+bool is_within(const Vector3d& point, double radius_mm) {
+  return point.head<2>().squaredNorm() <= radius_mm * radius_mm;
+}
+
 bool in_region(const Vector3d& point, const FusionSettings& settings) {
   const double height = point.z() - settings.platform_height_mm.value_or(0.0);
-  return point.head<2>().squaredNorm() <= settings.region_radius_mm * settings.region_radius_mm &&
+  return is_within(point, settings.region_radius_mm) &&
          std::abs(height) <= settings.region_height_mm;
 }
 

@@ -46,6 +46,9 @@ void visit_pixels(const WorkingView& view, int stride, const Visit& visit) {
   }
 }
 
+/// Whether a point lies so near to the station's upright axis.
+bool is_within(const Eigen::Vector3d& point, double radius_mm);
+
 /// Whether a point of the station lies near enough to the platform to matter.
 bool in_region(const Eigen::Vector3d& point, const FusionSettings& settings);
 
