@@ -6,6 +6,10 @@ namespace instep {
 
 std::string describe(const AppliedCalibration& calibration) {
   const auto& [file, time, placed, left_out, unknown] = calibration;
+  if (placed.empty() && left_out.empty()) {
+    return fmt::format("poses    simulated and recorded cameras bring their own; {} is not used\n",
+                       file.string());
+  }
   std::string text =
       fmt::format("poses    {} as calibrated at {}, {}\n",
                   placed.empty() ? "no camera" : fmt::format("{}", fmt::join(placed, ", ")), time,

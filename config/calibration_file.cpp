@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "config/pose_matrix.h"
@@ -42,10 +43,18 @@ std::string camera_table(const CalibratedCamera& camera) {
 
 bool is_utc_time(const std::string& text) {
   constexpr std::string_view kForm = "0000-00-00T00:00:00Z";
-  return std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(),
-                    [](char letter, char form) {
-                      return form == '0' ? letter >= '0' && letter <= '9' : letter == form;
-                    });
+  const bool has_form =
+      std::equal(text.begin(), text.end(), kForm.begin(), kForm.end(), [](char letter, char form) {
+        return form == '0' ? letter >= '0' && letter <= '9' : letter == form;
+      });
+  if (!has_form) return false;
+  const auto within = [&](std::size_t place, int least, int most) {
+    const int number = 10 * (text[place] - '0') + (text[place + 1] - '0');
+    return number >= least && number <= most;
+  };
+  // A second of 60 is a leap second.
+  return within(5, 1, 12) && within(8, 1, 31) && within(11, 0, 23) && within(14, 0, 59) &&
+         within(17, 0, 60);
 }
 
 std::string read_time(SettingsTable& root, SettingsFaults& faults) {
@@ -110,7 +119,9 @@ StationCalibration read_all(std::string_view text, const std::string& file,
 }  // namespace
 
 std::filesystem::path calibration_beside(const std::filesystem::path& settings_file) {
-  return std::filesystem::absolute(settings_file).parent_path() / kCalibrationFileName;
+  std::error_code no_folder;  // the one that the program runs in may be gone
+  const auto absolute = std::filesystem::absolute(settings_file, no_folder);
+  return (no_folder ? settings_file : absolute).parent_path() / kCalibrationFileName;
 }
 
 std::string calibration_toml(const StationCalibration& calibration) {

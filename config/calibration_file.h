@@ -28,7 +28,8 @@ struct StationCalibration {
   std::vector<CalibratedCamera> cameras;  ///< 1 to kMostCalibratedCameras, no two of one name
 };
 
-/// Where the calibration of these settings lies, if there is one: an absolute path.
+/// Where the calibration of these settings lies, if there is one: an absolute path, if the
+/// folder that the program runs in is there.
 std::filesystem::path calibration_beside(const std::filesystem::path& settings_file);
 
 /// The text of the file. Read again, every pose is the same to the last bit.

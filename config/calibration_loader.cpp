@@ -22,16 +22,25 @@ bool is_among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+constexpr const char* kStartAnew = "delete it and run instep calibrate again";
+
 Result<std::string> read_text(const std::filesystem::path& file) {
   std::error_code failed;
   const auto kind = std::filesystem::status(file, failed).type();
   using Kind = std::filesystem::file_type;
-  // A pipe would keep its reader waiting.
-  if (kind != Kind::regular && kind != Kind::not_found && kind != Kind::none) {
-    return fail(ErrorCode::kInvalidInput, "the calibration " + file.string() + " is no file",
-                "see what it is");
+  if (kind == Kind::not_found || failed == std::errc::too_many_symbolic_link_levels) {
+    return fail(ErrorCode::kNotFound,
+                "the calibration " + file.string() + " is a link that leads nowhere", kStartAnew);
   }
-  return read_settings_text(file, "calibration file");
+  // A pipe would keep its reader waiting.
+  if (kind != Kind::regular && kind != Kind::none) {
+    return fail(ErrorCode::kInvalidInput, "the calibration " + file.string() + " is no file",
+                std::string("see what it is, or ") + kStartAnew);
+  }
+  return read_settings_text(file, "calibration file").map_error([](Error error) {
+    error.advice += std::string(", or ") + kStartAnew;
+    return error;
+  });
 }
 
 /// Puts the cameras where it has those of the same name.
@@ -62,13 +71,8 @@ Result<Settings> with_calibration_beside(const std::filesystem::path& settings_f
   // A link that leads nowhere is a calibration that got lost, not none.
   const auto entry = std::filesystem::symlink_status(file, failed);
   if (entry.type() == std::filesystem::file_type::not_found) return settings;
-  auto calibration =
-      read_text(file)
-          .map_error([](Error error) {
-            error.advice += ", or delete it and run instep calibrate again";
-            return error;
-          })
-          .and_then([&](const std::string& text) { return read_calibration(text, file); });
+  auto calibration = read_text(file).and_then(
+      [&](const std::string& text) { return read_calibration(text, file); });
   if (!calibration) return tl::make_unexpected(calibration.error());
   apply(*calibration, file, settings);
   return settings;

@@ -299,7 +299,8 @@ Result<Settings> load_uncalibrated_settings(const std::filesystem::path& file) {
   }
   const auto text = read_settings_text(file, "settings file");
   if (!text) return tl::make_unexpected(text.error());
-  SettingsReading reading = read_settings(*text, std::filesystem::absolute(file));
+  const auto absolute = std::filesystem::absolute(file, missing);
+  SettingsReading reading = read_settings(*text, missing ? file : absolute);
   if (reading.good()) return std::move(reading.settings);
   std::string all;
   for (const auto& fault : reading.faults) all += (all.empty() ? "" : "\n") + fault;

@@ -16,6 +16,11 @@ Result<std::string> read_settings_text(const std::filesystem::path& file, const 
   }
   std::string text(kLargestSettingsFile + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  // What came before the failure may look like a whole file.
+  if (stream.bad()) {
+    return fail(ErrorCode::kIo, "the " + what + " " + file.string() + " cannot be read to its end",
+                "check that it is a file, and its disk");
+  }
   text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() <= kLargestSettingsFile) return text;
   return fail(ErrorCode::kInvalidInput, "the " + what + " " + file.string() + " is far too long",

@@ -60,18 +60,17 @@ bool has_tape_measured_pose(const SettingsTable& table) {
 
 std::optional<RigidTransform> read_tape_measured_pose(SettingsTable& table,
                                                       SettingsFaults& faults) {
-  constexpr double kLeastApart_mm = 1.0;
   TapeMeasuredPose measured;
   table.read(kRoll, measured.roll_deg, -360.0, 360.0);
   const auto stands_at = read_place(table, kStandsAt, faults);
   const auto looks_at = read_place(table, kLooksAt, faults);
   if (has_tape_measured_pose(table)) require_both_places(table, faults);
   if (!stands_at || !looks_at) return std::nullopt;
-  if ((*looks_at - *stands_at).norm() < kLeastApart_mm) {
+  if ((*looks_at - *stands_at).norm() < kNearestSight_mm) {
     faults.add(table.line(),
-               fmt::format("{} and {} are one place: the second is what the camera has in the "
-                           "middle of its image",
-                           table.full(kStandsAt), kLooksAt));
+               fmt::format("{} and {} are less than {} mm apart, and the second is what the camera "
+                           "has in the middle of its image: write millimetres",
+                           table.full(kStandsAt), kLooksAt, kNearestSight_mm));
     return std::nullopt;
   }
   measured.stands_at_mm = *stands_at;

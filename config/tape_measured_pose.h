@@ -8,9 +8,13 @@
 
 namespace instep {
 
+/// What a camera looks at is farther away; less is metres in place of millimetres, or one place.
+inline constexpr double kNearestSight_mm = 50.0;
+
 /// Where a camera stands as a person tells it with a tape measure: some centimetres and degrees
 /// off, which is near enough for `instep calibrate` to start from, and too far off to measure by.
-/// Both places are in millimetres in the station frame (z up); they are 1 mm apart at least.
+/// Both places are in millimetres in the station frame (z up); they are kNearestSight_mm apart at
+/// least.
 struct TapeMeasuredPose {
   Eigen::Vector3d stands_at_mm = Eigen::Vector3d::Zero();  ///< the camera's lens
   Eigen::Vector3d looks_at_mm = Eigen::Vector3d::Zero();   ///< anything in the middle of its image
@@ -33,7 +37,8 @@ bool has_tape_measured_pose(const SettingsTable& table);
 ///     roll_deg = 180
 ///
 /// Nothing if there is none, or if it leaves a fault: one place without the other, places nearer
-/// than 1 mm to each other or more than kFarthestCamera_mm away, a roll out of its range.
+/// than kNearestSight_mm to each other or more than kFarthestCamera_mm away, a roll out of its
+/// range.
 std::optional<RigidTransform> read_tape_measured_pose(SettingsTable& table, SettingsFaults& faults);
 
 }  // namespace instep

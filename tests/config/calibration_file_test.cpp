@@ -96,6 +96,19 @@ TEST(CalibrationFile, TellsAllOfItsFaultsAndWhatToDo) {
   EXPECT_THAT(calibration.error().advice, HasSubstr("instep calibrate"));
 }
 
+TEST(CalibrationFile, TakesTheEdgesOfATimeAndNothingBeyond) {
+  const auto takes = [](const std::string& time) {
+    return read("calibrated_at = \"" + time + "\"\n" + camera("left")).has_value();
+  };
+  EXPECT_TRUE(takes("2026-01-01T00:00:00Z"));
+  EXPECT_TRUE(takes("2026-12-31T23:59:60Z"));
+  for (const char* time : {"2026-00-28T02:11:12Z", "2026-13-28T02:11:12Z", "2026-11-00T02:11:12Z",
+                           "2026-11-32T02:11:12Z", "2026-11-28T24:11:12Z", "2026-11-28T02:60:12Z",
+                           "2026-11-28T02:11:61Z", "9999-99-99T99:99:99Z"}) {
+    EXPECT_FALSE(takes(time)) << time;
+  }
+}
+
 struct Fault {
   std::string toml;
   std::string message;  ///< how it begins

@@ -115,7 +115,10 @@ TEST_F(CalibrationBesideSettings, IsNotForSimulatedCameras) {
   const auto settings = load_settings(settings_file());
   ASSERT_TRUE(settings) << settings.error().line();
   EXPECT_THAT(settings->calibration->unknown, ElementsAre("left"));
-  EXPECT_THAT(describe(*settings), HasSubstr("poses    no camera as calibrated"));
+  EXPECT_THAT(describe(*settings),
+              AllOf(HasSubstr("poses    simulated and recorded cameras bring their own; " +
+                              calibration_file().string() + " is not used\n"),
+                    Not(HasSubstr("is called so"))));
 }
 
 TEST_F(CalibrationBesideSettings, FailsTheLoadWhereItIsFaulty) {
@@ -125,14 +128,46 @@ TEST_F(CalibrationBesideSettings, FailsTheLoadWhereItIsFaulty) {
   EXPECT_THAT(load_settings(settings_file()).error().message, HasSubstr("calibration.toml:2: "));
 }
 
+/// Runs the program in a folder that is gone.
+class GoneFolder {
+ public:
+  GoneFolder() : before_(std::filesystem::current_path()) {
+    const test::TemporaryFolder folder;
+    std::filesystem::current_path(folder.path());
+  }
+  ~GoneFolder() { std::filesystem::current_path(before_); }
+  GoneFolder(const GoneFolder&) = delete;
+  GoneFolder& operator=(const GoneFolder&) = delete;
+
+ private:
+  std::filesystem::path before_;
+};
+
+TEST(CalibrationBeside, ThrowsNothingWhereTheProgramsFolderIsGone) {
+  EXPECT_EQ(calibration_beside("/etc/instep/own.toml"), "/etc/instep/calibration.toml");
+  const GoneFolder gone;
+  EXPECT_EQ(calibration_beside("own.toml"), "calibration.toml");
+}
+
+TEST(SettingsText, ThatCannotBeReadToItsEndIsNoShortText) {
+  const test::TemporaryFolder folder;
+  const auto text = read_settings_text(folder.path(), "calibration file");
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, ErrorCode::kIo);
+}
+
 TEST_F(CalibrationBesideSettings, FailsTheLoadWhereItCannotBeRead) {
   write_settings(real_camera("left"));
   write_calibration(std::string(kLargestSettingsFile + 1, '#'));
   fails_with(ErrorCode::kInvalidInput, "check that it is a calibration file");
   std::filesystem::remove(calibration_file());
-  std::filesystem::create_symlink("nowhere", calibration_file());
-  fails_with(ErrorCode::kIo, "let the user of the station read it");
-  std::filesystem::remove(calibration_file());
+  for (const char* lost : {"nowhere", "calibration.toml"}) {
+    std::filesystem::create_symlink(lost, calibration_file());
+    fails_with(ErrorCode::kNotFound, "delete it");
+    EXPECT_THAT(load_settings(settings_file()).error().line(),
+                AllOf(HasSubstr("a link that leads nowhere"), Not(HasSubstr("let the user"))));
+    std::filesystem::remove(calibration_file());
+  }
   std::filesystem::create_directory(calibration_file());
   fails_with(ErrorCode::kInvalidInput, "see what it is");
   std::filesystem::remove(calibration_file());
