@@ -26,13 +26,6 @@ std::string describe(const AppliedCalibration& calibration) {
   return text;
 }
 
-std::string source_of_poses(const AppliedCalibration& calibration) {
-  if (calibration.placed.empty()) return "as the settings say";
-  const std::string text = "instep calibrate, " + calibration.time;
-  if (calibration.left_out.empty()) return text;
-  return fmt::format("{}; {} as the settings say", text, fmt::join(calibration.left_out, ", "));
-}
-
 std::string what_is_lacking(const AppliedCalibration& calibration) {
   if (calibration.left_out.empty()) return "";
   return fmt::format("{} does not hold {}", calibration.file.string(),

@@ -21,10 +21,6 @@ struct AppliedCalibration {
 /// The lines of `instepd --check` say it so.
 std::string describe(const AppliedCalibration& calibration);
 
-/// Where the real cameras' poses come from, as results say it: "instep calibrate, <its time>", and
-/// which cameras it left out.
-std::string source_of_poses(const AppliedCalibration& calibration);
-
 /// Which real cameras the calibration lacks, as a sentence that names its file; empty if none.
 std::string what_is_lacking(const AppliedCalibration& calibration);
 

@@ -29,7 +29,7 @@ void add_devices_command(CLI::App& app, int& exit_code) {
   command->callback([format, &exit_code] {
     constexpr std::chrono::seconds kOpenniLimit{10};
     const Settings settings = station_settings();
-    if (const auto found = find_station_settings(); !found) {
+    if (const auto found = find_uncalibrated_station_settings(); !found) {
       fmt::print(stderr, "instep: nothing is known to be configured: {}\n", found.error().line());
     }
     const auto openni =

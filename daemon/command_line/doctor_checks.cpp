@@ -210,7 +210,7 @@ std::optional<DoctorCheck> check_calibration(const Settings& settings) {
 
 std::vector<DoctorCheck> examine_machine() {
   const auto found = find_station_settings();
-  const Settings settings = station_settings();
+  const Settings settings = found ? found->settings : station_settings();
   const auto status = ask_status(settings.control.socket);
   std::vector<DoctorCheck> checks;
   checks.push_back(library_versions());
@@ -221,7 +221,9 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(check_daemon(status, settings.control.socket));
   if (found) checks.push_back(check_cameras(status, settings));
   check_video_cameras(settings, checks);
-  if (auto calibration = check_calibration(settings)) checks.push_back(std::move(*calibration));
+  // Of a faulty calibration check_settings() tells.
+  auto calibration = found ? check_calibration(settings) : std::nullopt;
+  if (calibration) checks.push_back(std::move(*calibration));
   check_usb_memory(checks);
   check_pedal(status.has_value(), settings, checks);
   check_outputs(status, settings, checks);

@@ -1,12 +1,27 @@
 #include "daemon/command_line/station_settings.h"
 
 #include <optional>
+#include <utility>
 
 #include "config/settings_file.h"
 #include "config/settings_search.h"
 #include "daemon/build_facts.h"
 
 namespace instep {
+namespace {
+
+using Loader = Result<Settings> (*)(const std::filesystem::path&);
+
+Result<FoundSettings> found_by(Loader load) {
+  const auto file = find_station_settings_file();
+  if (!file) return tl::make_unexpected(file.error());
+  auto settings = load(*file);
+  if (!settings) return tl::make_unexpected(settings.error());
+  override_paths(*settings, process_environment);
+  return FoundSettings{*file, std::move(*settings)};
+}
+
+}  // namespace
 
 Result<std::filesystem::path> find_station_settings_file() {
   const SettingsPlaces places{std::nullopt, running_program_folder(), source_folder()};
@@ -14,16 +29,15 @@ Result<std::filesystem::path> find_station_settings_file() {
 }
 
 Result<FoundSettings> find_station_settings() {
-  const auto file = find_station_settings_file();
-  if (!file) return tl::make_unexpected(file.error());
-  auto settings = load_settings(*file);
-  if (!settings) return tl::make_unexpected(settings.error());
-  override_paths(*settings, process_environment);
-  return FoundSettings{*file, std::move(*settings)};
+  return found_by(load_settings);
+}
+
+Result<FoundSettings> find_uncalibrated_station_settings() {
+  return found_by(load_uncalibrated_settings);
 }
 
 Result<Settings> measuring_settings() {
-  auto found = find_station_settings();
+  auto found = find_uncalibrated_station_settings();
   if (found) return std::move(found->settings);
   const bool is_named = process_environment("INSTEP_CONFIG").has_value();
   if (is_named || found.error().code != ErrorCode::kNotFound) {
@@ -33,7 +47,7 @@ Result<Settings> measuring_settings() {
 }
 
 Settings station_settings() {
-  if (auto found = find_station_settings()) return std::move(found->settings);
+  if (auto found = find_uncalibrated_station_settings()) return std::move(found->settings);
   Settings settings;
   override_paths(settings, process_environment);
   return settings;

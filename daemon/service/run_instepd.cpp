@@ -16,6 +16,7 @@
 
 #include "config/settings_file.h"
 #include "config/settings_search.h"
+#include "config/source_of_poses.h"
 #include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/scan/scan_pipeline.h"
@@ -63,6 +64,8 @@ int check(const std::filesystem::path& file, const Settings& settings) {
 
 /// A camera in another frame than the others makes measures wrong, and a scan cannot always tell.
 void warn_of_what_is_not_calibrated(const Settings& settings) {
+  const std::string by_tape = warning_of_tape_measure(settings);
+  if (!by_tape.empty()) log_warning(by_tape);
   if (!settings.calibration) return;
   const std::string lacking = what_is_lacking(*settings.calibration);
   if (!lacking.empty()) log_warning(lacking + ": run instep calibrate, then restart");

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/settings_search.h"
+#include "config/source_of_poses.h"
 #include "daemon/machine/inventory.h"
 #include "drivers/evdev/evdev_pedal.h"
 #include "drivers/gpio/gpio_output.h"
@@ -154,10 +155,6 @@ Result<void> add_v4l2(const V4l2Settings& chosen, Devices& devices) {
   if (!camera) return tl::make_unexpected(camera.error());
   devices.cameras.push_back(std::move(*camera));
   return {};
-}
-
-std::string source_of_poses(const Settings& settings) {
-  return settings.calibration ? source_of_poses(*settings.calibration) : "as the settings say";
 }
 
 /// Frames are told apart by their camera's name.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/source_of_poses.h"
+
 namespace instep {
 namespace {
 
@@ -299,9 +301,15 @@ void Station::remark_missing_light() {
   }
 }
 
+void Station::remark_tape_measure() {
+  const auto warning = warning_of_tape_measure(settings_);
+  if (!warning.empty()) remarks_->note(warning);
+}
+
 void Station::start_scan() {
   remarks_ = std::make_shared<CaptureRemarks>();
   remark_missing_light();
+  remark_tape_measure();
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
   check_timer_.clear();
   stage_ = "capture";

@@ -101,6 +101,8 @@ class Station {
   void start_scan();
   /// A projector that is away fails no scan, but its frames are the poorer for it.
   void remark_missing_light();
+  /// Nor does a camera that only a tape measure placed, whatever comes of its poses.
+  void remark_tape_measure();
   void scan_ended(const ScanOutcome& outcome);
   ScanTools tools() const;
   std::optional<Error> first_trouble() const;

@@ -71,6 +71,11 @@ TEST_F(ChosenRules, OfUnsoundSettingsAreNotPassedOver) {
   }
 }
 
+TEST_F(ChosenRules, NeedNoCalibration) {
+  std::ofstream(folder_.path() / "calibration.toml") << "faulty";
+  EXPECT_EQ(result_of("[measures]\naxis = \"brannock\"\n")["axis"], "brannock");
+}
+
 TEST_F(ChosenRules, ThatThereAreNoneOfAreRefused) {
   EXPECT_EQ(measure("", {"--axis", "pt_toe3"}).exit_code, 2);
   EXPECT_EQ(measure("", {"--ball-girth", "Upright"}).exit_code, 2);

@@ -93,8 +93,12 @@ TEST(Devices, SayWhereTheirPosesComeFrom) {
   settings.calibration->placed = {"left"};
   settings.calibration->left_out = {"right"};
   EXPECT_EQ(said(), "instep calibrate, 2026-11-28T02:11:12Z; right as the settings say");
+  settings.cameras[1].placement()->is_rough = true;
+  EXPECT_EQ(said(), "instep calibrate, 2026-11-28T02:11:12Z; right by tape measure");
   settings.calibration->placed.clear();
-  EXPECT_EQ(said(), "as the settings say");
+  EXPECT_EQ(said(), "as the settings say; right by tape measure");
+  settings.cameras[0].placement()->is_rough = true;
+  EXPECT_EQ(said(), "by tape measure");
 }
 
 }  // namespace
