@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <functional>
-#include <optional>
 #include <utility>
 
 #include "core/foot/align_feet.h"
