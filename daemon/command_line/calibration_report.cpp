@@ -22,6 +22,24 @@ std::string known_text(const std::optional<double>& known_to_mm) {
   return known_to_mm ? fmt::format("{:.2f} mm", *known_to_mm) : "-";
 }
 
+std::string next_step(const CalibrationReport& report) {
+  const std::string file = report.file ? report.file->string() : "";
+  switch (report.use) {
+    case PosesUse::kPrinted:
+      return "nothing is written; --out FILE keeps the poses";
+    case PosesUse::kNeedless:
+      return "nothing is written: simulated and recorded cameras bring their own poses";
+    case PosesUse::kOfStation:
+      return fmt::format(
+          "written to {}; instepd takes them when it starts: systemctl restart instepd", file);
+    case PosesUse::kInFile:
+      return fmt::format("written to {}", file);
+    case PosesUse::kNotWritten:
+      return "nothing is written";
+  }
+  return "";
+}
+
 }  // namespace
 
 Json to_json(const CalibrationReport& report) {
@@ -58,11 +76,7 @@ std::string to_text(const CalibrationReport& report) {
       "\nmoved, turned: from where it was said to be. within: where it puts the object, against\n"
       "the others, 95 %. shares: of what it sees, with others. apart: from them, half of that.\n";
   for (const auto& warning : report.poses.warnings) text += "warning: " + warning + "\n";
-  text += report.file ? fmt::format(
-                            "\nwritten to {}; instepd takes them when it starts: "
-                            "systemctl restart instepd\n",
-                            report.file->string())
-                      : "\nnothing is written; --out FILE keeps the poses\n";
+  text += fmt::format("\n{}\n", next_step(report));
   return text;
 }
 

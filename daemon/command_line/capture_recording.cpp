@@ -72,8 +72,7 @@ using Cameras = std::vector<std::unique_ptr<DepthCamera>>;
 
 Result<void> tell(const RecordingProgress& progress, double done) {
   if (progress(done)) return {};
-  return fail(ErrorCode::kCancelled, "the recording was stopped, nothing of it is kept",
-              "record again when you are ready");
+  return tl::make_unexpected(recording_stopped());
 }
 
 /// All stream at once and give a frame each in turn, until the first has enough.
@@ -111,6 +110,11 @@ Result<void> record_in_turns(const Cameras& cameras, RecordingWriter& writer,
 }
 
 }  // namespace
+
+Error recording_stopped() {
+  return {ErrorCode::kCancelled, usual_remedy(ErrorCode::kCancelled),
+          "the recording was stopped, nothing of it is kept", "record again when you are ready"};
+}
 
 Result<Recording> capture_recording(const std::vector<std::unique_ptr<DepthCamera>>& cameras,
                                     Recording header, const RecordingLength& length,

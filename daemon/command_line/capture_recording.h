@@ -26,6 +26,9 @@ enum class CameraTurns { kTogether, kOneAtATime };
 /// wanted.
 using RecordingProgress = std::function<bool(double done)>;
 
+/// The kCancelled of a recording that is no longer wanted.
+Error recording_stopped();
+
 /// Takes good frames from all cameras and writes them as a recording, whole or not at all. Together
 /// they stream at once and end with the first that has enough; one at a time each streams alone for
 /// the whole length. `header` gives platform, truth and notes; its cameras are those given. Each

@@ -11,6 +11,7 @@
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/station_recording.h"
+#include "daemon/command_line/stop_request.h"
 
 namespace instep {
 namespace {
@@ -50,7 +51,8 @@ RecordingLength length_of(const RecordCommand& command) {
 Result<void> run(const RecordCommand& command) {
   const auto settings = load_settings(command.config);
   if (!settings) return tl::make_unexpected(settings.error());
-  const auto recording = record_station(*settings, length_of(command), command.folder);
+  const StopRequest stop;  // a killed program would leave the light on
+  const auto recording = record_station(*settings, length_of(command), command.folder, stop);
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},
                      {"simulated", recording->simulated},

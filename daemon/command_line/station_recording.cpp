@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "daemon/command_line/command_output.h"
-#include "daemon/command_line/stop_request.h"
 #include "daemon/station/devices.h"
 
 namespace instep {
@@ -26,7 +25,7 @@ std::unique_ptr<OutputLine> light_of(const OutputSettings& outputs) {
 }  // namespace
 
 Result<Recording> record_station(const Settings& settings, const RecordingLength& length,
-                                 const std::filesystem::path& folder) {
+                                 const std::filesystem::path& folder, const StopRequest& stop) {
   const auto devices = open_devices(settings);
   if (!devices) return tl::make_unexpected(devices.error());
   Recording header;
@@ -37,7 +36,7 @@ Result<Recording> record_station(const Settings& settings, const RecordingLength
     if (!truth) return tl::make_unexpected(truth.error());
     header.truth = std::move(*truth);
   }
-  const StopRequest stop;  // a killed program would leave the light on
+  if (stop.is_made()) return tl::make_unexpected(recording_stopped());
   const auto light = light_of(settings.outputs);
   ProgressLine line;
   const auto turns =

@@ -5,15 +5,17 @@
 #include "config/settings.h"
 #include "core/result.h"
 #include "daemon/command_line/capture_recording.h"
+#include "daemon/command_line/stop_request.h"
 #include "drivers/recording/recording.h"
 
 namespace instep {
 
 /// Opens the cameras of a station and records what they see, as capture_recording() does: with the
 /// projector lit if there is one, in turns where the settings say so, and with the truth about what
-/// stands on a simulated platform. Shows how far it is, and ends at the first Ctrl-C. The daemon
-/// must not run: a camera has one reader. Fails as open_devices() and capture_recording() do.
+/// stands on a simulated platform. Shows how far it is, and fails with kCancelled once `stop` is
+/// made. The daemon must not run: a camera has one reader. Fails as open_devices() and
+/// capture_recording() do.
 Result<Recording> record_station(const Settings& settings, const RecordingLength& length,
-                                 const std::filesystem::path& folder);
+                                 const std::filesystem::path& folder, const StopRequest& stop);
 
 }  // namespace instep

@@ -1,8 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,9 +14,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "config/calibration_file.h"
+#include "tests/support/background_program.h"
 #include "tests/support/openni_station.h"
 #include "tests/support/run_program.h"
 #include "tests/support/station_process.h"
@@ -23,6 +29,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -111,13 +118,84 @@ TEST(Calibrate, RefusesWhatTellsNothingAndKeepsWhatWasThere) {
   ASSERT_EQ(run_program("instep", {"simulate", "--out", visit, "--subject", "cylinder"}).exit_code,
             0);
   const auto kept = folder.path() / "poses.toml";
-  std::ofstream(kept) << "as before";
+  const std::string before =
+      calibration_toml({"2026-11-28T02:11:12Z", {{"left", RigidTransform::Identity()}}});
+  std::ofstream(kept) << before;
   const auto run = run_program("instep", {"calibrate", visit, "--out", kept});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_EQ(run.output, "");
   EXPECT_THAT(run.errors, HasSubstr("too round"));
   EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1);
-  EXPECT_EQ(text_of(kept), "as before");
+  EXPECT_EQ(text_of(kept), before);
+}
+
+TEST(Calibrate, ReplacesNoFileOfSomethingElseAndSaysSoAtOnce) {
+  const TemporaryFolder folder;
+  const auto refuses = [&](const fs::path& out, const std::string& why) {
+    // There is no such recording, which nobody has looked for yet.
+    const auto run = run_program("instep", {"calibrate", folder.path() / "none", "--out", out});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.errors, AllOf(HasSubstr(why), HasSubstr("choose another --out"))) << out;
+  };
+  const auto other = folder.path() / "instep.toml";
+  std::ofstream(other) << "[[camera]]\nkind = \"simulated\"\n";
+  refuses(other, "holds something else than a calibration");
+  refuses(folder.path(), "is no regular file");
+  refuses("/dev/null", "is no regular file");
+  const auto link = folder.path() / "link";
+  fs::create_symlink(other, link);
+  refuses(link, "is no regular file");
+  refuses(folder.path() / "missing/poses.toml", "is no folder");
+  refuses(other / "poses.toml", "is no folder");
+  EXPECT_THAT(text_of(other), HasSubstr("simulated"));
+  EXPECT_EQ(run_program("instep", {"calibrate", folder.path() / "none", "--out", ""}).exit_code, 2);
+}
+
+TEST(Calibrate, LosesNoPosesThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  const auto visit = folder.path() / "visit";
+  ASSERT_EQ(run_program("instep", {"simulate", "--out", visit, "--subject", "last"}).exit_code, 0);
+  // A name that the file's own temporary one is too long for.
+  const auto run =
+      run_program("instep", {"calibrate", visit, "--out", folder.path() / std::string(252, 'p')});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+  const json report = json::parse(run.output);
+  EXPECT_TRUE(report.at("file").is_null());
+  EXPECT_EQ(report.at("cameras").size(), 4U);
+}
+
+TEST(Calibrate, StoppedSaysSoInOneLineAndLeavesNothingBehind) {
+  const TemporaryFolder folder;
+  const auto temporary = folder.path() / "temporary";
+  fs::create_directory(temporary);
+  const auto settings = folder.path() / "instep.toml";
+  std::ofstream(settings) << StationProcess::small_settings() << "subject = \"last\"\n";
+  ::setenv("TMPDIR", temporary.c_str(), 1);
+  BackgroundProgram calibration("instep", {"calibrate", "--config", settings},
+                                folder.path() / "errors");
+  ::unsetenv("TMPDIR");
+  for (int i = 0; i < 2000 && fs::is_empty(temporary); ++i) std::this_thread::sleep_for(1ms);
+  ASSERT_FALSE(fs::is_empty(temporary)) << calibration.errors();
+  calibration.signal(SIGINT);
+  const int status = calibration.wait_for_end();
+  ASSERT_TRUE(WIFEXITED(status)) << status;
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(calibration.errors(),
+            "instep: the calibration was stopped, nothing was written: calibrate again when you "
+            "are ready\n");
+  EXPECT_TRUE(fs::is_empty(temporary));
+}
+
+TEST(Calibrate, RefusesRealCamerasBesideSimulatedOnes) {
+  const TemporaryFolder folder;
+  const auto settings = folder.path() / "instep.toml";
+  std::ofstream(settings) << "[[camera]]\nkind = \"simulated\"\n"
+                             "[[camera]]\nkind = \"openni2\"\nname = \"left\"\n"
+                             "stands_at_mm = [500, 0, 60]\nlooks_at_mm = [0, 0, 60]\n";
+  const auto run = run_program("instep", {"calibrate", "--config", settings});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.errors, HasSubstr("calibrate the real ones alone"));
 }
 
 TEST(Calibrate, OfASimulatedStationWritesNothing) {
