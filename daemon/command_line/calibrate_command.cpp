@@ -35,13 +35,15 @@ namespace fs = std::filesystem;
 constexpr std::size_t kFrames = 30;  // a camera, of a station that is calibrated itself
 
 constexpr const char* kHelp =
-    R"(How: stand one thing as large as a foot and not round, such as a last or a shoe, alone in the
-middle of the platform, stop the daemon, and run this. Every camera has to see the thing from its
-side and the platform round it; four cameras round it do. A camera of two that face each other alone
-usually cannot be told: add a third between. Take no box or other block with flat faces. Nothing else
-level near the platform's height, such as the floor beside a small platform, and no wall or leg within
-half a metre, may be in view; nobody may touch the thing while this runs. The settings have to say roughly where each stands, within some 15 cm and 25 degrees: a tape will do
-(stands_at_mm and looks_at_mm in config/instep.toml). Nothing about the thing need be known.
+    R"(How: stand one thing as large as a foot, neither round nor a block with flat faces such as a box,
+alone in the middle of the platform: a last or a shoe. Stop the daemon, and run this; nobody may
+touch the thing while it runs. Every camera has to see the thing from its side and the platform
+round it; four cameras round it do. A camera of two that face each other alone usually cannot be
+told: add a third between. Nothing else that is level near the platform's height, such as the floor
+beside a small platform, and no wall or leg within half a metre may be in view.
+
+The settings have to say roughly where each camera stands, within some 15 cm and 25 degrees: a tape
+will do (stands_at_mm and looks_at_mm in config/instep.toml). Nothing about the thing need be known.
 
 The poses go to calibration.toml beside the settings, which have them from there. Of a RECORDING
 (instep record) they are printed alone, unless --out names a file. Poses that the cameras leave
@@ -102,6 +104,13 @@ std::optional<CalibrationTarget> target_of(const std::string& out,
   return CalibrationTarget{out, is_same};
 }
 
+/// Before cameras are opened and minutes spent.
+Result<void> check_target(Subject& subject) {
+  if (!subject.target) return {};
+  if (!subject.target->is_of_station) subject.use = PosesUse::kInFile;
+  return check_calibration_target(*subject.target);
+}
+
 Result<Subject> look_at_station(const CalibrateCommand& command, const StopRequest& stop) {
   const auto file =
       command.config.empty() ? find_station_settings_file() : Result<fs::path>(command.config);
@@ -116,12 +125,7 @@ Result<Subject> look_at_station(const CalibrateCommand& command, const StopReque
   if (*real) of_station = calibration_beside(*file);
   subject.target = target_of(command.out, of_station);
   subject.use = *real ? PosesUse::kOfStation : PosesUse::kNeedless;
-  if (subject.target) {
-    if (auto good = check_calibration_target(*subject.target); !good) {
-      return tl::make_unexpected(good.error());
-    }
-    if (!subject.target->is_of_station) subject.use = PosesUse::kInFile;
-  }
+  if (auto good = check_target(subject); !good) return tl::make_unexpected(good.error());
   const auto scratch = ScratchFolder::make();
   if (!scratch) return tl::make_unexpected(scratch.error());
   const auto folder = scratch->path() / "recording";
@@ -136,12 +140,7 @@ Result<Subject> look_at_station(const CalibrateCommand& command, const StopReque
 Result<Subject> look_at_recording(const CalibrateCommand& command) {
   Subject subject;
   subject.target = target_of(command.out, std::nullopt);
-  if (subject.target) {
-    subject.use = PosesUse::kInFile;
-    if (auto good = check_calibration_target(*subject.target); !good) {
-      return tl::make_unexpected(good.error());
-    }
-  }
+  if (auto good = check_target(subject); !good) return tl::make_unexpected(good.error());
   auto capture = read_capture(command.recording);
   if (!capture) return tl::make_unexpected(capture.error());
   subject.capture = std::move(*capture);

@@ -208,6 +208,16 @@ TEST(Calibrate, OfASimulatedStationWritesNothing) {
   EXPECT_FALSE(fs::exists(folder.path() / kCalibrationFileName));
 }
 
+/// Null if there is none.
+json latest_result_of(const StationProcess& station) {
+  const auto exported = station.folder() / "exported";
+  EXPECT_EQ(station.run_instep("export latest --out " + exported.string()).exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(exported)) {
+    if (entry.path().filename() == "result.json") return json::parse(text_of(entry.path()));
+  }
+  return nullptr;
+}
+
 TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
   OpenniBus bus;
   SimulationSettings settings;
@@ -232,12 +242,7 @@ TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
   const auto ready = station.run_instep("status --wait-ready 60");
   ASSERT_EQ(ready.exit_code, 0) << ready.text << station.log();
   ASSERT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
-  const auto exported = station.folder() / "exported";
-  ASSERT_EQ(station.run_instep("export latest --out " + exported.string()).exit_code, 0);
-  json result;
-  for (const auto& entry : fs::recursive_directory_iterator(exported)) {
-    if (entry.path().filename() == "result.json") result = json::parse(text_of(entry.path()));
-  }
+  const json result = latest_result_of(station);
   ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result.at("calibration"), "instep calibrate, " + read->time);
   const auto truth = subjects_truth(sensors.scene());
@@ -251,6 +256,28 @@ TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
     }
   }
   EXPECT_EQ(compared, 3);
+  station.signal(SIGTERM);
+  EXPECT_EQ(station.wait_for_exit(5s), 0);
+}
+
+TEST(Calibrate, IsWhatAStationAsksForWhoseSensorsATapePlaced) {
+  OpenniBus bus;
+  SimulationSettings settings;
+  settings.seed = 2;
+  const OpenniStation sensors(bus, settings, 18);
+  StationProcess station;
+  station.write_settings(sensors.camera_tables_by_tape(1.0) +
+                         "[station]\nplatform_height_mm = 0\n");
+  station.start();
+  const auto ready = station.run_instep("status --wait-ready 60");
+  ASSERT_EQ(ready.exit_code, 0) << ready.text << station.log();
+  EXPECT_THAT(station.log(), AllOf(HasSubstr("placed by tape measure alone"),
+                                   HasSubstr(sensors.name(0)), HasSubstr("instep calibrate")));
+  ASSERT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
+  const json result = latest_result_of(station);
+  ASSERT_TRUE(result.is_object());
+  EXPECT_EQ(result.at("calibration"), "by tape measure");
+  EXPECT_THAT(result.at("warnings").dump(), HasSubstr("placed by tape measure alone"));
   station.signal(SIGTERM);
   EXPECT_EQ(station.wait_for_exit(5s), 0);
 }
