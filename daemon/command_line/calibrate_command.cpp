@@ -104,7 +104,7 @@ std::optional<CalibrationTarget> target_of(const std::string& out,
   return CalibrationTarget{out, is_same};
 }
 
-/// Before cameras are opened and minutes spent.
+/// Before cameras are opened and seconds spent.
 Result<void> check_target(Subject& subject) {
   if (!subject.target) return {};
   if (!subject.target->is_of_station) subject.use = PosesUse::kInFile;
