@@ -33,10 +33,8 @@ constexpr double kNotableHeightMm = 30.0;
 constexpr double kWorthMendingShare = 3e-3;
 constexpr const char* kObjectAdvice =
     "see that the settings say within 150 mm and 25 degrees where each camera stands, and take "
-    "none "
-    "for another; then stand one thing as large as a foot, such as a last or a shoe and no box and "
-    "nothing round, alone in the "
-    "middle of the platform, where every camera sees its sides";
+    "none for another; then stand one thing as large as a foot, such as a last or a shoe and no "
+    "box and nothing round, alone in the middle of the platform, where every camera sees its sides";
 
 /// What a view shows near the station, to be fitted to what the others show. Of the platform little
 /// is left: the views are level on it already, and many points of it, whose normals are never quite

@@ -208,8 +208,12 @@ TEST(Calibrate, OfASimulatedStationWritesNothing) {
   EXPECT_FALSE(fs::exists(folder.path() / kCalibrationFileName));
 }
 
-/// Null if there is none.
-json latest_result_of(const StationProcess& station) {
+/// Starts it and scans once; null if nothing came of that.
+json result_of_a_scan(StationProcess& station) {
+  station.start();
+  const auto ready = station.run_instep("status --wait-ready 60");
+  EXPECT_EQ(ready.exit_code, 0) << ready.text << station.log();
+  EXPECT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
   const auto exported = station.folder() / "exported";
   EXPECT_EQ(station.run_instep("export latest --out " + exported.string()).exit_code, 0);
   for (const auto& entry : fs::recursive_directory_iterator(exported)) {
@@ -238,11 +242,7 @@ TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
               1.0);
   }
 
-  station.start();
-  const auto ready = station.run_instep("status --wait-ready 60");
-  ASSERT_EQ(ready.exit_code, 0) << ready.text << station.log();
-  ASSERT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
-  const json result = latest_result_of(station);
+  const json result = result_of_a_scan(station);
   ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result.at("calibration"), "instep calibrate, " + read->time);
   const auto truth = subjects_truth(sensors.scene());
@@ -268,14 +268,10 @@ TEST(Calibrate, IsWhatAStationAsksForWhoseSensorsATapePlaced) {
   StationProcess station;
   station.write_settings(sensors.camera_tables_by_tape(1.0) +
                          "[station]\nplatform_height_mm = 0\n");
-  station.start();
-  const auto ready = station.run_instep("status --wait-ready 60");
-  ASSERT_EQ(ready.exit_code, 0) << ready.text << station.log();
+  const json result = result_of_a_scan(station);
+  ASSERT_TRUE(result.is_object());
   EXPECT_THAT(station.log(), AllOf(HasSubstr("placed by tape measure alone"),
                                    HasSubstr(sensors.name(0)), HasSubstr("instep calibrate")));
-  ASSERT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
-  const json result = latest_result_of(station);
-  ASSERT_TRUE(result.is_object());
   EXPECT_EQ(result.at("calibration"), "by tape measure");
   EXPECT_THAT(result.at("warnings").dump(), HasSubstr("placed by tape measure alone"));
   station.signal(SIGTERM);

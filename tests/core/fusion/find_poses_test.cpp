@@ -263,11 +263,16 @@ TEST(FindPoses, RefusesPosesThatAreNone) {
 }
 
 TEST(FindPoses, EndsWhereItIsNoLongerWanted) {
-  int asked = 0;
-  const auto found = find_poses(good_views(), {}, one_after_the_other, [&] { return ++asked < 4; });
-  ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
-  EXPECT_LE(asked, 5);
+  int pieces = 0;
+  ASSERT_TRUE(find_poses(good_views(), {}, one_after_the_other, [&] { return ++pieces > 0; }));
+  for (const int wanted : {0, 2, 5, 30, pieces - 5, pieces - 1}) {
+    int asked = 0;
+    const auto found =
+        find_poses(good_views(), {}, one_after_the_other, [&] { return ++asked <= wanted; });
+    ASSERT_FALSE(found) << wanted << " of " << pieces;
+    EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
+    EXPECT_LE(asked, wanted + 5);
+  }
 }
 
 TEST(FindPoses, GivesTheSameBytesAgain) {
