@@ -277,6 +277,12 @@ class PoseSearch {
                                 " does not see the platform: its tilt and height are by "
                                 "what it shares with the others");
     }
+    if (views_[view].depth.moved) {
+      found_.warnings.push_back("what " + name + " sees moved by " +
+                                in_millimetres(views_[view].depth.movement_mm) +
+                                " while it was read: calibrate again, and let nobody touch the "
+                                "object or the station");
+    }
     if (camera.stretch > kWorthMendingShare) {
       char share[32];
       std::snprintf(share, sizeof share, "%.1f %%", 100.0 * camera.stretch);

@@ -241,6 +241,17 @@ TEST(FindPoses, SaysThatThePlatformLiesFarFromWhereItWasSaidTo) {
   EXPECT_NE(found->warnings[0].find("60.0 mm lower"), std::string::npos) << found->warnings[0];
 }
 
+TEST(FindPoses, SaysThatTheObjectMovedBeforeACamera) {
+  auto views = good_views();
+  views[3].depth.moved = true;
+  views[3].depth.movement_mm = 6.4;
+  const auto found = find_poses(views);
+  ASSERT_TRUE(found) << found.error().line();
+  ASSERT_EQ(found->warnings.size(), 1U);
+  EXPECT_NE(found->warnings[0].find("what camera camera3 sees moved by 6.4 mm"), std::string::npos)
+      << found->warnings[0];
+}
+
 TEST(FindPoses, KnowsThatAWrongDepthLeavesMoreUnknown) {
   auto views = good_views();
   for (float& depth : views[0].depth.depth_mm) depth *= 1.01F;
