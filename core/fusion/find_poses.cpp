@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "core/fusion/seen_through.h"
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
+#include "core/in_percent.h"
 #include "core/stride.h"
 
 namespace instep {
@@ -29,8 +29,6 @@ constexpr std::size_t kAskedPoints = 2000;  // of a view, whether others see thr
 constexpr double kTwoSided = 1.96;          // 95 %
 /// From here on somebody should hear of it; by a tape cameras are placed to some 20 mm. By eye.
 constexpr double kNotableHeightMm = 30.0;
-/// Of exact lenses the fit makes less, see warn_of_wrong_lenses() of pose_check.cpp.
-constexpr double kWorthMendingShare = 3e-3;
 constexpr const char* kObjectAdvice =
     "see that the settings say within 150 mm and 25 degrees where each camera stands, and take "
     "none for another; then stand one thing as large as a foot, such as a last or a shoe and no "
@@ -283,10 +281,9 @@ class PoseSearch {
                                 " while it was read: calibrate again, and let nobody touch the "
                                 "object or the station");
     }
-    if (camera.stretch > kWorthMendingShare) {
-      char share[32];
-      std::snprintf(share, sizeof share, "%.1f %%", 100.0 * camera.stretch);
-      found_.warnings.push_back("what " + name + " sees comes out wrong by " + share +
+    if (camera.stretch > kNotableStretch) {
+      found_.warnings.push_back("what " + name + " sees comes out wrong by " +
+                                in_percent(camera.stretch) +
                                 " of its size: calibrate its lens and its depth");
     }
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "core/fusion/lens.h"
 #include "core/fusion/registration.h"
 #include "core/in_millimetres.h"
+#include "core/in_percent.h"
 
 namespace instep {
 namespace {
@@ -27,8 +27,6 @@ constexpr double kDisagreementMm = 0.1;
 constexpr double kWorthSayingMm = 0.5;
 /// From here on somebody should hear that the poses had to be refined.
 constexpr double kWorthMendingMm = 0.5;
-/// Of exact lenses the fit makes at most 0.07 % more or less, by poses that are off by 2 mm.
-constexpr double kWorthMendingShare = 3e-3;
 /// Poses are judged by one of so many of the points that refine them.
 constexpr std::size_t kPartToJudgeBy = 4;
 
@@ -152,11 +150,9 @@ void warn_of_wrong_lenses(const Registration& registration, const std::vector<Wo
     worst = i;
   }
   scene.diagnostics.lenses_off = off;
-  if (off < kWorthMendingShare) return;
-  char share[32];
-  std::snprintf(share, sizeof share, "%.1f %%", 100.0 * off);
+  if (off < kNotableStretch) return;
   scene.warnings.push_back("what camera " + views[worst].id + " sees seems to come out wrong by " +
-                           share +
+                           in_percent(off) +
                            " of its size: it was corrected as far as the other cameras tell; "
                            "calibrate its lens and its depth");
 }

@@ -21,10 +21,12 @@ struct RoughPlacing {
   double most_shift_mm = 120.0;
   double turn_step_deg = 5.0;
   double shift_step_mm = 12.0;
-  double margin_mm = 12.0;    ///< of Witness::judge(); half of it at the end
-  std::size_t points = 200;   ///< of a view's skin that are asked about
-  std::size_t best_kept = 8;  ///< places that are looked at closer
-  double least_agreement = 0.1;
+  /// How near a spot must lie to the other view's skin to agree with it, about, and how far before
+  /// what that sees to contradict it; half of it at the end.
+  double margin_mm = 12.0;
+  std::size_t points = 200;      ///< of a view's skin that are asked about
+  std::size_t best_kept = 8;     ///< places that are looked at closer
+  double least_agreement = 0.1;  ///< of the asked points; set by eye, as all of these
 };
 
 /// A view that is level on the platform, and what it shows of the object.
@@ -36,8 +38,8 @@ struct LevelView {
 /// Turns the views about z and shifts them along the platform until each sees the object where the
 /// others see it: the new station from the given one, for each view. The one that shows most stays;
 /// the others are placed one after the other, first whose place is plainest. A place is good where
-/// the points of one view are confirmed by the other and none is seen through, both ways: of an
-/// object that is not round only one is, and overlaps of a tenth are enough.
+/// the points of one view lie on the skin that the other shows, inclined as it is, and none is seen
+/// through, both ways. Cameras face to face share too little for that.
 ///
 /// A view for whose best place less than `least_agreement` of the asked spots speak stays where it
 /// is. Deterministic. A pair of views takes some 0.3 s; each view is sought anew, among all that

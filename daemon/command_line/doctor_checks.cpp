@@ -161,9 +161,9 @@ void check_outputs(const Result<json>& status, const Settings& settings,
   }
 }
 
-/// Of real cameras that no calibration placed; a single one has none to fit with.
+/// Of real cameras that no calibration placed; a single one that stands as the settings say has
+/// none to fit with.
 std::optional<DoctorCheck> check_uncalibrated(const std::vector<CameraPlacement>& cameras) {
-  if (cameras.size() < 2) return std::nullopt;
   std::vector<std::string> rough;
   for (const auto& camera : cameras) {
     if (camera.is_rough) rough.push_back(camera.name);
@@ -173,6 +173,7 @@ std::optional<DoctorCheck> check_uncalibrated(const std::vector<CameraPlacement>
                fmt::format("none, and placed by tape measure alone: {}", fmt::join(rough, ", ")),
                kCalibrate);
   }
+  if (cameras.size() < 2) return std::nullopt;
   return good("calibration", fmt::format("none: {} cameras stand as the settings say; {} finds "
                                          "out where they do",
                                          cameras.size(), kCalibrate));

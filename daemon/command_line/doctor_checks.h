@@ -17,9 +17,9 @@ struct DoctorCheck {
 };
 
 /// Whether the real cameras stand where a calibration found them. Bad for those that it left out,
-/// and for several of which one is placed by tape measure; several that stand as the settings say
-/// may do so rightly, which is good, with a word. Nothing where there is nothing to calibrate: no
-/// real camera, or a single one and no calibration.
+/// and for those placed by tape measure alone; several that stand as the settings say may do so
+/// rightly, which is good, with a word. Nothing where there is nothing to calibrate: no real
+/// camera, or a single one that stands as the settings say.
 std::optional<DoctorCheck> check_calibration(const Settings& settings);
 
 /// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes

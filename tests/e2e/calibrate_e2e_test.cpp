@@ -222,14 +222,26 @@ json result_of_a_scan(StationProcess& station) {
   return nullptr;
 }
 
-TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
+/// A station of sensors whose places are known by a tape measure alone.
+struct TapedStation {
+  explicit TapedStation(double off_mm) : sensors(bus, subject(), 18) {
+    station.write_settings(sensors.camera_tables_by_tape(off_mm) +
+                           "[station]\nplatform_height_mm = 0\n");
+  }
+  static SimulationSettings subject() {
+    SimulationSettings settings;
+    settings.seed = 2;
+    return settings;
+  }
+
   OpenniBus bus;
-  SimulationSettings settings;
-  settings.seed = 2;
-  const OpenniStation sensors(bus, settings, 18);
+  OpenniStation sensors;
   StationProcess station;
-  station.write_settings(sensors.camera_tables_by_tape(60.0) +
-                         "[station]\nplatform_height_mm = 0\n");
+};
+
+TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
+  TapedStation taped(60.0);
+  auto& [bus, sensors, station] = taped;
   const auto calibrated = station.run_instep("calibrate --format text");
   ASSERT_EQ(calibrated.exit_code, 0) << calibrated.text;
   const auto kept = station.folder() / kCalibrationFileName;
@@ -261,13 +273,8 @@ TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
 }
 
 TEST(Calibrate, IsWhatAStationAsksForWhoseSensorsATapePlaced) {
-  OpenniBus bus;
-  SimulationSettings settings;
-  settings.seed = 2;
-  const OpenniStation sensors(bus, settings, 18);
-  StationProcess station;
-  station.write_settings(sensors.camera_tables_by_tape(1.0) +
-                         "[station]\nplatform_height_mm = 0\n");
+  TapedStation taped(1.0);
+  auto& [bus, sensors, station] = taped;
   const json result = result_of_a_scan(station);
   ASSERT_TRUE(result.is_object());
   EXPECT_THAT(station.log(), AllOf(HasSubstr("placed by tape measure alone"),

@@ -9,11 +9,10 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <thread>
 #include <utility>
 
-#include "tests/support/places.h"
+#include "tests/support/start_program.h"
 
 namespace instep::test {
 
@@ -21,20 +20,11 @@ BackgroundProgram::BackgroundProgram(const std::string& name,
                                      const std::vector<std::string>& arguments,
                                      std::filesystem::path errors)
     : errors_(std::move(errors)) {
-  std::vector<std::string> words = arguments;
-  words.insert(words.begin(), name);
-  std::vector<char*> pointers;
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors_.c_str(), O_WRONLY | O_CREAT,
                                    0600);
-  const auto program = built_programs() / name;
-  const int failure =
-      posix_spawn(&process_, program.c_str(), &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw std::runtime_error("cannot start " + program.string());
+  process_ = start_program(name, arguments, actions);
 }
 
 BackgroundProgram::~BackgroundProgram() {

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "tests/support/places.h"
+#include "tests/support/start_program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep::test {
@@ -57,19 +57,12 @@ class PseudoTerminal {
 ProgramRun run_program(const std::string& name, const std::vector<std::string>& arguments,
                        Stdout to) {
   const TemporaryFolder folder;
-  const std::string program = built_programs() / name;
   std::optional<PseudoTerminal> terminal;
   if (to == Stdout::kTerminal) terminal.emplace();
   const std::string output = terminal                  ? terminal->other_end()
                              : to == Stdout::kFullDisk ? "/dev/full"
                                                        : (folder.path() / "output").string();
   const std::string errors = folder.path() / "errors";
-  std::vector<std::string> words = arguments;
-  words.insert(words.begin(), name);
-  std::vector<char*> pointers;
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -78,11 +71,7 @@ ProgramRun run_program(const std::string& name, const std::vector<std::string>& 
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT,
                                    0600);
   if (to == Stdout::kClosed) posix_spawn_file_actions_addclose(&actions, STDOUT_FILENO);
-  pid_t child = 0;
-  const int failure =
-      posix_spawn(&child, program.c_str(), &actions, nullptr, pointers.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw std::runtime_error("cannot start " + program);
+  const pid_t child = start_program(name, arguments, actions);
   const std::string shown = terminal ? terminal->read_all() : "";
   int status = 0;
   waitpid(child, &status, 0);

@@ -34,7 +34,7 @@ TEST(CalibrationCheck, IsNotMadeWhereThereIsNothingToCalibrate) {
   settings.calibration = calibration_of({}, {});
   EXPECT_FALSE(check_calibration(settings));
   settings.calibration.reset();
-  settings.cameras = {camera("left", true)};
+  settings.cameras = {camera("left", false)};
   EXPECT_FALSE(check_calibration(settings)) << "one camera alone";
 }
 
@@ -55,6 +55,10 @@ TEST(CalibrationCheck, IsBadWhereATapeMeasureIsAllThatThereIs) {
   EXPECT_FALSE(check->good);
   EXPECT_THAT(check->finding, HasSubstr("by tape measure alone: right"));
   EXPECT_EQ(check->remedy, "instep calibrate");
+  settings.cameras = {camera("only", true)};  // its tilt and its height are found
+  const auto alone = check_calibration(settings);
+  ASSERT_TRUE(alone);
+  EXPECT_FALSE(alone->good);
 }
 
 TEST(CalibrationCheck, IsBadForCamerasThatTheCalibrationLeftOut) {
