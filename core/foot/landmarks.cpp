@@ -103,11 +103,15 @@ void mark(FootScan& foot) {
 }
 
 Result<FootScan> find_landmarks(FootScan foot) {
+  return find_landmarks_by(one_after_the_other, std::move(foot));
+}
+
+Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot) {
   if (!foot.landmarks.contains("pternion") || !foot.landmarks.contains("acropodion")) {
     return fail(ErrorCode::kInvalidInput, "the foot has not been aligned", "align it first");
   }
   mark(foot);
-  foot.redraws = redraw_landmarks(foot);
+  foot.redraws = redraw_landmarks(foot, workers);
   set_radii(foot);
   if (foot.rules != MeasuringRules{}) {
     foot.warnings.push_back("measured by definitions of one's own choice: " + in_words(foot.rules));

@@ -2,6 +2,7 @@
 
 #include "core/foot/foot_scan.h"
 #include "core/result.h"
+#include "core/workers.h"
 
 namespace instep {
 
@@ -51,6 +52,9 @@ namespace instep {
 /// need it are then withheld. Fails with kInvalidInput if `foot` lacks the landmarks of
 /// align_foot(). O(n), most of it for the redraws; tests/bench/feet prints the time.
 Result<FootScan> find_landmarks(FootScan foot);
+
+/// The same, of which `workers` do the redraws; with any of them the landmarks are the same.
+Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot);
 
 /// The rules alone, without redraws and radii.
 void mark(FootScan& foot);

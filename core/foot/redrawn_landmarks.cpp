@@ -65,6 +65,20 @@ bool is_guessed_wall(const PointCloud& cloud, std::size_t index) {
          cloud.positions[index].z() > WallSettings{}.usual_edge_mm;
 }
 
+/// Of the points, those that a redraw is made on.
+std::vector<std::size_t> points_of(const PointCloud& cloud,
+                                   const std::vector<std::uint64_t>& hashes, const Parting& parting,
+                                   std::size_t redraw) {
+  const std::size_t bits = 8 * (redraw / parting.parts);
+  const std::size_t part = redraw % parting.parts;
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < hashes.size(); ++i) {
+    const bool is_of_part = (hashes[i] >> bits) % parting.parts == part;
+    if (is_of_part != parting.is_part_left_out && !is_guessed_wall(cloud, i)) taken.push_back(i);
+  }
+  return taken;
+}
+
 Parting parting_of(std::size_t points) {
   if (points < 2 * kPointsOfPart) return kOfFewPoints;
   return {std::min(points / kPointsOfPart, kMostParts), false};
@@ -87,24 +101,19 @@ double variance_share(const Parting& parting) {
 
 }  // namespace
 
-Redraws redraw_landmarks(const FootScan& foot) {
+Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
   Redraws redraws;
   redraws.parting = parting_of(foot.cloud.size());
-  const auto [parts, is_part_left_out] = redraws.parting;
+  const std::size_t parts = redraws.parting.parts;
   const std::size_t partings = (kRedraws + parts / 2) / parts;
   std::vector<std::uint64_t> hashes;
   hashes.reserve(foot.cloud.size());
   for (const auto& point : foot.cloud.positions) hashes.push_back(hash_of(point));
-  for (std::size_t parting = 0; parting < partings; ++parting) {
-    for (std::size_t part = 0; part < parts; ++part) {
-      std::vector<std::size_t> taken;
-      for (std::size_t i = 0; i < hashes.size(); ++i) {
-        const bool is_of_part = (hashes[i] >> (8 * parting)) % parts == part;
-        if (is_of_part != is_part_left_out && !is_guessed_wall(foot.cloud, i)) taken.push_back(i);
-      }
-      redraws.landmarks.push_back(redrawn_on(foot, taken));
-    }
-  }
+  redraws.landmarks.resize(partings * parts);
+  workers(redraws.landmarks.size(), [&](std::size_t redraw) {
+    const auto taken = points_of(foot.cloud, hashes, redraws.parting, redraw);
+    redraws.landmarks[redraw] = redrawn_on(foot, taken);
+  });
   return redraws;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/foot/foot_scan.h"
+#include "core/workers.h"
 
 namespace instep {
 
@@ -23,9 +24,9 @@ namespace instep {
 ///
 /// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
 /// meant, does not show; of an edge or a border that no point shows Landmark::deviations_off_mm
-/// tells. `foot` has its landmarks. One to four times the cost of landmarks; six times where parts
-/// are left out.
-Redraws redraw_landmarks(const FootScan& foot);
+/// tells. `foot` has its landmarks. One to four times the cost of landmarks, shared by the workers;
+/// six times where parts are left out.
+Redraws redraw_landmarks(const FootScan& foot, const Workers& workers = one_after_the_other);
 
 /// Half-width of the 95 % interval of a value from what the redraws gave for it, in their order
 /// (nothing where one gave nothing), by Student's distribution: few redraws say little about their

@@ -23,6 +23,7 @@
 #include "daemon/command_line/station_recording.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/command_line/stop_request.h"
+#include "daemon/scan/all_processors.h"
 #include "daemon/scan/camera_images.h"
 #include "daemon/scan/recorded_capture.h"
 #include "daemon/scan/stage_clock.h"
@@ -161,7 +162,7 @@ Result<FoundPoses> poses_of(const Capture& capture, const StopRequest& stop) {
   clock.begin("poses", 0.3);
   PoseFinding settings;
   settings.platform_height_mm = capture.platform_height_mm.value_or(0.0);
-  return find_poses(views_of(capture, std::move(*images)), settings, one_thread_each, go_on);
+  return find_poses(views_of(capture, std::move(*images)), settings, on_all_processors, go_on);
 }
 
 StationCalibration calibration_of(const CalibrationReport& report) {

@@ -17,6 +17,7 @@
 #include "daemon/page/report_page.h"
 #include "daemon/report/result_json.h"
 #include "daemon/report/text_report.h"
+#include "daemon/scan/all_processors.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -69,10 +70,14 @@ Result<void> run(const MeasureCommand& command) {
   AlignmentOptions options;
   options.side = side_from_string(command.side);
   options.rules = command.rules.over(settings->measures);
-  auto foot = align_foot(file->cloud, options).and_then(find_landmarks);
+  auto foot = align_foot(file->cloud, options).and_then([](FootScan&& aligned) {
+    return find_landmarks_by(on_all_processors, std::move(aligned));
+  });
   if (!foot) return tl::make_unexpected(with_what_was_noticed(foot.error(), file->notes));
   foot->warnings.insert(foot->warnings.begin(), file->notes.begin(), file->notes.end());
-  auto measures = measure_foot(*foot);
+  MeasureOptions measuring;
+  measuring.workers = on_all_processors;
+  auto measures = measure_foot(*foot, measuring);
   if (!measures) return tl::make_unexpected(measures.error());
 
   ScanRecord record;

@@ -1,8 +1,9 @@
 #include "daemon/scan/camera_images.h"
 
-#include <future>
 #include <optional>
 #include <utility>
+
+#include "daemon/scan/all_processors.h"
 
 namespace instep {
 namespace {
@@ -28,17 +29,9 @@ Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& 
 
 }  // namespace
 
-void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& work) {
-  std::vector<std::future<void>> running;
-  for (std::size_t job = 0; job < count; ++job) {
-    running.push_back(std::async(std::launch::async, [&work, job] { work(job); }));
-  }
-  for (auto& one : running) one.get();
-}
-
 Result<std::vector<FusedDepth>> camera_images(const Capture& capture, const GoOn& go_on) {
   std::vector<std::optional<Result<FusedDepth>>> fused(capture.cameras.size());
-  one_thread_each(fused.size(), [&](std::size_t i) {
+  on_all_processors(fused.size(), [&](std::size_t i) {
     fused[i] = fuse_camera(capture, capture.cameras[i], go_on);
   });
   std::vector<FusedDepth> images;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "core/fusion/fuse_views.h"
@@ -11,10 +9,6 @@
 #include "daemon/scan/scan_pipeline.h"
 
 namespace instep {
-
-/// core/workers.h with a thread for each job: what concerns one camera is independent of the
-/// others.
-void one_thread_each(std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// The frames of each camera as one depth image, in the order of `capture.cameras`. A camera
 /// without a good frame fails all: a set that is not whole is never used as if it were. Fails with

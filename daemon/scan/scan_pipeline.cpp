@@ -11,6 +11,7 @@
 #include "core/fusion/fuse_views.h"
 #include "core/go_on.h"
 #include "core/noticed.h"
+#include "daemon/scan/all_processors.h"
 #include "daemon/scan/camera_images.h"
 #include "daemon/scan/stage_clock.h"
 
@@ -46,7 +47,7 @@ Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> im
   fusion.point_spacing_mm = settings.point_spacing_mm;
   fusion.platform_height_mm = capture.platform_height_mm;
   fusion.refine_views = settings.refine_views;
-  return fuse_views(views_of(capture, std::move(images)), fusion, one_thread_each, go_on);
+  return fuse_views(views_of(capture, std::move(images)), fusion, on_all_processors, go_on);
 }
 
 /// The part of the truth that is about one foot: see Capture::truth. It is known by the usual
@@ -160,7 +161,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
     const auto& own = scene->foot_warnings.at(aligned.cloud_number);
     aligned.warnings.insert(aligned.warnings.begin(), own.begin(), own.end());
     if (!clock.begin("landmarks", 0.7)) return cancelled();
-    auto foot = find_landmarks(std::move(aligned));
+    auto foot = find_landmarks_by(on_all_processors, std::move(aligned));
     if (!foot) {
       const auto noticed = all_noticed(*scene, warnings);
       return tl::make_unexpected(with_what_was_noticed(foot.error(), noticed));
@@ -168,7 +169,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
 
     if (!clock.begin("girths", 0.7)) return cancelled();
     MeasureOptions options;
-    options.workers = one_thread_each;
+    options.workers = on_all_processors;
     auto measures = measure_foot(*foot, options, go_on);
     if (!measures) return tl::make_unexpected(measures.error());
     records.push_back(record_of(capture, settings, std::move(*foot), std::move(*measures)));

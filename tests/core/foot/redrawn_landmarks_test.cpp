@@ -88,5 +88,20 @@ TEST(Redraws, AreTheSameWhateverTheLastBitsOfPlaces) {
   }
 }
 
+TEST(Redraws, AreTheSameByWhateverWorkers) {
+  const auto aligned = align_foot(test::FootBody{}.points()).value();
+  const auto in_turn = find_landmarks(aligned).value();
+  const Workers backwards = [](std::size_t count, const std::function<void(std::size_t)>& work) {
+    while (count-- > 0) work(count);
+  };
+  const auto other = find_landmarks_by(backwards, aligned).value();
+  ASSERT_FALSE(in_turn.landmarks.empty());
+  ASSERT_EQ(other.redraws.landmarks.size(), in_turn.redraws.landmarks.size());
+  for (const auto& [name, landmark] : in_turn.landmarks) {
+    EXPECT_EQ(other.landmarks.at(name).position_mm, landmark.position_mm) << name;
+    EXPECT_EQ(other.landmarks.at(name).radius_mm, landmark.radius_mm) << name;
+  }
+}
+
 }  // namespace
 }  // namespace instep
