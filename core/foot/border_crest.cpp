@@ -68,10 +68,9 @@ std::optional<TermsOf<kTerms>> fitted(const std::vector<Local>& points, const Cr
     const double weight = weight_at(point.x(), patch.along_mm) *
                           weight_at(point.y(), patch.across_mm) *
                           (off.empty() ? 1.0 : weight_at(off[i], limit));
-    normal.template selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+    normal.noalias() += (weight * row) * row.transpose();
     right += weight * point.z() * row;
   }
-  normal = normal.template selfadjointView<Eigen::Lower>();
   const Eigen::LDLT<Square> solver(normal);
   const auto sizes = solver.vectorD().cwiseAbs();
   if (!(sizes.minCoeff() > 1e-10 * sizes.maxCoeff())) return std::nullopt;

@@ -25,12 +25,12 @@ std::optional<Terms> fitted(const SkinPatch& points, const Terms* first, double 
   for (const auto& point : points) {
     const Terms row = terms(point.x(), point.y());
     if (first != nullptr && std::abs(point.z() - first->dot(row)) > limit) continue;
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
+    // Of so few terms the whole square is quicker than a triangle of it.
+    normal.noalias() += row * row.transpose();
     right += point.z() * row;
     ++used;
   }
   if (used < kFewestPoints) return std::nullopt;
-  normal = normal.selfadjointView<Eigen::Lower>();
   const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> solver(normal);
   if (!(solver.rcond() > 1e-12)) return std::nullopt;
   const Terms solution = solver.solve(right);

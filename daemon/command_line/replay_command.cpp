@@ -69,10 +69,11 @@ Result<void> make_ready(ResultStore& store, const std::filesystem::path& folder)
     error.advice = "choose another --out";
     return tl::make_unexpected(error);
   }
-  auto ready = store.prepare();
-  if (ready) return {};
-  ready.error().advice = "choose another --out";
-  return tl::make_unexpected(std::move(ready).error());
+  const auto prepared = store.prepare();
+  if (prepared) return {};
+  Error error = prepared.error();
+  error.advice = "choose another --out";
+  return tl::make_unexpected(std::move(error));
 }
 
 Result<void> run(const ReplayCommand& command) {

@@ -16,6 +16,7 @@ namespace {
 /// What the options of one command were set to; shared with its callback.
 struct Options {
   std::string id;
+  std::string shown = "latest";
   std::string out = ".";
   std::string format = "text";
   bool no_wait = false;
@@ -85,7 +86,7 @@ void add_station_commands(CLI::App& app, int& exit_code) {
           [](const Options& o) { return watch_station(limit(o.until_result_s)); });
   watch
       ->add_option("--until-result", options->until_result_s,
-                   "End with the next result, at most after so long")
+                   "End with the next result, or one of a moment ago; at most after so long")
       ->type_name("SECONDS")
       ->check(CLI::Range(0, kLongestWait_s));
 
@@ -93,10 +94,9 @@ void add_station_commands(CLI::App& app, int& exit_code) {
                    [](const Options& o) { return list_scans(o.as_json()); });
   add_format(*list, *options);
 
-  auto* show =
-      add("show", "Print the measures of a scan", "instep show latest",
-          [](const Options& o) { return show_scan(o.id.empty() ? "latest" : o.id, o.format); });
-  show->add_option("ID", options->id, "The scan's id, or latest (default)");
+  auto* show = add("show", "Print the measures of a scan", "instep show latest",
+                   [](const Options& o) { return show_scan(o.shown, o.format); });
+  show->add_option("ID", options->shown, "The scan's id, or latest")->capture_default_str();
   show->add_option("--format", options->format, "text for people, json or csv for programs")
       ->check(CLI::IsMember({"text", "json", "csv"}))
       ->capture_default_str();

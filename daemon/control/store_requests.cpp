@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "daemon/report/json_fields.h"
-#include "daemon/store/scan_id.h"
+#include "daemon/scan/scan_id.h"
 
 namespace instep {
 namespace {
@@ -20,12 +20,15 @@ Result<json> list(const ResultStore& store) {
 }
 
 Result<json> show(const ResultStore& store, const std::string& id) {
+  const char* const advice = "restore it from a copy, or delete the scan";
   const auto text = store.read_result_json(id);
+  if (!text && text.error().code == ErrorCode::kNotFound) {
+    return fail(ErrorCode::kCorruptData, "scan " + id + " has no result.json", advice);
+  }
   if (!text) return tl::make_unexpected(text.error());
   json result = json::parse(*text, nullptr, false);
-  if (!result.is_object()) {
-    return fail(ErrorCode::kCorruptData, "result.json of scan " + id + " is damaged",
-                "restore it from a copy, or delete the scan");
+  if (!result.is_object() || !result.value("measures", json()).is_array()) {
+    return fail(ErrorCode::kCorruptData, "result.json of scan " + id + " is damaged", advice);
   }
   return json{{"id", id}, {"folder", store.folder_of(id).string()}, {"result", std::move(result)}};
 }

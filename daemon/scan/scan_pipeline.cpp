@@ -13,6 +13,7 @@
 #include "core/noticed.h"
 #include "daemon/scan/all_processors.h"
 #include "daemon/scan/camera_images.h"
+#include "daemon/scan/scan_id.h"
 #include "daemon/scan/stage_clock.h"
 
 namespace instep {
@@ -76,8 +77,6 @@ Error of_scan(Error failure) {
 ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, FootScan foot,
                      MeasureSet measures) {
   ScanRecord record;
-  record.time = std::chrono::system_clock::now();
-  record.id = new_scan_id(record.time);
   record.station = settings.station;
   record.devices = capture.cameras;
   record.calibration = capture.calibration;
@@ -87,6 +86,14 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   record.sizes = shoe_sizes(record.foot, measures, settings.sizes);
   record.measures = std::move(measures);
   return record;
+}
+
+void name(std::vector<ScanRecord>& records, std::chrono::system_clock::time_point time) {
+  const auto ids = new_scan_ids(time, records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    records[i].id = ids[i];
+    records[i].time = time;
+  }
 }
 
 void pair_up(std::vector<ScanRecord>& records, const SizeRules& rules) {
@@ -176,6 +183,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   }
   clock.end();
 
+  name(records, std::chrono::system_clock::now());
   pair_up(records, settings.sizes);
   for (auto& record : records) {
     record.quality = quality;

@@ -41,8 +41,4 @@ struct ScanRecord {
   std::optional<ScannedPair> pair;  ///< if the scan gave a left and a right foot
 };
 
-/// A new id: UTC time to the millisecond and some random letters, such as
-/// "20261121T091502417Z-k3f9".
-std::string new_scan_id(std::chrono::system_clock::time_point time);
-
 }  // namespace instep

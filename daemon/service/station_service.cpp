@@ -82,19 +82,52 @@ Result<bool> StationService::run() {
 }
 
 void StationService::prepare_store() {
-  const auto cleared = store_->prepare();
-  if (!cleared) return station_->store_failed(cleared.error());
-  if (*cleared > 0) log_info(fmt::format("cleared {} unfinished results", *cleared));
+  const auto prepared = store_->prepare();
+  if (!prepared) return station_->store_failed(prepared.error());
+  if (prepared->is_shared) {
+    log_warning("another program works on the results in " + store_->root().string() +
+                ": give each daemon its own store.root");
+  }
+  if (prepared->cleared > 0)
+    log_info(fmt::format("cleared {} unfinished results", prepared->cleared));
+  if (prepared->trouble) {
+    log_warning("an unfinished result cannot be cleared: " + prepared->trouble->line());
+  }
   sweep_store();
 }
 
 void StationService::sweep_store() {
-  const Retention retention{settings_.store.keep_days, settings_.store.keep_count};
-  archive_->post([store = store_, retention](TaskProgress&) {
-    const auto removed = store->sweep(retention, std::chrono::system_clock::now());
-    if (!removed) log_warning("old results cannot be removed: " + removed.error().line());
-    if (removed && *removed > 0) log_info(fmt::format("removed {} old results", *removed));
+  Retention retention{settings_.store.keep_days, settings_.store.keep_count};
+  if (retention.keep_days > 0 && clock_.was_set(ClockWatch::read())) {
+    retention.keep_days = 0;
+    if (said_.is_news("clock", "set")) {
+      log_warning(
+          "the clock was set by more than a week while the daemon runs: nothing is removed for its "
+          "age until it is started again; see that the clock is right (timedatectl)");
+    }
+  }
+  archive_->post([this, retention, store = store_, leaving = leaving_,
+                  post = loop_->poster()](TaskProgress& progress) {
+    const auto swept = store->sweep(retention, std::chrono::system_clock::now(), [&] {
+      progress.step();
+      return !*leaving;
+    });
+    post([this, swept] { tell_of(swept); });
   });
+}
+
+void StationService::tell_of(const Swept& swept) {
+  if (swept.removed > 0) log_info(fmt::format("removed {} old results", swept.removed));
+  const std::string trouble = swept.trouble ? swept.trouble->line() : "";
+  if (said_.is_news("sweep", trouble) && swept.trouble) {
+    log_warning("an old result cannot be removed: " + trouble);
+  }
+  if (said_.is_news("later", std::to_string(swept.made_later)) && swept.made_later > 0) {
+    log_warning(
+        fmt::format("{} results are dated later than now: the clock was wrong when they were made, "
+                    "or is (timedatectl); they are kept until their time has come",
+                    swept.made_later));
+  }
 }
 
 std::string StationService::status_text() const {
@@ -184,6 +217,7 @@ void StationService::reload() {
 void StationService::shut_down() {
   manager_.stopping();
   log_info("stopping");
+  *leaving_ = true;
   shutdown_timer_.set(kShutdownLimit);
   station_->shut_down();
 }

@@ -1,10 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "daemon/loop/event_loop.h"
 #include "daemon/loop/progress_watch.h"
 #include "daemon/loop/task_thread.h"
+#include "daemon/service/clock_watch.h"
 #include "daemon/service/log.h"
 #include "daemon/service/service_manager.h"
 #include "daemon/station/station.h"
@@ -50,6 +50,7 @@ class StationService {
   void serve(ControlServer::Client client, const Request& request);
   void serve_from_store(ControlServer::Client client, const Request& request);
   void sweep_store();
+  void tell_of(const Swept& swept);
   void reload();
   void shut_down();
   void feed_watchdog();
@@ -67,8 +68,10 @@ class StationService {
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
+  ClockWatch clock_{ClockWatch::read()};
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;
+  std::shared_ptr<std::atomic<bool>> leaving_ = std::make_shared<std::atomic<bool>>(false);
   bool left_cleanly_ = true;
 };
 

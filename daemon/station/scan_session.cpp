@@ -86,21 +86,34 @@ class ScanSession {
   }
 
   ScanOutcome store(const std::vector<ScanRecord>& records) {
-    ScanOutcome outcome;
     tell("store", kCaptureShare + kMeasureShare);
+    std::vector<ResultContent> contents;
     for (const auto& record : records) {
       progress_.step();
-      const auto content = content_of(record);
+      auto content = content_of(record);
       if (!content) return failed(content.error());
-      auto folder = tools_.store->put(record.id, *content);
-      if (!folder) {
-        outcome.error = folder.error();
-        outcome.store_failed = true;
-        return outcome;
-      }
-      outcome.stored.push_back({record.id, std::move(*folder), record.foot.side});
+      contents.push_back(std::move(*content));
+    }
+    ScanOutcome outcome;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      progress_.step();
+      auto folder = tools_.store->put(records[i].id, contents[i]);
+      if (!folder) return not_stored(std::move(folder).error(), outcome.stored);
+      outcome.stored.push_back({records[i].id, std::move(*folder), records[i].foot.side});
     }
     tell("done", 1.0);
+    return outcome;
+  }
+
+  /// Both feet or none: whoever scans again has no foot twice.
+  ScanOutcome not_stored(Error error, const std::vector<StoredResult>& feet_before) {
+    ScanOutcome outcome;
+    outcome.error = std::move(error);
+    outcome.store_failed = true;
+    for (const auto& foot : feet_before) {
+      if (tools_.store->remove(foot.id)) continue;
+      outcome.error->message += "; of this scan, " + foot.id + " is stored and cannot be removed";
+    }
     return outcome;
   }
 

@@ -56,8 +56,7 @@ struct ScanListener {
   std::function<void(std::string_view stage, double done)> on_progress;  ///< done: 0 to 1
 };
 
-/// How a scan ended. `stored` holds what is on disk, which may be the first of two feet even if the
-/// second could not be written.
+/// How a scan ended. `stored` holds all its feet, or none where one could not be written.
 struct ScanOutcome {
   std::vector<StoredResult> stored;
   std::optional<Error> error;

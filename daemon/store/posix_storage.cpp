@@ -2,6 +2,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,7 +10,6 @@
 #include <cerrno>
 #include <memory>
 
-#include "drivers/files/descriptor.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -114,6 +114,15 @@ Result<void> PosixStorage::sync_folder(const std::filesystem::path& path) {
   return {};
 }
 
+Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
+  held_.reset();
+  held_.emplace(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!held_->is_open()) return failed("open", path);
+  const int locked = uninterrupted([&] { return ::flock(held_->number(), LOCK_EX | LOCK_NB); });
+  // Where the file system knows no locks, nothing tells of others.
+  return locked == 0 || errno != EWOULDBLOCK;
+}
+
 Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::path& path) {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(path.c_str()), &::closedir);
   if (!folder) return failed("list", path);
@@ -137,8 +146,14 @@ Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::pa
 }
 
 Result<std::string> PosixStorage::read(const std::filesystem::path& path, std::size_t most) {
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  // A pipe would let its reader wait for ever.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   if (!file.is_open()) return failed("read", path);
+  struct stat there {};
+  if (::fstat(file.number(), &there) != 0) return failed("read", path);
+  if (!S_ISREG(there.st_mode)) {
+    return fail(ErrorCode::kCorruptData, path.string() + " is no plain file", "delete that result");
+  }
   std::string content;
   std::string block(1 << 16, '\0');
   while (true) {

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <optional>
+
 #include "daemon/store/storage.h"
+#include "drivers/files/descriptor.h"
 
 namespace instep {
 
-/// The file system of this machine. Interrupted calls are repeated. Safe from many threads.
+/// The file system of this machine. Interrupted calls are repeated. Safe from many threads, but for
+/// take_hold().
 class PosixStorage : public Storage {
  public:
   Result<File> create_file(const std::filesystem::path& path) override;
@@ -16,8 +20,12 @@ class PosixStorage : public Storage {
   Result<void> remove_file(const std::filesystem::path& path) override;
   Result<void> remove_folder(const std::filesystem::path& path) override;
   Result<void> sync_folder(const std::filesystem::path& path) override;
+  Result<bool> take_hold(const std::filesystem::path& path) override;
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override;
   Result<std::string> read(const std::filesystem::path& path, std::size_t most) override;
+
+ private:
+  std::optional<Descriptor> held_;
 };
 
 /// file_error() of drivers/files/file_bytes.h, with the advice that fits the results' disk; `doing`

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "daemon/store/scan_id.h"
+#include "daemon/scan/scan_id.h"
 
 namespace instep {
 namespace {
@@ -16,6 +16,10 @@ bool is_leftover(const std::string& name) {
   return name.rfind(kWriting, 0) == 0 || name.rfind(kDeleting, 0) == 0;
 }
 
+void keep_first(const Error& error, std::optional<Error>& first) {
+  if (!first) first = error;
+}
+
 bool is_number(const std::string& name, std::size_t digits) {
   return name.size() == digits && name.find_first_not_of("0123456789") == std::string::npos;
 }
@@ -25,25 +29,33 @@ bool is_number(const std::string& name, std::size_t digits) {
 ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root)
     : storage_(std::move(storage)), root_(std::move(root)) {}
 
-Result<std::size_t> ResultStore::prepare() {
+Result<Prepared> ResultStore::prepare() {
   if (const auto made = storage_->make_folder(root_); !made) {
     return tl::make_unexpected(made.error());
   }
+  const auto is_ours = storage_->take_hold(root_);
+  if (!is_ours) return tl::make_unexpected(is_ours.error());
+  Prepared prepared;
+  prepared.is_shared = !*is_ours;
+  if (prepared.is_shared) return prepared;
   const auto all_days = days();
   if (!all_days) return tl::make_unexpected(all_days.error());
-  std::size_t cleared = 0;
   for (const auto& day : *all_days) {
     const auto entries = storage_->list(day);
-    if (!entries) return tl::make_unexpected(entries.error());
+    if (!entries) {
+      keep_first(entries.error(), prepared.trouble);
+      continue;
+    }
     for (const auto& entry : *entries) {
       if (!entry.is_folder || !is_leftover(entry.name)) continue;
-      if (const auto gone = empty_and_remove(day / entry.name); !gone) {
-        return tl::make_unexpected(gone.error());
+      if (const auto gone = remove_whole(day / entry.name); gone) {
+        ++prepared.cleared;
+      } else {
+        keep_first(gone.error(), prepared.trouble);
       }
-      ++cleared;
     }
   }
-  return cleared;
+  return prepared;
 }
 
 Result<std::filesystem::path> ResultStore::put(const std::string& id,
@@ -61,7 +73,7 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
                           .and_then([&] { return storage_->sync_folder(day); });
   if (!stored) {
     // The failure to report is the first one, not that of clearing up after it.
-    (void)empty_and_remove(writing);
+    (void)remove_whole(writing);
     return tl::make_unexpected(stored.error());
   }
   return day / id;
@@ -108,11 +120,13 @@ Result<void> ResultStore::write_file(const std::filesystem::path& path, std::str
   return outcome;
 }
 
-Result<void> ResultStore::empty_and_remove(const std::filesystem::path& folder) {
+Result<void> ResultStore::remove_whole(const std::filesystem::path& folder) {
   const auto entries = storage_->list(folder);
   if (!entries) return tl::make_unexpected(entries.error());
   for (const auto& entry : *entries) {
-    if (const auto gone = storage_->remove_file(folder / entry.name); !gone) return gone;
+    const auto gone = entry.is_folder ? remove_whole(folder / entry.name)
+                                      : storage_->remove_file(folder / entry.name);
+    if (!gone) return gone;
   }
   return storage_->remove_folder(folder);
 }
@@ -123,7 +137,8 @@ Result<std::vector<std::filesystem::path>> ResultStore::days() const {
     std::vector<std::filesystem::path> below;
     for (const auto& folder : level) {
       const auto entries = storage_->list(folder);
-      if (!entries) return tl::make_unexpected(entries.error());
+      if (!entries && folder == root_) return tl::make_unexpected(entries.error());
+      if (!entries) continue;
       for (const auto& entry : *entries) {
         if (entry.is_folder && is_number(entry.name, digits)) below.push_back(folder / entry.name);
       }
@@ -139,28 +154,44 @@ Result<std::vector<std::string>> ResultStore::list() const {
   std::vector<std::string> ids;
   for (const auto& day : *all_days) {
     const auto entries = storage_->list(day);
-    if (!entries) return tl::make_unexpected(entries.error());
+    if (!entries) continue;
     for (const auto& entry : *entries) {
-      if (entry.is_folder && is_scan_id(entry.name)) ids.push_back(entry.name);
+      const bool is_result =
+          entry.is_folder && is_scan_id(entry.name) && root_ / day_folder(entry.name) == day;
+      if (is_result) ids.push_back(entry.name);
     }
   }
   std::sort(ids.rbegin(), ids.rend());
   return ids;
 }
 
-Result<std::string> ResultStore::find(const std::string& id) const {
-  if (id != "latest" && !is_scan_id(id)) {
+Result<std::string> ResultStore::find(const std::string& id,
+                                      std::chrono::system_clock::time_point now) const {
+  if (id == "latest") return find_latest(now);
+  if (!is_scan_id(id)) {
     return fail(ErrorCode::kInvalidInput, "\"" + id + "\" is not the id of a scan",
                 "instep list shows them");
   }
+  const auto entries = storage_->list(root_ / day_folder(id));
+  if (!entries && entries.error().code != ErrorCode::kNotFound) {
+    return tl::make_unexpected(entries.error());
+  }
+  const auto is_it = [&](const Storage::Entry& entry) {
+    return entry.is_folder && entry.name == id;
+  };
+  if (entries && std::any_of(entries->begin(), entries->end(), is_it)) return id;
+  return fail(ErrorCode::kNotFound, "there is no scan " + id, "instep list shows those there are");
+}
+
+Result<std::string> ResultStore::find_latest(std::chrono::system_clock::time_point now) const {
   const auto ids = list();
   if (!ids) return tl::make_unexpected(ids.error());
-  if (id == "latest" && !ids->empty()) return ids->front();
-  if (std::find(ids->begin(), ids->end(), id) != ids->end()) return id;
-  return id == "latest"
-             ? fail(ErrorCode::kNotFound, "there is no scan yet", "make one: instep scan")
-             : fail(ErrorCode::kNotFound, "there is no scan " + id,
-                    "instep list shows those there are");
+  if (ids->empty()) {
+    return fail(ErrorCode::kNotFound, "there is no scan yet", "make one: instep scan");
+  }
+  const auto latest = std::find_if(ids->begin(), ids->end(),
+                                   [&](const std::string& id) { return !is_made_later(id, now); });
+  return latest == ids->end() ? ids->front() : *latest;
 }
 
 std::filesystem::path ResultStore::folder_of(const std::string& id) const {
@@ -174,30 +205,37 @@ Result<std::string> ResultStore::read_result_json(const std::string& id) const {
 Result<void> ResultStore::remove(const std::string& id) {
   const auto found = find(id);
   if (!found) return tl::make_unexpected(found.error());
-  const auto day = root_ / day_folder(*found);
-  const auto deleting = day / (kDeleting + *found);
-  return storage_->rename(day / *found, deleting)
-      .and_then([&] { return storage_->sync_folder(day); })
-      .and_then([&] { return empty_and_remove(deleting); });
+  return move_away(*found);
 }
 
-Result<std::size_t> ResultStore::sweep(const Retention& retention,
-                                       std::chrono::system_clock::time_point now) {
-  if (retention.keep_days == 0 && retention.keep_count == 0) return 0;
+Result<void> ResultStore::move_away(const std::string& id) {
+  const auto day = root_ / day_folder(id);
+  const auto deleting = day / (kDeleting + id);
+  return storage_->rename(day / id, deleting)
+      .and_then([&] { return storage_->sync_folder(day); })
+      .and_then([&] { return remove_whole(deleting); });
+}
+
+Swept ResultStore::sweep(const Retention& retention, std::chrono::system_clock::time_point now,
+                         const GoOn& go_on) {
+  Swept swept;
+  if (retention.keep_days == 0 && retention.keep_count == 0) return swept;
   const auto ids = list();
-  if (!ids) return tl::make_unexpected(ids.error());
-  const auto oldest = now - std::chrono::hours(24) * retention.keep_days;
-  std::size_t removed = 0;
-  for (std::size_t i = 0; i < ids->size(); ++i) {
-    const auto time = time_of_scan_id((*ids)[i]);
-    const bool too_old = retention.keep_days > 0 && time && *time < oldest;
-    const bool too_many =
-        retention.keep_count > 0 && i >= static_cast<std::size_t>(retention.keep_count);
-    if (!too_old && !too_many) continue;
-    if (const auto gone = remove((*ids)[i]); !gone) return tl::make_unexpected(gone.error());
-    ++removed;
+  if (!ids) {
+    swept.trouble = ids.error();
+    return swept;
   }
-  return removed;
+  const auto gone = expired(*ids, retention, now);
+  swept.made_later = gone.made_later;
+  for (const auto& id : gone.ids) {
+    if (!go_on()) return swept;
+    if (const auto removed = move_away(id); removed) {
+      ++swept.removed;
+    } else {
+      keep_first(removed.error(), swept.trouble);
+    }
+  }
+  return swept;
 }
 
 }  // namespace instep

@@ -41,9 +41,13 @@ class Storage {
   /// Returns when the names in a folder are durable.
   virtual Result<void> sync_folder(const std::filesystem::path& path) = 0;
 
+  /// Keeps others from being given the same folder by this, until the Storage ends or its program
+  /// does. False if somebody else has it.
+  virtual Result<bool> take_hold(const std::filesystem::path& path) = 0;
+
   /// In the order of the names.
   virtual Result<std::vector<Entry>> list(const std::filesystem::path& path) = 0;
-  /// Fails with kCorruptData if there are more bytes than `most`.
+  /// Of a plain file. Fails with kCorruptData if it is none, or has more bytes than `most`.
   virtual Result<std::string> read(const std::filesystem::path& path, std::size_t most) = 0;
 };
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "daemon/store/scan_id.h"
+#include "daemon/scan/scan_id.h"
 #include "tests/support/station_process.h"
 
 namespace instep {

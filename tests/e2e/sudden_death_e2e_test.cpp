@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "daemon/store/scan_id.h"
+#include "daemon/scan/scan_id.h"
 #include "tests/support/station_process.h"
 
 namespace instep {

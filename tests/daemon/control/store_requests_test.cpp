@@ -57,6 +57,15 @@ TEST_F(StoreRequest, DeletingTellsOfNoneForOneFootNorForADamagedResult) {
   }
 }
 
+TEST_F(StoreRequest, ShowingTellsOfAResultThatIsNone) {
+  put(kAlone, R"({"measures":5})");
+  EXPECT_NE(answer("show", kAlone).dump().find("is damaged"), std::string::npos);
+  std::filesystem::remove(store.folder_of(kAlone) / "result.json");
+  EXPECT_NE(answer("show", kAlone).dump().find("has no result.json"), std::string::npos);
+  put("20261121T091502420Z-bbbb", R"({"measures":[]})");
+  EXPECT_TRUE(answer("show", "20261121T091502420Z-bbbb").contains("result"));
+}
+
 /// A result could not be taken away once its page to print was gone.
 TEST_F(StoreRequest, ExportingNamesWhatIsThere) {
   const json whole = {"result.json", "cloud.ply", "sections.svg", "report.svg"};

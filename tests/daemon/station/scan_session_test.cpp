@@ -122,6 +122,35 @@ TEST(ScanSession, TellsInTheResultHowTheFramesWereTaken) {
   EXPECT_EQ(std::count(warnings.begin(), warnings.end(), "the projector was off"), 1);
 }
 
+/// Whoever scanned again had one foot twice.
+TEST(ScanSession, StoresBothFeetOrNone) {
+  const test::TemporaryFolder folder;
+  TaskProgress progress;
+  const std::atomic<bool> cancelled = false;
+  ScanTools tools;
+  tools.cameras = small_cameras();
+  tools.capture.frames_per_camera = 2;
+  tools.platform_height_mm = 0.0;
+  tools.store =
+      std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path() / "scans");
+  ASSERT_TRUE(tools.store->prepare());
+  tools.measure = [](const Capture& capture, const PipelineSettings& settings,
+                     const ScanProgress& told) {
+    auto records = measure_capture(capture, settings, told);
+    records->push_back(records->front());
+    records->back().id = "20261121T091502417Z-k3f9";
+    return records;
+  };
+  std::filesystem::create_directories(folder.path() / "scans/2026/11");
+  std::ofstream(folder.path() / "scans/2026/11/21") << "in the way of the second foot";
+  const ScanListener listener{[](ScanStep) {}, [](std::string_view, double) {}};
+  const auto outcome = run_scan(tools, cancelled, progress, listener);
+  EXPECT_TRUE(outcome.error);
+  EXPECT_TRUE(outcome.store_failed);
+  EXPECT_TRUE(outcome.stored.empty());
+  EXPECT_TRUE(tools.store->list()->empty());
+}
+
 TEST_F(CancelledScan, EndsAtOnceAndLeavesNothingAtEveryStep) {
   const auto whole = run(std::nullopt);
   ASSERT_FALSE(whole.outcome.error);

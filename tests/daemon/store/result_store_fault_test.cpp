@@ -45,7 +45,7 @@ void check_after_restart(const std::shared_ptr<SimulatedDisk>& disk,
   for (const auto& id : reported) ASSERT_TRUE(store.find(id)) << where << ", lost " << id;
   const auto cleared_again = store.prepare();
   ASSERT_TRUE(cleared_again) << where;
-  ASSERT_EQ(*cleared_again, 0U) << where;
+  ASSERT_EQ(cleared_again->cleared, 0U) << where;
   ASSERT_TRUE(store.put(kNext, content(kNext))) << where;
   ASSERT_TRUE(is_whole(*disk, store, kNext)) << where;
 }
@@ -86,7 +86,7 @@ TEST_P(ResultStoreFault, DeletesWholeResultsOrNoneWhicheverCallFails) {
     struck = faulty->struck();
     check_after_restart(disk, {}, "call " + std::to_string(call));
   }
-  EXPECT_GT(call, 10U);
+  EXPECT_GT(call, 8U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ResultStoreFault,

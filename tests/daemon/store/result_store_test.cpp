@@ -6,9 +6,9 @@
 
 #include <fstream>
 
+#include "daemon/scan/scan_id.h"
 #include "daemon/scan/scan_record.h"
 #include "daemon/store/posix_storage.h"
-#include "daemon/store/scan_id.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -69,8 +69,8 @@ TEST_F(ResultStoreOnDisk, ClearsWhatAnEarlierRunLeft) {
   std::filesystem::create_directory(day / ".writing-20261121T091502418Z-aaaa");
   std::ofstream(day / ".writing-20261121T091502418Z-aaaa/cloud.ply") << "half";
   std::filesystem::create_directory(day / ".deleting-20261121T091502419Z-aaaa");
-  EXPECT_EQ(*store.prepare(), 2U);
-  EXPECT_EQ(*store.prepare(), 0U);
+  EXPECT_EQ(store.prepare()->cleared, 2U);
+  EXPECT_EQ(store.prepare()->cleared, 0U);
   EXPECT_THAT(*store.list(), ElementsAre("20261121T091502417Z-k3f9"));
 }
 
@@ -87,8 +87,8 @@ TEST_F(ResultStoreOnDisk, KeepsTheNewestOfTooMany) {
     put(id);
   }
   const auto now = *time_of_scan_id("20261104T000000000Z-aaaa");
-  EXPECT_EQ(*store.sweep({}, now), 0U);
-  EXPECT_EQ(*store.sweep({.keep_days = 0, .keep_count = 2}, now), 1U);
+  EXPECT_EQ(store.sweep({}, now).removed, 0U);
+  EXPECT_EQ(store.sweep({.keep_days = 0, .keep_count = 2}, now).removed, 1U);
   EXPECT_THAT(*store.list(), ElementsAre("20261103T000000000Z-aaaa", "20261102T000000000Z-aaaa"));
 }
 
@@ -96,8 +96,101 @@ TEST_F(ResultStoreOnDisk, RemovesWhatIsTooOld) {
   put("20261101T000000000Z-aaaa");
   put("20261103T000000000Z-aaaa");
   const auto now = *time_of_scan_id("20261104T120000000Z-aaaa");
-  EXPECT_EQ(*store.sweep({.keep_days = 2, .keep_count = 0}, now), 1U);
+  EXPECT_EQ(store.sweep({.keep_days = 2, .keep_count = 0}, now).removed, 1U);
   EXPECT_THAT(*store.list(), ElementsAre("20261103T000000000Z-aaaa"));
+}
+
+TEST_F(ResultStoreOnDisk, KeepsBothFeetOfAScanOrNone) {
+  for (const auto* id : {"20261101T000000000Z-aaaa", "20261101T000000000Z-bbbb",
+                         "20261102T000000000Z-aaaa", "20261102T000000000Z-bbbb"}) {
+    put(id);
+  }
+  const auto now = *time_of_scan_id("20261104T000000000Z-aaaa");
+  EXPECT_EQ(store.sweep({.keep_days = 0, .keep_count = 1}, now).removed, 2U);
+  EXPECT_THAT(*store.list(), ElementsAre("20261102T000000000Z-bbbb", "20261102T000000000Z-aaaa"));
+}
+
+/// A clock that was wrong for a day: the scans made since were removed as soon as they were there.
+TEST_F(ResultStoreOnDisk, LosesNothingToResultsThatAWrongClockDatedLater) {
+  for (const auto* id : {"20900101T000000000Z-aaaa", "20900102T000000000Z-aaaa",
+                         "20261101T000000000Z-aaaa", "20261102T000000000Z-aaaa"}) {
+    put(id);
+  }
+  const auto now = *time_of_scan_id("20261104T000000000Z-aaaa");
+  const auto swept = store.sweep({.keep_days = 0, .keep_count = 2}, now);
+  EXPECT_EQ(swept.removed, 0U);
+  EXPECT_EQ(swept.made_later, 2U);
+  EXPECT_EQ(*store.find("latest", now), "20261102T000000000Z-aaaa");
+  EXPECT_EQ(*store.find("latest", *time_of_scan_id("20100101T000000000Z-aaaa")),
+            "20900102T000000000Z-aaaa")
+      << "of none that is of its time, the newest";
+}
+
+TEST_F(ResultStoreOnDisk, SweepsPastWhatCannotBeRemoved) {
+  put("20261101T000000000Z-aaaa");
+  put("20261102T000000000Z-aaaa");
+  put("20261103T000000000Z-aaaa");
+  // What stands in the way of the one that is looked at first.
+  const auto day = folder.path() / "scans/2026/11/02";
+  std::ofstream(day / ".deleting-20261102T000000000Z-aaaa") << "in the way";
+  const auto now = *time_of_scan_id("20261104T000000000Z-aaaa");
+  const auto swept = store.sweep({.keep_days = 0, .keep_count = 1}, now);
+  EXPECT_EQ(swept.removed, 1U);
+  EXPECT_TRUE(swept.trouble);
+  EXPECT_THAT(*store.list(), ElementsAre("20261103T000000000Z-aaaa", "20261102T000000000Z-aaaa"));
+}
+
+TEST_F(ResultStoreOnDisk, SweepsNoMoreOnceItIsNotWanted) {
+  put("20261101T000000000Z-aaaa");
+  put("20261102T000000000Z-aaaa");
+  put("20261103T000000000Z-aaaa");
+  int asked = 0;
+  const auto swept =
+      store.sweep({.keep_days = 0, .keep_count = 1}, *time_of_scan_id("20261104T000000000Z-aaaa"),
+                  [&] { return ++asked == 1; });
+  EXPECT_EQ(swept.removed, 1U);
+  EXPECT_EQ(asked, 2);
+}
+
+TEST_F(ResultStoreOnDisk, RemovesFoldersWithinAResultToo) {
+  put("20261121T091502417Z-k3f9");
+  std::filesystem::create_directory(store.folder_of("20261121T091502417Z-k3f9") / "notes");
+  std::ofstream(store.folder_of("20261121T091502417Z-k3f9") / "notes/mine") << "wide toe box";
+  EXPECT_TRUE(store.remove("20261121T091502417Z-k3f9"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "scans/2026/11/21"));
+}
+
+TEST_F(ResultStoreOnDisk, PassesOverAResultInTheFolderOfAnotherDay) {
+  put("20261121T091502417Z-k3f9");
+  std::filesystem::create_directory(folder.path() / "scans/2026/11/21/20261120T091502417Z-k3f9");
+  EXPECT_THAT(*store.list(), ElementsAre("20261121T091502417Z-k3f9"));
+  EXPECT_FALSE(store.find("20261120T091502417Z-k3f9"));
+}
+
+/// Its reader waited for ever, and whoever asked after it.
+TEST_F(ResultStoreOnDisk, ReadsNoPipe) {
+  put("20261121T091502417Z-k3f9");
+  const auto file = store.folder_of("20261121T091502417Z-k3f9") / "result.json";
+  std::filesystem::remove(file);
+  ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
+  EXPECT_EQ(store.read_result_json("20261121T091502417Z-k3f9").error().code,
+            ErrorCode::kCorruptData);
+}
+
+/// A second daemon cleared what the first one was about to store.
+TEST_F(ResultStoreOnDisk, LeavesWhatAnotherProgramIsMaking) {
+  put("20261121T091502417Z-k3f9");
+  const auto half = folder.path() / "scans/2026/11/21/.writing-20261121T091502418Z-aaaa";
+  std::filesystem::create_directory(half);
+  {
+    ResultStore second(std::make_shared<PosixStorage>(), folder.path() / "scans");
+    const auto prepared = second.prepare();
+    EXPECT_TRUE(prepared->is_shared);
+    EXPECT_EQ(prepared->cleared, 0U);
+  }
+  EXPECT_TRUE(std::filesystem::exists(half));
+  EXPECT_FALSE(store.prepare()->is_shared) << "its own hold is none of another";
+  EXPECT_FALSE(std::filesystem::exists(half));
 }
 
 TEST_F(ResultStoreOnDisk, NeverOverwritesAResult) {
@@ -114,15 +207,27 @@ TEST(StorageError, NamesAFullDiskAndMissingRights) {
   EXPECT_THAT(storage_error(ENOSPC, "write", "/x").line(), testing::HasSubstr("disk"));
 }
 
-TEST(ScanId, IsSortableByTimeAndUnlikeAnyOther) {
+TEST(ScanIds, AreSortableByTimeAndUnlikeAnyOther) {
   using namespace std::chrono;
   const auto time = sys_days(2026y / 11 / 21) + 9h + 15min + 2s + 417ms;
-  const auto id = new_scan_id(time);
+  const auto id = new_scan_ids(time, 1).front();
   EXPECT_EQ(id.substr(0, 20), "20261121T091502417Z-");
   EXPECT_TRUE(is_scan_id(id));
   EXPECT_EQ(*time_of_scan_id(id), time - 417ms);
-  EXPECT_LT(id.substr(0, 19), new_scan_id(time + 1ms).substr(0, 19));
+  EXPECT_LT(id.substr(0, 19), new_scan_ids(time + 1ms, 1).front().substr(0, 19));
   EXPECT_FALSE(time_of_scan_id("20261321T091502417Z-aaaa"));
+}
+
+TEST(ScanIds, OfTheFeetOfOneScanBelongTogetherInTheirOrder) {
+  using namespace std::chrono;
+  const auto time = sys_days(2026y / 11 / 21) + 9h;
+  const auto ids = new_scan_ids(time, 3);
+  ASSERT_EQ(ids.size(), 3U);
+  EXPECT_LT(ids[0], ids[1]);
+  EXPECT_LT(ids[1], ids[2]);
+  EXPECT_TRUE(are_of_one_scan(ids[0], ids[2]));
+  EXPECT_FALSE(are_of_one_scan(ids[0], new_scan_ids(time + 1ms, 1).front()));
+  EXPECT_FALSE(are_of_one_scan("", ""));
 }
 
 }  // namespace

@@ -72,6 +72,7 @@ class SimulatedDisk : public Storage {
     folder->history.clear();
     return {};
   }
+  Result<bool> take_hold(const std::filesystem::path&) override { return true; }
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override {
     const auto folder = find(path);
     if (!folder || !folder->is_folder) return failed();
@@ -177,6 +178,9 @@ class FaultyStorage : public Storage {
   }
   Result<void> sync_folder(const std::filesystem::path& path) override {
     return pass<void>([&] { return behind_->sync_folder(path); });
+  }
+  Result<bool> take_hold(const std::filesystem::path& path) override {
+    return pass<bool>([&] { return behind_->take_hold(path); });
   }
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override {
     return pass<std::vector<Entry>>([&] { return behind_->list(path); });

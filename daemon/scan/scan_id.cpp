@@ -1,12 +1,11 @@
-#include "daemon/store/scan_id.h"
+#include "daemon/scan/scan_id.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <random>
-#include <string>
-
-#include "daemon/scan/scan_record.h"
+#include <set>
+#include <utility>
 
 namespace instep {
 namespace {
@@ -14,6 +13,7 @@ namespace {
 constexpr std::string_view kLetters = "abcdefghijkmnpqrstuvwxyz23456789";
 constexpr std::string_view kShape = "dddddddd-ddddddddd-";  // 'T' and 'Z' stand at the dashes
 constexpr std::size_t kIdLength = 24;                       // 20261121T091502417Z-k3f9
+constexpr std::size_t kRandomLetters = 4;
 
 bool is_digit(char letter) {
   return letter >= '0' && letter <= '9';
@@ -27,16 +27,21 @@ int number(std::string_view id, std::size_t begin, std::size_t length) {
 
 }  // namespace
 
-std::string new_scan_id(std::chrono::system_clock::time_point time) {
-  static thread_local std::random_device random;
-  const auto since_epoch = time.time_since_epoch();
+std::vector<std::string> new_scan_ids(std::chrono::system_clock::time_point time,
+                                      std::size_t count) {
+  std::random_device random;
   const auto milliseconds =
-      std::chrono::floor<std::chrono::milliseconds>(since_epoch).count() % 1000;
-  std::string id =
+      std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch()).count() % 1000;
+  const std::string stamp =
       fmt::format("{:%Y%m%dT%H%M%S}{:03}Z-",
                   fmt::gmtime(std::chrono::system_clock::to_time_t(time)), milliseconds);
-  for (int i = 0; i < 4; ++i) id += kLetters[random() % kLetters.size()];
-  return id;
+  std::set<std::string> ids;
+  while (ids.size() < count) {
+    std::string id = stamp;
+    for (std::size_t i = 0; i < kRandomLetters; ++i) id += kLetters[random() % kLetters.size()];
+    ids.insert(std::move(id));
+  }
+  return {ids.begin(), ids.end()};
 }
 
 bool is_scan_id(std::string_view id) {
@@ -49,6 +54,11 @@ bool is_scan_id(std::string_view id) {
 
 std::filesystem::path day_folder(std::string_view id) {
   return std::filesystem::path(id.substr(0, 4)) / id.substr(4, 2) / id.substr(6, 2);
+}
+
+bool are_of_one_scan(std::string_view one, std::string_view other) {
+  return is_scan_id(one) && is_scan_id(other) &&
+         one.substr(0, kIdLength - kRandomLetters) == other.substr(0, kIdLength - kRandomLetters);
 }
 
 std::optional<std::chrono::system_clock::time_point> time_of_scan_id(std::string_view id) {
