@@ -107,8 +107,32 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   foot.rules = options.rules;
   foot.warnings = doubts(foot);
   settle_for(foot, axis.rule);
+  if (foot.side != guess.side && guess.confidence > kSureSide) {
+    foot.warnings.push_back("measured as a " + std::string(to_string(foot.side)) +
+                            " foot, as asked for, but its shape is that of a " +
+                            to_string(guess.side) + " one: check the side");
+  }
   if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
+}
+
+/// A last has no flat sole to be found by; files of lasts have z up. Else what was found.
+Result<FootScan> as_last(const FootScan& body, const AlignmentOptions& options,
+                         Result<FootScan> found) {
+  const auto upright = plane_below(body.cloud.positions, Eigen::Vector3d::UnitZ());
+  auto last = aligned(body, upright, options);
+  if (last && is_shoe_last(*last)) {
+    last->warnings.emplace_back(
+        "how the last stands is taken from its file: by z, which points up");
+    return last;
+  }
+  if (found && !is_shoe_last(*found)) {
+    found->warnings.emplace_back(
+        "no toes were seen and no sole lies flat on the floor: if this is a last, turn it so that "
+        "z "
+        "points up as it stands in its shoe; if it is a foot, see that its sole is in the cloud");
+  }
+  return found;
 }
 
 /// The floor of a foot whose floor was found before, from the points that it has now.
@@ -136,13 +160,9 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
-  const bool is_doubtful = !found || !found->has_seen_toes();
-  if (is_doubtful && !options.standing_plane && !options.up) {
-    // A last has no flat sole to be found by; files of lasts have z up.
-    const auto upright = plane_below(foot.cloud.positions, Eigen::Vector3d::UnitZ());
-    auto last = aligned(foot, upright, options);
-    if (last && is_shoe_last(*last)) found = std::move(last);
-  }
+  const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
+  if (may_be_last && !options.standing_plane && !options.up)
+    found = as_last(foot, options, std::move(found));
   if (found && body.parts > 1) {
     found->warnings.push_back(
         "the foot comes in " + std::to_string(body.parts) +

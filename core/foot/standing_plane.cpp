@@ -29,6 +29,8 @@ constexpr double kTouchesMm = 8.0;  ///< a point this near to the plane touches 
 constexpr double kRestsMm = 4.0;    ///< a point this near may be of a flat face that rests on it
 constexpr double kBorderReachMm = 12.0;  ///< a place of the border is touched by a point so near
 constexpr std::size_t kFewestOfSole = 50;
+/// Sine of a tilt that is none of the file's: an open sole of noisy points leaves as much in doubt.
+constexpr double kOffUpright = 0.006;
 constexpr double kLargestTilt = 0.14;
 constexpr double kFlatShare = 0.5;  ///< of the support that a closed sole covers
 
@@ -90,15 +92,35 @@ std::pair<Vector3d, double> fitted_plane(const Points& points, const Vector3d& u
   return {normal, normal.dot(points.front() + moments.middle())};
 }
 
+/// The plane by what touches it, as it lies.
+StandingPlane laid_on_touching(const Points& sample, const StandingPlane& plane, double thickness) {
+  Points low;
+  for (const auto& point : sample) {
+    if (plane.up.dot(point) - plane.height_mm < thickness) low.push_back(point);
+  }
+  return low.size() < 3 ? plane : plane_below(sample, fitted_plane(low, plane.up).first);
+}
+
 /// Tilts the plane until it fits what touches it.
 StandingPlane settled(const Points& sample, StandingPlane plane) {
   for (const double thickness : {kTouchesMm, 0.75 * kTouchesMm, 0.5 * kTouchesMm}) {
-    Points low;
-    for (const auto& point : sample) {
-      if (plane.up.dot(point) - plane.height_mm < thickness) low.push_back(point);
+    plane = laid_on_touching(sample, plane, thickness);
+  }
+  return plane;
+}
+
+/// Tilts the plane as a body tips until it stands still: from one end of an open sole, along which
+/// no surface lies, to the whole of it.
+StandingPlane tipped(const Points& sample, StandingPlane plane) {
+  constexpr int kMostSteps = 30;
+  constexpr double kStill = 1e-3;
+  for (const double thickness : {kTouchesMm, 0.5 * kTouchesMm, 0.25 * kTouchesMm}) {
+    for (int step = 0; step < kMostSteps; ++step) {
+      const StandingPlane next = laid_on_touching(sample, plane, thickness);
+      const bool is_still = next.up.cross(plane.up).norm() < kStill;
+      plane = next;
+      if (is_still) break;
     }
-    if (low.size() < 3) return plane;
-    plane = plane_below(sample, fitted_plane(low, plane.up).first);
   }
   return plane;
 }
@@ -285,7 +307,10 @@ StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) 
 Result<StandingPlane> find_standing_plane(const Points& points) {
   const Points sample = even_sample(points, kSample);
   Candidate best;
-  // z up is the habit of files, so it is tried first and wins a tie.
+  // z up is the habit of files, so it is tried first and wins a tie, even if it is somewhat off.
+  const StandingPlane upright = tipped(sample, plane_below(sample, Vector3d::UnitZ()));
+  const bool is_off = upright.up.cross(Vector3d::UnitZ()).norm() > kOffUpright;
+  if (is_off && stands_all_round(sample, upright)) keep_better(best, sample, upright, 1.0);
   for (const int axis : {2, 1, 0}) {
     for (const double sign : {1.0, -1.0}) {
       const StandingPlane plane = plane_below(sample, sign * Vector3d::Unit(axis));
@@ -302,7 +327,9 @@ Result<StandingPlane> find_standing_plane(const Points& points) {
     return fail(ErrorCode::kInvalidInput, "the cloud has no flat support as large as a foot's",
                 "measure one whole foot, in millimetres");
   }
-  return settled_on_sole(points, plane_below(points, best.plane.up));
+  const bool is_tipped = is_off && best.plane.up == upright.up;
+  const Vector3d up = is_tipped ? tipped(points, best.plane).up : best.plane.up;
+  return settled_on_sole(points, plane_below(points, up));
 }
 
 }  // namespace instep

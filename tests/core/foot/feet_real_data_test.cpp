@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -97,6 +98,43 @@ TEST_F(RealFeet, OfTheRetailScannerHaveTheirLengthAndSide) {
     // Their soles are flat: nobody saw the arch.
     EXPECT_EQ(set->find("arch_height"), nullptr);
   }
+}
+
+/// A foot whose toes cannot be told apart was taken for a last where its file stood a few degrees
+/// off; one whose sole was not seen was stood on its head.
+TEST_F(RealFeet, MeasureTheSameTiltedByAFewDegrees) {
+  for (const auto& [name, unit_mm] :
+       {std::pair{"retail_left.stl", 1000.0}, std::pair{"retail_right.stl", 1000.0},
+        std::pair{"lab_left.ply", 1.0}}) {
+    const auto points = cloud(name, unit_mm);
+    const auto straight = measured(points);
+    for (const double degrees : {1.5, 5.0, 14.0}) {
+      for (const double way : {0.4, 2.5, 4.6}) {
+        const Eigen::Vector3d axis(std::cos(way), std::sin(way), 0.0);
+        const RigidTransform tilt(Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis));
+        SCOPED_TRACE(std::string(name) + ", " + std::to_string(degrees) + " degrees towards " +
+                     std::to_string(way));
+        const auto tilted = measured(transformed(tilt, points));
+        EXPECT_FALSE(is_shoe_last(tilted.foot));
+        EXPECT_EQ(tilted.set.measures.size(), straight.set.measures.size());
+        expect_same(straight, tilted, 0.0, 1.5);
+      }
+    }
+  }
+}
+
+TEST_F(RealFeet, SayThatTheyAreOfTheOtherSideThanAskedFor) {
+  const auto points = cloud("retail_left.stl", 1000.0);
+  const auto is_told = [&](Side side) {
+    AlignmentOptions options;
+    options.side = side;
+    const auto warnings = align_foot(points, options).value().warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("its shape is that of a left one") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(is_told(Side::kRight));
+  EXPECT_FALSE(is_told(Side::kLeft));
 }
 
 TEST_F(RealFeet, MeasureTheSameHoweverTheyStand) {
