@@ -40,32 +40,43 @@ std::vector<std::size_t> chosen_of(const std::vector<std::size_t>& places) {
   return chosen;
 }
 
-/// A point, and what those round it show.
+/// A place, and what the points round it show.
 struct Asked {
-  std::size_t point;
   Eigen::Vector3d place;
+  double told_variance;  ///< of the noise of those points, on average; 0 where none is told
   Neighbourhood shown;
 };
 
+/// On average: points of several cameras may lie among each other, each with its own.
+double told_variance_in(const TangentView& view, const std::vector<double>& told) {
+  if (told.empty()) return 0.0;
+  double sum = 0.0;
+  for (const std::size_t point : view.indices) sum += told[point] * told[point];
+  return sum / static_cast<double>(view.indices.size());
+}
+
 /// Of some of the places, in their order.
-std::vector<Asked> asked_of(const PointIndex& index, const std::vector<std::size_t>& places) {
+std::vector<Asked> asked_of(const PointIndex& index, const std::vector<std::size_t>& places,
+                            const std::vector<double>& told) {
   const auto chosen = chosen_of(places);
-  std::vector<std::optional<Neighbourhood>> looked(chosen.size());
+  std::vector<std::optional<Asked>> looked(chosen.size());
   bool found = false;
   bool exact = true;
   for (const std::size_t turn : kTurns) {
     for (std::size_t i = turn; i < looked.size(); i += kTurns.size()) {
-      looked[i] = neighbourhood_of(flattest_view(index, index.points()[chosen[i]]));
-      if (!looked[i]) continue;
+      const auto& place = index.points()[chosen[i]];
+      const TangentView view = flattest_view(index, place);
+      auto shown = neighbourhood_of(view);
+      if (!shown) continue;
       found = true;
-      exact = exact && looked[i]->is_exact();
+      exact = exact && shown->is_exact();
+      looked[i] = Asked{place, told_variance_in(view, told), std::move(*shown)};
     }
     if (found && exact) break;
   }
   std::vector<Asked> asked;
-  for (std::size_t i = 0; i < looked.size(); ++i) {
-    if (!looked[i]) continue;
-    asked.push_back({chosen[i], index.points()[chosen[i]], std::move(*looked[i])});
+  for (auto& one : looked) {
+    if (one) asked.push_back(std::move(*one));
   }
   return asked;
 }
@@ -130,12 +141,13 @@ std::optional<double> roughness_if_exact(const PointIndex& index, const Eigen::V
 }
 
 /// What is expected of each, in variances.
-std::vector<double> expected_noise(const std::vector<Asked>& asked, const std::vector<double>& told,
+std::vector<double> expected_noise(const std::vector<Asked>& asked, bool is_told,
                                    const NoiseEstimate& estimate) {
   std::vector<double> variances;
-  for (const auto& [point, place, here] : asked) {
-    const double sigma = told.empty() ? estimate.sigma : estimate.told_scale * told[point];
-    variances.push_back(std::max(sigma * sigma, kLeastVariance));
+  for (const auto& one : asked) {
+    const double variance = is_told ? std::pow(estimate.told_scale, 2) * one.told_variance
+                                    : std::pow(estimate.sigma, 2);
+    variances.push_back(std::max(variance, kLeastVariance));
   }
   return variances;
 }
@@ -156,8 +168,9 @@ double set_uneven(std::vector<LocalNoise> known, NoiseEstimate& estimate) {
 bool are_outvoted(const std::vector<Asked>& asked, double least) {
   std::vector<double> scattered;
   std::vector<double> quiet;
-  for (const auto& [point, place, here] : asked) {
-    (here.variance > least * least ? scattered : quiet).push_back(here.radius);
+  for (const auto& one : asked) {
+    const bool is_quiet = one.shown.variance <= least * least;
+    (is_quiet ? quiet : scattered).push_back(one.shown.radius);
   }
   if (scattered.size() < kFewestOutvoted || scattered.size() > quiet.size()) return false;
   return median(std::move(scattered)) > kPlainlyWider * median(std::move(quiet));
@@ -196,7 +209,7 @@ std::vector<LocalNoise> uneven_among(const std::vector<Asked>& asked,
 NoiseAndShape set_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                         const std::vector<Asked>& asked, const std::vector<double>& told,
                         NoiseEstimate& estimate) {
-  NoiseAndShape here{expected_noise(asked, told, estimate), {}};
+  NoiseAndShape here{expected_noise(asked, !told.empty(), estimate), {}};
   here.roughness = likely_roughnesses(asked, here.noise);
   auto uneven = uneven_among(asked, told, here, estimate);
   if (told.empty()) {
@@ -222,12 +235,12 @@ NoiseAndShape set_noise(const PointIndex& index, const std::vector<std::size_t>&
 
 NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                              const std::vector<double>& told) {
-  const auto asked = asked_of(index, places);
+  const auto asked = asked_of(index, places, told);
   std::vector<double> variances;
   std::vector<double> excesses;
-  for (const auto& [point, place, here] : asked) {
-    variances.push_back(here.variance);
-    if (!told.empty()) excesses.push_back(std::sqrt(here.variance) / told[point]);
+  for (const auto& [place, told_variance, shown] : asked) {
+    variances.push_back(shown.variance);
+    if (!told.empty()) excesses.push_back(std::sqrt(shown.variance / told_variance));
   }
   NoiseEstimate estimate;
   estimate.told_scale = scale_of_told(excesses);

@@ -43,11 +43,11 @@ struct NoiseEstimate {
 /// Of a crowd that is exact as a rule a single neighbourhood can tell that its points are not; more
 /// of them are asked then (scattered_places()).
 ///
-/// `told`: a standard deviation for each point, > 0, or none. It is used as it is, even where the
-/// points show less, for part of their noise may be common to neighbours; but where three quarters
-/// of the neighbourhoods show plainly more, all of it is raised to what the middle one of them
-/// shows, and where beside each other a few still do, theirs is raised further
-/// (noise_beyond_told()).
+/// `told`: a standard deviation for each point, > 0, or none; a neighbourhood is held against the
+/// mean square of those of its points. It is used as it is, even where the points show less, for
+/// part of their noise may be common to neighbours; but where three quarters of the neighbourhoods
+/// show plainly more, all of it is raised to what the middle one of them shows, and where beside
+/// each other a few still do, theirs is raised further (noise_beyond_told()).
 NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                              const std::vector<double>& told);
 

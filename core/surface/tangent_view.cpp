@@ -43,9 +43,11 @@ TangentView tangent_view(const std::vector<Eigen::Vector3d>& points,
   TangentView view;
   const std::size_t count = std::min(nearest.size(), kMostInView);
   view.points.resize(3, static_cast<Eigen::Index>(count));
+  view.indices.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t chosen = nearest[i * nearest.size() / count].index;
     view.points.col(static_cast<Eigen::Index>(i)) = points[chosen];
+    view.indices.push_back(chosen);
   }
   view.points.colwise() -= view.points.rowwise().mean().eval();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;

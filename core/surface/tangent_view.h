@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace instep {
 /// from their middle, the third row is the height.
 struct TangentView {
   Eigen::Matrix3Xd points;
+  std::vector<std::size_t> indices;                            ///< of each point, in the PointIndex
   double thickness = std::numeric_limits<double>::infinity();  ///< against the width
   /// The 60 nearest points, whatever of them is in view, reach so little that a crease or a bend
   /// among them does not pass for noise.

@@ -141,6 +141,24 @@ TEST(NoiseEstimate, TellsTooLittleFromUneven) {
   EXPECT_NEAR(estimate(points, told).told_scale, 3.0, 0.4);
 }
 
+/// Points of two cameras among each other: each was held against what is told of one of them.
+TEST(NoiseEstimate, BelievesWhatIsToldOfNeighboursThatDiffer) {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    Points points = sphere(0.0, seed);
+    std::vector<double> told;
+    test::RandomNumbers random(seed);
+    for (auto& point : points) {
+      told.push_back(random.uniform(0.0, 1.0) < 0.5 ? 0.01 : 0.001);
+      point *= 1.0 + told.back() * random.normal() / 0.5;
+    }
+    const auto noise = estimate_noise(PointIndex(points), ring_of(points), told);
+    EXPECT_EQ(noise.told_scale, 1.0) << seed;
+    EXPECT_TRUE(noise.uneven.empty()) << seed;
+    for (double& sigma : told) sigma /= 3.0;
+    EXPECT_NEAR(estimate(points, told).told_scale, 3.0, 0.5) << seed;
+  }
+}
+
 TEST(NoiseEstimate, RaisesWhatIsToldWhereThePointsShowMore) {
   auto points = test::positions_of(test::sphere_points(0.5, 4000, 0.0, 10));
   test::RandomNumbers random(10);
