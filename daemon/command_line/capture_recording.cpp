@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <list>
+#include <optional>
+#include <utility>
 
 #include "daemon/station/frame_tally.h"
 #include "drivers/recording/recording_writer.h"
@@ -13,59 +15,109 @@ namespace {
 constexpr int kMostBadFrames = 60;
 constexpr std::chrono::seconds kFrameLimit{2};
 
+using std::chrono::microseconds;
+
 /// What one camera brings to a recording. It stops at the end of the scope.
 class CameraAtWork {
  public:
-  CameraAtWork(DepthCamera& camera, RecordingWriter& writer, const RecordingLength& length)
-      : camera_(camera), writer_(writer), length_(length) {}
+  CameraAtWork(DepthCamera& camera, const RecordingPlan& plan) : camera_(camera), plan_(plan) {}
   ~CameraAtWork() { camera_.stop(); }
   CameraAtWork(const CameraAtWork&) = delete;
   CameraAtWork& operator=(const CameraAtWork&) = delete;
 
   Result<void> start() { return camera_.start(); }
 
-  /// Writes its next good frame.
-  Result<void> take_frame() {
-    auto frame = next_good_frame();
+  /// Takes the next frame, whatever it holds, for nothing but what it tells of the clock.
+  Result<void> warm_up() {
+    const auto frame = next_frame();
     if (!frame) return tl::make_unexpected(frame.error());
+    return {};
+  }
+
+  /// Its next good frame, with its time on the clock that all cameras have in common.
+  Result<DepthFrame> take_frame() {
+    auto frame = next_good_frame();
+    if (!frame) return frame;
     if (frames_ == 0) first_time_ = frame->device_time;
-    frame->device_time -= first_time_;
     ++frames_;
-    time_ = frame->device_time;
-    return writer_.add_frame(*frame);
+    time_ = frame->device_time - first_time_;
+    // Later frames are not to move the clock: their times would run backwards.
+    is_clock_known_ = true;
+    if (plan_.clocks == CameraClocks::kOfEachCamera) frame->device_time += *host_ahead_;
+    return frame;
   }
 
   /// Of the length, from 0 to 1.
   double done() const {
+    const auto& length = plan_.length;
     double done = 0.0;
-    if (length_.time) done = time_ / std::chrono::duration<double, std::milli>(*length_.time);
-    if (length_.frames_per_camera) {
+    if (length.time) done = time_ / std::chrono::duration<double, std::milli>(*length.time);
+    if (length.frames_per_camera) {
       done = std::max(
-          done, static_cast<double>(frames_) / static_cast<double>(*length_.frames_per_camera));
+          done, static_cast<double>(frames_) / static_cast<double>(*length.frames_per_camera));
     }
     return std::min(done, 1.0);
   }
 
  private:
+  Result<DepthFrame> next_frame() {
+    auto frame = camera_.next_frame(kFrameLimit);
+    if (!frame) return frame;
+    fault_ = tally_.count(*frame);
+    if (fault_ == FrameFault::kNone && !is_clock_known_) note_clock(*frame);
+    return frame;
+  }
+
   Result<DepthFrame> next_good_frame() {
-    FrameFault fault = FrameFault::kNone;
     for (int bad = 0; bad < kMostBadFrames; ++bad) {
-      auto frame = camera_.next_frame(kFrameLimit);
-      if (!frame) return frame;
-      fault = tally_.count(*frame);
-      if (fault == FrameFault::kNone) return frame;
+      auto frame = next_frame();
+      if (!frame || fault_ == FrameFault::kNone) return frame;
     }
     return tl::make_unexpected(
-        named_after_camera(camera_.description().geometry.id, bad_frames_only(fault)));
+        named_after_camera(camera_.description().geometry.id, bad_frames_only(fault_)));
+  }
+
+  void note_clock(const DepthFrame& frame) {
+    const auto host = frame.host_time.time_since_epoch();
+    const auto ahead = std::chrono::duration_cast<microseconds>(host) - frame.device_time;
+    host_ahead_ = std::min(ahead, host_ahead_.value_or(ahead));
   }
 
   DepthCamera& camera_;
-  RecordingWriter& writer_;
-  const RecordingLength& length_;
+  const RecordingPlan& plan_;
   FrameTally tally_;
+  FrameFault fault_ = FrameFault::kNone;  ///< of the last frame
+  std::optional<microseconds>
+      host_ahead_;  ///< of the camera's clock, but for what frames were late
+  bool is_clock_known_ = false;
   std::size_t frames_ = 0;
-  std::chrono::microseconds first_time_{0};
-  std::chrono::microseconds time_{0};
+  microseconds first_time_{0};
+  microseconds time_{0};
+};
+
+/// Writes frames with their times from the earliest one on.
+class FrameSink {
+ public:
+  explicit FrameSink(RecordingWriter& writer) : writer_(writer) {}
+
+  /// The first round decides which frame is the earliest.
+  Result<void> add(std::vector<DepthFrame> round) {
+    for (const auto& frame : round) {
+      if (has_begun_) break;
+      begin_ = std::min(begin_, frame.device_time);
+    }
+    has_begun_ = true;
+    for (auto& frame : round) {
+      frame.device_time = std::max(frame.device_time - begin_, microseconds(0));
+      if (auto good = writer_.add_frame(frame); !good) return good;
+    }
+    return {};
+  }
+
+ private:
+  RecordingWriter& writer_;
+  bool has_begun_ = false;
+  microseconds begin_ = microseconds::max();
 };
 
 using Cameras = std::vector<std::unique_ptr<DepthCamera>>;
@@ -76,33 +128,51 @@ Result<void> tell(const RecordingProgress& progress, double done) {
 }
 
 /// All stream at once and give a frame each in turn, until the first has enough.
-Result<void> record_together(const Cameras& cameras, RecordingWriter& writer,
-                             const RecordingLength& length, const RecordingProgress& progress) {
+Result<void> record_together(const Cameras& cameras, FrameSink& sink, const RecordingPlan& plan,
+                             const RecordingProgress& progress) {
   std::list<CameraAtWork> at_work;
   for (const auto& camera : cameras) {
-    if (auto good = at_work.emplace_back(*camera, writer, length).start(); !good) return good;
+    if (auto good = at_work.emplace_back(*camera, plan).start(); !good) return good;
+  }
+  for (int i = 0; i < plan.warmup_frames; ++i) {
+    for (auto& camera : at_work) {
+      if (auto good = camera.warm_up(); !good) return good;
+    }
+    if (auto good = tell(progress, 0.0); !good) return good;
   }
   for (double done = 0.0; done < 1.0;) {
+    std::vector<DepthFrame> round;
     for (auto& camera : at_work) {
-      if (auto good = camera.take_frame(); !good) return good;
+      auto frame = camera.take_frame();
+      if (!frame) return tl::make_unexpected(frame.error());
+      round.push_back(std::move(*frame));
       done = std::max(done, camera.done());
     }
+    if (auto good = sink.add(std::move(round)); !good) return good;
     if (auto good = tell(progress, done); !good) return good;
   }
   return {};
 }
 
 /// Each streams alone until it has enough, for another's light would disturb it.
-Result<void> record_in_turns(const Cameras& cameras, RecordingWriter& writer,
-                             const RecordingLength& length, const RecordingProgress& progress) {
+Result<void> record_in_turns(const Cameras& cameras, FrameSink& sink, const RecordingPlan& plan,
+                             const RecordingProgress& progress) {
   double turns = 0.0;
+  const auto tell_of = [&](double turn) {
+    return tell(progress, (turns + turn) / static_cast<double>(cameras.size()));
+  };
   for (const auto& camera : cameras) {
-    CameraAtWork at_work(*camera, writer, length);
+    CameraAtWork at_work(*camera, plan);
     if (auto good = at_work.start(); !good) return good;
+    for (int i = 0; i < plan.warmup_frames; ++i) {
+      if (auto good = at_work.warm_up(); !good) return good;
+      if (auto good = tell_of(0.0); !good) return good;
+    }
     while (at_work.done() < 1.0) {
-      if (auto good = at_work.take_frame(); !good) return good;
-      const double done = (turns + at_work.done()) / static_cast<double>(cameras.size());
-      if (auto good = tell(progress, done); !good) return good;
+      auto frame = at_work.take_frame();
+      if (!frame) return tl::make_unexpected(frame.error());
+      if (auto good = sink.add({std::move(*frame)}); !good) return good;
+      if (auto good = tell_of(at_work.done()); !good) return good;
     }
     ++turns;
   }
@@ -117,15 +187,16 @@ Error recording_stopped() {
 }
 
 Result<Recording> capture_recording(const std::vector<std::unique_ptr<DepthCamera>>& cameras,
-                                    Recording header, const RecordingLength& length,
-                                    CameraTurns turns, const std::filesystem::path& folder,
+                                    Recording header, const RecordingPlan& plan,
+                                    const std::filesystem::path& folder,
                                     const RecordingProgress& progress) {
   header.cameras.clear();
   for (const auto& camera : cameras) header.cameras.push_back(camera->description());
   auto writer = RecordingWriter::create(folder, std::move(header));
   if (!writer) return tl::make_unexpected(writer.error());
-  const auto record = turns == CameraTurns::kOneAtATime ? record_in_turns : record_together;
-  if (auto good = record(cameras, *writer, length, progress); !good) {
+  FrameSink sink(*writer);
+  const auto record = plan.turns == CameraTurns::kOneAtATime ? record_in_turns : record_together;
+  if (auto good = record(cameras, sink, plan, progress); !good) {
     return tl::make_unexpected(good.error());
   }
   Recording recording = writer->recording();

@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* kExamples =
     R"(Stop the daemon first: a camera has one reader. Frames that a scan would leave out are left out
-here too. Cameras take turns, each for the whole length, where capture.one_at_a_time is set.
+here too: the first capture.warmup_frames of each camera, and faulty ones. Cameras take turns, each
+for the whole length, where capture.one_at_a_time is set. The times of all frames are on one clock.
 Examples:
   instep record --out visit --config /etc/instep/instep.toml --frames 15
   instep record --out visit --config /etc/instep/instep.toml --seconds 3)";
@@ -73,7 +74,8 @@ void add_record_command(CLI::App& app, int& exit_code) {
       ->add_option("--frames", command->frames,
                    "how many each camera takes (15 if nothing is said)")
       ->check(CLI::Range(1, 10000));
-  record->add_option("--seconds", command->seconds, "how long to record, by the cameras' clocks")
+  record
+      ->add_option("--seconds", command->seconds, "how long each camera records, by its own clock")
       ->check(check_seconds);
   record->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }

@@ -58,12 +58,14 @@ Result<void> run(const SimulateCommand& command) {
   header.truth = truth_by_id(*truth);
   header.simulated = true;
   ProgressLine line;
+  RecordingPlan plan;
+  plan.length.frames_per_camera = command.frames;
+  plan.clocks = CameraClocks::kOneForAll;
   const auto recording =
-      capture_recording(station->cameras, header, {command.frames, {}}, CameraTurns::kTogether,
-                        command.folder, [&](double done) {
-                          line.show("simulating", done);
-                          return true;
-                        });
+      capture_recording(station->cameras, header, plan, command.folder, [&](double done) {
+        line.show("simulating", done);
+        return true;
+      });
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},
                      {"seed", command.seed},

@@ -39,9 +39,11 @@ Result<Recording> record_station(const Settings& settings, const RecordingLength
   if (stop.is_made()) return tl::make_unexpected(recording_stopped());
   const auto light = light_of(settings.outputs);
   ProgressLine line;
-  const auto turns =
-      settings.capture.one_at_a_time ? CameraTurns::kOneAtATime : CameraTurns::kTogether;
-  return capture_recording(devices->cameras, header, length, turns, folder, [&](double done) {
+  RecordingPlan plan;
+  plan.length = length;
+  plan.warmup_frames = settings.capture.warmup_frames;
+  if (settings.capture.one_at_a_time) plan.turns = CameraTurns::kOneAtATime;
+  return capture_recording(devices->cameras, header, plan, folder, [&](double done) {
     line.show("recording", done);
     return !stop.is_made();
   });

@@ -40,13 +40,12 @@ TEST(CaptureRecording, EndsAtASignalWithTheLightOffAndNothingKept) {
       const StopRequest stop;
       const auto light = board.open("projector").value();
       ASSERT_TRUE(light->set(true));
-      const auto recording =
-          capture_recording(station.cameras, {}, {10000, {}}, CameraTurns::kTogether,
-                            folder.path() / "visit", [&](double) {
-                              EXPECT_TRUE(board.is_on("projector"));
-                              if (++rounds == 3) raise(number);
-                              return !stop.is_made();
-                            });
+      const auto recording = capture_recording(station.cameras, {}, {.length = {10000, {}}},
+                                               folder.path() / "visit", [&](double) {
+                                                 EXPECT_TRUE(board.is_on("projector"));
+                                                 if (++rounds == 3) raise(number);
+                                                 return !stop.is_made();
+                                               });
       ASSERT_FALSE(recording);
       EXPECT_EQ(recording.error().code, ErrorCode::kCancelled);
     }
@@ -81,8 +80,7 @@ TEST(CaptureRecording, LeavesOutTheFramesThatAScanLeavesOut) {
   const test::TemporaryFolder folder;
   const auto cameras = two_cameras(
       {Step::kShort, Step::kGood, Step::kEmpty, Step::kStale, Step::kCorrupt, Step::kGood});
-  ASSERT_TRUE(capture_recording(cameras, {}, {3, {}}, CameraTurns::kTogether,
-                                folder.path() / "visit", go_on));
+  ASSERT_TRUE(capture_recording(cameras, {}, {.length = {3, {}}}, folder.path() / "visit", go_on));
   const auto recording = read_recording(folder.path() / "visit").value();
   const auto frames = read_recorded_frames(recording);
   ASSERT_TRUE(frames) << frames.error().line();
@@ -97,8 +95,9 @@ TEST(CaptureRecording, TellsWhatIsWrongWithACameraOfFaultyFrames) {
                                    std::pair{Step::kShort, "camera b: it sends damaged frames"}}) {
     for (const auto turns : {CameraTurns::kTogether, CameraTurns::kOneAtATime}) {
       const test::TemporaryFolder folder;
-      const auto recording = capture_recording(two_cameras(std::deque<Step>(100, step)), {},
-                                               {3, {}}, turns, folder.path() / "visit", go_on);
+      const auto recording =
+          capture_recording(two_cameras(std::deque<Step>(100, step)), {},
+                            {.length = {3, {}}, .turns = turns}, folder.path() / "visit", go_on);
       ASSERT_FALSE(recording);
       EXPECT_EQ(recording.error().code, ErrorCode::kCorruptData);
       EXPECT_THAT(recording.error().message, testing::HasSubstr(said));
@@ -151,11 +150,11 @@ TEST(CaptureRecording, LightsOneCameraAtATimeWhereTheyDisturbEachOther) {
         cameras.push_back(std::make_unique<CountedCamera>(std::move(camera), count));
       }
       std::vector<double> told;
-      const auto recording =
-          capture_recording(cameras, {}, length, turns, folder.path() / "visit", [&](double done) {
-            told.push_back(done);
-            return true;
-          });
+      const auto recording = capture_recording(cameras, {}, {.length = length, .turns = turns},
+                                               folder.path() / "visit", [&](double done) {
+                                                 told.push_back(done);
+                                                 return true;
+                                               });
       ASSERT_TRUE(recording) << recording.error().line();
       EXPECT_EQ(count.most, turns == CameraTurns::kTogether ? 2 : 1);
       EXPECT_EQ(count.streaming, 0);
@@ -164,15 +163,131 @@ TEST(CaptureRecording, LightsOneCameraAtATimeWhereTheyDisturbEachOther) {
       EXPECT_EQ(frames_of(*recording).size(), 2U);
       for (const auto& [camera, own] : frames_of(*recording)) {
         if (length.time) {
-          EXPECT_GE(own.back().time, *length.time) << camera;
+          EXPECT_GE(own.back().time - own.front().time, *length.time) << camera;
         } else {
           EXPECT_EQ(own.size(), 4U) << camera;
         }
-        EXPECT_EQ(own.front().time, 0ms);
       }
       frames[turns] = recording->frames.size();
     }
     EXPECT_EQ(frames[CameraTurns::kOneAtATime], frames[CameraTurns::kTogether]);
+  }
+}
+
+/// A camera that takes a frame every 30 ms of the world, which it tells by a clock of its own; each
+/// comes to this machine a while after it was taken.
+class ClockedCamera final : public test::ScriptedCamera {
+ public:
+  struct Clock {
+    std::chrono::microseconds first_frame;       ///< when it is taken, in the world
+    std::chrono::microseconds own_ahead;         ///< of the world's
+    std::deque<std::chrono::microseconds> late;  ///< of each frame in turn; then ever 5 ms
+  };
+
+  ClockedCamera(const std::string& id, Clock clock)
+      : ScriptedCamera(id, {}), clock_(std::move(clock)) {}
+
+ private:
+  DepthFrame frame_of(Step step) override {
+    using namespace std::chrono_literals;
+    auto frame = ScriptedCamera::frame_of(step);
+    const auto taken = clock_.first_frame + 30ms * frame.sequence;
+    frame.device_time = taken + clock_.own_ahead;
+    frame.host_time = std::chrono::steady_clock::time_point(taken + late());
+    return frame;
+  }
+  std::chrono::microseconds late() {
+    if (clock_.late.empty()) return std::chrono::milliseconds(5);
+    const auto late = clock_.late.front();
+    clock_.late.pop_front();
+    return late;
+  }
+
+  Clock clock_;
+};
+
+Cameras two_clocked_cameras(std::chrono::microseconds second_is_later) {
+  using namespace std::chrono_literals;
+  const ClockedCamera::Clock first{1h, -59min, {20ms, 4ms, 11ms}};
+  const ClockedCamera::Clock second{1h + second_is_later, 26h, {4ms, 50ms, 9ms}};
+  Cameras cameras;
+  cameras.push_back(std::make_unique<ClockedCamera>("a", first));
+  cameras.push_back(std::make_unique<ClockedCamera>("b", second));
+  return cameras;
+}
+
+TEST(CaptureRecording, PutsTheFramesOfAllCamerasOnOneClock) {
+  using namespace std::chrono_literals;
+  // The second may be the earlier one, and in turns is later by far.
+  for (const auto& [turns, later] :
+       {std::pair{CameraTurns::kTogether, 12ms}, std::pair{CameraTurns::kTogether, -12ms},
+        std::pair{CameraTurns::kOneAtATime, 700ms}}) {
+    const test::TemporaryFolder folder;
+    const auto recording = capture_recording(
+        two_clocked_cameras(later), {}, {.length = {4, {}}, .turns = turns, .warmup_frames = 2},
+        folder.path() / "visit", go_on);
+    ASSERT_TRUE(recording) << recording.error().line();
+    auto frames = frames_of(*recording);
+    ASSERT_EQ(frames["a"].size(), 4U);
+    ASSERT_EQ(frames["b"].size(), 4U);
+    EXPECT_EQ(std::min(frames["a"].front().time, frames["b"].front().time), 0ms);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(frames["b"][i].time - frames["a"][i].time, later) << "frame " << i;
+      EXPECT_EQ(frames["a"][i].time - frames["a"].front().time, 30ms * i);
+    }
+  }
+}
+
+TEST(CaptureRecording, KeepsTheTimesOfCamerasThatHaveOneClock) {
+  using namespace std::chrono_literals;
+  const test::TemporaryFolder folder;
+  Cameras cameras;
+  // What this machine is late by tells nothing then.
+  cameras.push_back(std::make_unique<ClockedCamera>("a", ClockedCamera::Clock{1h, 2h, {90ms}}));
+  cameras.push_back(std::make_unique<ClockedCamera>("b", ClockedCamera::Clock{1h, 2h, {}}));
+  const auto recording =
+      capture_recording(cameras, {}, {.length = {2, {}}, .clocks = CameraClocks::kOneForAll},
+                        folder.path() / "visit", go_on);
+  ASSERT_TRUE(recording) << recording.error().line();
+  for (const auto& [camera, own] : frames_of(*recording)) {
+    EXPECT_EQ(own.front().time, 0ms) << camera;
+    EXPECT_EQ(own.back().time, 30ms) << camera;
+  }
+}
+
+/// Each frame holds its own number, as its depth.
+class NumberedCamera final : public test::ScriptedCamera {
+ public:
+  using ScriptedCamera::ScriptedCamera;
+
+ private:
+  DepthFrame frame_of(Step step) override {
+    auto frame = ScriptedCamera::frame_of(step);
+    std::fill(frame.raw.begin(), frame.raw.end(), static_cast<std::uint16_t>(1 + frame.sequence));
+    return frame;
+  }
+};
+
+// A faulty one among them is one of them.
+TEST(CaptureRecording, LeavesOutWhatWarmsACameraUp) {
+  for (const auto turns : {CameraTurns::kTogether, CameraTurns::kOneAtATime}) {
+    const test::TemporaryFolder folder;
+    Cameras cameras;
+    const std::deque<Step> script{Step::kGood, Step::kCorrupt, Step::kGood};
+    cameras.push_back(std::make_unique<NumberedCamera>("a", script));
+    cameras.push_back(std::make_unique<NumberedCamera>("b", std::deque<Step>()));
+    ASSERT_TRUE(capture_recording(cameras, {},
+                                  {.length = {2, {}}, .turns = turns, .warmup_frames = 3},
+                                  folder.path() / "visit", go_on));
+    const auto recording = read_recording(folder.path() / "visit").value();
+    std::map<std::string, std::vector<int>> numbers;
+    const auto frames = read_recorded_frames(recording);
+    ASSERT_TRUE(frames) << frames.error().line();
+    for (const auto& frame : *frames) {
+      numbers[frame.camera].push_back(frame.raw.front());
+    }
+    EXPECT_THAT(numbers["a"], testing::ElementsAre(4, 5));
+    EXPECT_THAT(numbers["b"], testing::ElementsAre(4, 5));
   }
 }
 
