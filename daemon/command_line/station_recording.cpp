@@ -29,7 +29,7 @@ Result<Recording> record_station(const Settings& settings, const RecordingLength
   const auto devices = open_devices(settings);
   if (!devices) return tl::make_unexpected(devices.error());
   Recording header;
-  header.platform_height_mm = devices->platform_height_mm;
+  header.platform_height_mm = platform_height_mm(settings, *devices);
   header.simulated = devices->simulated;
   if (devices->work_out_truth) {
     auto truth = devices->work_out_truth();

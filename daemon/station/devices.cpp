@@ -277,10 +277,12 @@ Result<Devices> open_devices(const Settings& settings) {
   if (const auto distinct = check_names(devices); !distinct) {
     return tl::make_unexpected(distinct.error());
   }
-  if (settings.station.platform_height_mm) {
-    devices.platform_height_mm = settings.station.platform_height_mm;
-  }
   return devices;
+}
+
+std::optional<double> platform_height_mm(const Settings& settings, const Devices& devices) {
+  const auto& set_mm = settings.station.platform_height_mm;
+  return set_mm ? set_mm : devices.platform_height_mm;
 }
 
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings) {

@@ -21,7 +21,7 @@ namespace instep {
 /// What the settings say is plugged in, opened.
 struct Devices {
   std::vector<std::unique_ptr<DepthCamera>> cameras;
-  std::optional<double> platform_height_mm;  ///< as the cameras' source says it
+  std::optional<double> platform_height_mm;  ///< as the cameras' source says it, if it does
   std::string calibration;                   ///< where the cameras' poses come from
   bool simulated = false;
   std::map<std::string, UsbAddress> usb;  ///< of the cameras on the USB bus, by their name
@@ -39,6 +39,10 @@ std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodie
 /// source that cannot be opened, and closes the others again; worth another try later, since a
 /// camera that is away at boot may come.
 Result<Devices> open_devices(const Settings& settings);
+
+/// z of the standing surface, by the settings or else as the cameras' source says it. Asked anew
+/// for each scan: the settings may take theirs back while the devices stay open.
+std::optional<double> platform_height_mm(const Settings& settings, const Devices& devices);
 
 /// Where a sensor is on USB, to be watched and reset there; nothing if the bus does not show it by
 /// that serial number (its descriptor may have none, or another than it tells OpenNI2), or shows

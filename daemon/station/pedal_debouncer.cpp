@@ -15,6 +15,11 @@ PedalDebouncer::PedalDebouncer(Time debounce, Time hold, bool pressed_at_start, 
   signals_.push_back(PedalSignal::kStuck);
 }
 
+void PedalDebouncer::set_times(Time debounce, Time hold) {
+  debounce_ = debounce;
+  hold_ = hold;
+}
+
 void PedalDebouncer::on_edge(const PedalEdge& edge) {
   advance(edge.time);
   raw_ = edge.pressed;

@@ -31,6 +31,9 @@ class PedalDebouncer {
   /// A contact that is closed from the start does not trigger: take_signals() then gives kStuck.
   PedalDebouncer(Time debounce, Time hold, bool pressed_at_start, Time now);
 
+  /// Other times, from now on.
+  void set_times(Time debounce, Time hold);
+
   /// An edge, in the order they came. Two in a row of the same direction mean that one was lost.
   void on_edge(const PedalEdge& edge);
 

@@ -15,6 +15,9 @@ PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open
 
 void PedalWatch::set(const PedalSettings& settings) {
   settings_ = settings;
+  if (!debouncer_) return;
+  debouncer_->set_times(settings_.debounce, settings_.hold_to_cancel);
+  pass_on();  // what waits for the old times is due at another one
 }
 
 void PedalWatch::open() {

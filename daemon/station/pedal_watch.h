@@ -28,7 +28,7 @@ class PedalWatch {
 
   PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener);
 
-  /// New times take effect with the next press.
+  /// New times hold at once, for a press that is under way too.
   void set(const PedalSettings& settings);
 
  private:

@@ -85,9 +85,6 @@ void Station::reload(const Settings& settings) {
   settings_.pedal.debounce = settings.pedal.debounce;
   settings_.pedal.hold_to_cancel = settings.pedal.hold_to_cancel;
   if (pedal_) pedal_->set(settings_.pedal);
-  if (settings.station.platform_height_mm) {
-    devices_.platform_height_mm = settings.station.platform_height_mm;
-  }
 }
 
 void Station::shut_down() {
@@ -284,7 +281,7 @@ ScanTools Station::tools() const {
   tools.pipeline.side = settings_.station.side;
   tools.pipeline.sizes = settings_.sizes;
   tools.pipeline.measures = settings_.measures;
-  tools.platform_height_mm = devices_.platform_height_mm;
+  tools.platform_height_mm = platform_height_mm(settings_, devices_);
   tools.calibration = devices_.calibration;
   tools.simulated = devices_.simulated;
   tools.truth = truth_;

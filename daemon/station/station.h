@@ -75,7 +75,8 @@ class Station {
   Result<void> request_scan();
   /// Fails with kNotFound if no scan runs that can be cancelled.
   Result<void> request_cancel();
-  /// Takes over what can change while running: station, capture, the pedal's times.
+  /// Takes over what can change while running: station, capture, measures, sizes, the pedal's
+  /// times.
   void reload(const Settings& settings);
   /// Ends a scan that runs; on_left follows.
   void shut_down();

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "daemon/station/station.h"
+#include "daemon/store/posix_storage.h"
+#include "tests/support/loop_thread.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+Settings small_station() {
+  Settings settings;
+  settings.cameras.emplace_back();
+  settings.pedal.kind = PedalKind::kNone;
+  settings.capture.frames_per_camera = 1;
+  settings.capture.warmup_frames = 0;
+  settings.simulation.cameras = 1;
+  settings.simulation.width_px = 64;
+  settings.simulation.height_px = 48;
+  settings.simulation.pacing = SimulatedPacing::kAsFastAsPossible;
+  settings.simulation.truth = false;
+  return settings;
+}
+
+/// A station at work that notes what each of its scans was to be measured with, and fails them.
+class ReloadedStation : public testing::Test {
+ protected:
+  struct Measured {
+    std::optional<double> platform_height_mm;
+    std::optional<Side> side;
+  };
+
+  ReloadedStation() {
+    auto store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder_.path());
+    StationListener listener;
+    listener.on_change = [] {};
+    listener.on_failure = [this](const Error&) { ++ended_; };
+    const auto measure = [this](const Capture& capture, const PipelineSettings& pipeline,
+                                const ScanProgress&) -> Result<std::vector<ScanRecord>> {
+      measured_ = {capture.platform_height_mm, pipeline.side};
+      return fail(ErrorCode::kInsufficientData, "nothing stands there", "");
+    };
+    loop_.call([&] {
+      station_.emplace(loop_.loop(), small_station(), measure, store, listener);
+      station_->begin();
+    });
+  }
+  ~ReloadedStation() override {
+    loop_.call([&] { station_.reset(); });
+  }
+
+  void reload(const Settings& settings) {
+    loop_.call([&] { station_->reload(settings); });
+  }
+  /// What a scan is measured with.
+  Measured scan() {
+    EXPECT_TRUE(loop_.wait_until([&] { return station_->status().state == StationState::kReady; }));
+    const int before = ended_;
+    loop_.call([&] { EXPECT_TRUE(station_->request_scan()); });
+    EXPECT_TRUE(loop_.wait_until([&] { return ended_ > before; }));
+    return measured_;
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+  test::LoopThread loop_;
+  std::optional<Station> station_;
+  Measured measured_;
+  int ended_ = 0;
+};
+
+TEST_F(ReloadedStation, GoesBackToWhatTheCamerasSayWhereASettingIsTakenOut) {
+  const auto by_cameras = scan();
+  ASSERT_EQ(by_cameras.platform_height_mm, 0.0) << "the simulation stands at 0";
+  auto settings = small_station();
+  settings.station.platform_height_mm = 12.5;
+  settings.station.side = Side::kLeft;
+  reload(settings);
+  const auto by_settings = scan();
+  EXPECT_EQ(by_settings.platform_height_mm, 12.5);
+  EXPECT_EQ(by_settings.side, Side::kLeft);
+  reload(small_station());
+  const auto again = scan();
+  EXPECT_EQ(again.platform_height_mm, 0.0);
+  EXPECT_EQ(again.side, std::nullopt);
+}
+
+}  // namespace
+}  // namespace instep
