@@ -121,7 +121,4 @@ struct Settings {
   std::optional<AppliedCalibration> calibration;
 };
 
-/// What the settings say, as the lines that `instepd --check` prints.
-std::string describe(const Settings& settings);
-
 }  // namespace instep

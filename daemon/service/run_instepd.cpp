@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "config/settings_description.h"
 #include "config/settings_file.h"
 #include "config/settings_search.h"
 #include "config/source_of_poses.h"

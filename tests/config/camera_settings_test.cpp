@@ -4,6 +4,7 @@
 #include <ostream>
 #include <string>
 
+#include "config/settings_description.h"
 #include "config/settings_file.h"
 
 namespace instep {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "config/settings_description.h"
 #include "config/settings_file.h"
 
 namespace instep {
