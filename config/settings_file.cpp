@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <set>
 #include <system_error>
 #include <utility>
 
 #include "config/calibration_loader.h"
 #include "config/distinct_cameras.h"
-#include "config/huge_numbers.h"
+#include "config/measuring_settings.h"
 #include "config/settings_table.h"
+#include "config/toml_reading.h"
 #include "config/v4l2_settings_table.h"
 
 namespace instep {
@@ -18,17 +18,6 @@ namespace {
 constexpr std::size_t kMostCameraSources = 8;
 
 const SettingsTable::Choices<Side> kSides = {{"left", Side::kLeft}, {"right", Side::kRight}};
-
-/// Reads the table [name] with `read_fields`, if it is there.
-template <typename ReadFields>
-void section(SettingsTable& root, const std::string& name, SettingsFaults& faults,
-             ReadFields read_fields) {
-  const toml::table* found = root.table(name);
-  if (found == nullptr) return;
-  SettingsTable table(*found, root.full(name), faults);
-  read_fields(table);
-  table.finish();
-}
 
 void read_station(SettingsTable& table, StationSettings& station) {
   table.read("name", station.name, 64);
@@ -60,11 +49,11 @@ void read_pedal(SettingsTable& table, PedalSettings& pedal, const std::filesyste
   table.read("fifo", pedal.fifo, base);
   const bool by_gpio = pedal.kind == PedalKind::kGpio;
   const bool by_evdev = pedal.kind == PedalKind::kEvdev;
-  section(table, "gpio", faults, [&](SettingsTable& gpio) {
+  read_section(table, "gpio", faults, [&](SettingsTable& gpio) {
     read_gpio_pedal(gpio, pedal.gpio);
     if (by_gpio) require_gpio_place(gpio, faults);
   });
-  section(table, "evdev", faults, [&](SettingsTable& evdev) {
+  read_section(table, "evdev", faults, [&](SettingsTable& evdev) {
     read_evdev_pedal(evdev, pedal.evdev);
     if (by_evdev) require_evdev_pedal(evdev, faults);
   });
@@ -119,70 +108,6 @@ void read_store(SettingsTable& table, StoreSettings& store, const std::filesyste
   table.read("keep_count", store.keep_count, 0, 1000000);
 }
 
-template <typename Rule, std::size_t Count>
-void choose_rule(SettingsTable& table, const std::string& key, Rule& rule,
-                 const RuleNames<Rule, Count>& names) {
-  table.choose(key, rule, SettingsTable::Choices<Rule>(names.begin(), names.end()));
-}
-
-void read_measures(SettingsTable& table, MeasuringRules& rules) {
-  choose_rule(table, "axis", rules.axis, kAxisRules);
-  choose_rule(table, "ball_girth", rules.ball_girth, kBallGirthRules);
-  choose_rule(table, "instep_girth", rules.instep_girth, kInstepGirthRules);
-  choose_rule(table, "heel_breadth", rules.heel_breadth, kHeelBreadthRules);
-}
-
-ShopSize read_shop_size(SettingsTable& table) {
-  ShopSize row;
-  table.read("size", row.size, 32);
-  table.read("longest_foot_mm", row.longest_foot_mm, 80, 400);
-  table.read("largest_ball_girth_mm", row.largest_ball_girth_mm, 80, 500);
-  table.finish();
-  return row;
-}
-
-/// A row that names no size or no length is a fault, and so is one shorter than the row before.
-void check_shop_size(const ShopSize& row, const std::vector<ShopSize>& before, unsigned line,
-                     SettingsFaults& faults) {
-  if (row.size.empty()) faults.add(line, "sizes.shop.sizes.size is missing: what is on the box?");
-  if (row.longest_foot_mm == 0.0) {
-    faults.add(line, "sizes.shop.sizes.longest_foot_mm is missing: how long a foot goes in?");
-  } else if (!before.empty() && row.longest_foot_mm < before.back().longest_foot_mm) {
-    faults.add(line, "sizes.shop.sizes must stand in the order of longest_foot_mm");
-  }
-}
-
-ShopTable read_shop_table(SettingsTable& table, SettingsFaults& faults) {
-  ShopTable shop;
-  table.read("name", shop.name, 64);
-  if (shop.name.empty()) faults.add(table.line(), "sizes.shop.name is missing");
-  for (const toml::table* size : table.tables("sizes")) {
-    SettingsTable row(*size, "sizes.shop.sizes", faults);
-    const ShopSize found = read_shop_size(row);
-    check_shop_size(found, shop.sizes, row.line(), faults);
-    shop.sizes.push_back(found);
-  }
-  if (shop.sizes.empty() || shop.sizes.size() > kMostShopSizes) {
-    faults.add(table.line(), fmt::format("sizes.shop.sizes must have 1 to {} rows, such as {{ size "
-                                         "= \"42\", longest_foot_mm = 268 }}",
-                                         kMostShopSizes));
-  }
-  table.finish();
-  return shop;
-}
-
-void read_sizes(SettingsTable& table, SizeRules& sizes, SettingsFaults& faults) {
-  table.read("allowance_mm", sizes.allowance_mm, 0, 40);
-  for (const toml::table* shop : table.tables("shop")) {
-    SettingsTable one(*shop, "sizes.shop", faults);
-    sizes.shop_tables.push_back(read_shop_table(one, faults));
-  }
-  if (sizes.shop_tables.size() > kMostShopTables) {
-    faults.add(table.line(), fmt::format("there are {} [[sizes.shop]] tables, more than {}",
-                                         sizes.shop_tables.size(), kMostShopTables));
-  }
-}
-
 void read_log(SettingsTable& table, LogSettings& log) {
   table.choose("level", log.level,
                {{"debug", LogLevel::kDebug},
@@ -227,53 +152,27 @@ void read_all(const toml::table& toml, const std::filesystem::path& base, Settin
               SettingsFaults& faults) {
   using Table = SettingsTable;
   Table root(toml, "", faults);
-  section(root, "station", faults, [&](Table& table) { read_station(table, settings.station); });
-  section(root, "capture", faults, [&](Table& table) { read_capture(table, settings.capture); });
+  read_section(root, "station", faults,
+               [&](Table& table) { read_station(table, settings.station); });
+  read_section(root, "capture", faults,
+               [&](Table& table) { read_capture(table, settings.capture); });
   const auto faults_before_pedal = faults.count();
-  section(root, "pedal", faults,
-          [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
+  read_section(root, "pedal", faults,
+               [&](Table& table) { read_pedal(table, settings.pedal, base, faults); });
   const bool gpio_pedal =
       settings.pedal.kind == PedalKind::kGpio && faults.count() == faults_before_pedal;
   read_outputs(root, settings.outputs, gpio_pedal ? &settings.pedal.gpio.place : nullptr, faults);
-  section(root, "simulation", faults,
-          [&](Table& table) { read_simulation(table, settings.simulation, base); });
-  section(root, "store", faults, [&](Table& table) { read_store(table, settings.store, base); });
-  section(root, "measures", faults, [&](Table& table) { read_measures(table, settings.measures); });
-  section(root, "sizes", faults, [&](Table& table) { read_sizes(table, settings.sizes, faults); });
-  section(root, "control", faults,
-          [&](Table& table) { table.read("socket", settings.control.socket, base); });
-  section(root, "log", faults, [&](Table& table) { read_log(table, settings.log); });
+  read_section(root, "simulation", faults,
+               [&](Table& table) { read_simulation(table, settings.simulation, base); });
+  read_section(root, "store", faults,
+               [&](Table& table) { read_store(table, settings.store, base); });
+  read_measuring(root, settings.measures, settings.sizes, faults);
+  read_section(root, "control", faults,
+               [&](Table& table) { table.read("socket", settings.control.socket, base); });
+  read_section(root, "log", faults, [&](Table& table) { read_log(table, settings.log); });
   read_cameras(root, settings.cameras, base, faults);
   check_socket(toml, settings.control, faults);
   root.finish();
-}
-
-std::string shortened(const std::string& number) {
-  constexpr std::size_t kMost = 60;
-  return number.size() <= kMost ? number : number.substr(0, kMost) + "...";
-}
-
-/// False if it has to be read once more, without a number that hid the rest: a 0 is in its place,
-/// in one of the lines `with_zeros`.
-bool read_once(std::string& text, const std::filesystem::path& file, Settings& settings,
-               SettingsFaults& faults, std::set<unsigned>& with_zeros) {
-  try {
-    const toml::table toml = toml::parse(text, file.string());
-    // What is wrong with a 0 is no fault of the file.
-    for (const unsigned line : with_zeros) faults.pass_over(line);
-    read_all(toml, file.parent_path(), settings, faults);
-  } catch (const toml::parse_error& error) {
-    const auto [line, column] = error.source().begin;
-    const std::string fault(error.description());
-    if (const auto number = take_out_huge_number(text, {line, column}, fault)) {
-      faults.add(line, "no number can be as large, or as small, as " + shortened(*number) + ": " +
-                           limits_of(*number));
-      with_zeros.insert(line);
-      return false;
-    }
-    faults.add(line, fault + ": write TOML, such as name = \"Bern\"");
-  }
-  return true;
 }
 
 }  // namespace
@@ -281,12 +180,9 @@ bool read_once(std::string& text, const std::filesystem::path& file, Settings& s
 SettingsReading read_settings(std::string_view text, const std::filesystem::path& file) {
   SettingsReading reading;
   SettingsFaults faults(file.string());
-  std::string readable(text);
-  std::set<unsigned> with_zeros;
-  constexpr int kMostReadings = 32;  // beyond these, enough has been said
-  for (int i = 0; i < kMostReadings; ++i) {
-    if (read_once(readable, file, reading.settings, faults, with_zeros)) break;
-  }
+  read_toml(text, file, faults, [&](const toml::table& toml) {
+    read_all(toml, file.parent_path(), reading.settings, faults);
+  });
   reading.faults = faults.in_order();
   return reading;
 }

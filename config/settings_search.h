@@ -29,6 +29,15 @@ inline constexpr const char* kEnvironmentHelp =
     "  INSTEP_SOCKET  socket of the daemon    (control.socket)\n"
     "  INSTEP_PEDAL   simulated pedal's fifo  (pedal.fifo)\n";
 
+/// The same for commands that need no station, and of its settings [measures] and [sizes] alone.
+inline constexpr const char* kMeasuringEnvironmentHelp =
+    "The definitions to measure by and the tables of sizes are [measures] and [sizes] of the\n"
+    "station's settings, if this machine has any: whatever else is wrong with them does not "
+    "matter.\n"
+    "Where these two are unsound, a warning says so, and the usual ones count.\n"
+    "Environment:\n"
+    "  INSTEP_CONFIG  settings file to take them from; it has to be there, and the two sound\n";
+
 /// The places that are searched, in order: --config alone if given, else INSTEP_CONFIG alone, else
 /// /etc/instep/instep.toml, ../etc/instep and ../share/instep beside the program, and the source
 /// tree's config folder.

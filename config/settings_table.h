@@ -90,6 +90,8 @@ class SettingsTable {
   /// The table [key]; nullptr if there is none.
   const toml::table* table(const std::string& key);
 
+  /// A key that somebody else reads: it is no fault that it is there.
+  void pass_by(const std::string& key) { known_.push_back(key); }
   /// Call when all fields have been read.
   void finish();
 
@@ -115,5 +117,16 @@ class SettingsTable {
   SettingsFaults& faults_;
   std::vector<std::string> known_;
 };
+
+/// Reads the table [name] of `root` with `read_fields`, if it is there.
+template <typename ReadFields>
+void read_section(SettingsTable& root, const std::string& name, SettingsFaults& faults,
+                  ReadFields read_fields) {
+  const toml::table* found = root.table(name);
+  if (found == nullptr) return;
+  SettingsTable table(*found, root.full(name), faults);
+  read_fields(table);
+  table.finish();
+}
 
 }  // namespace instep

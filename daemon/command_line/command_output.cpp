@@ -31,6 +31,10 @@ void print_error(const Error& error) {
   print_to_stderr(error.line());
 }
 
+void print_warning(std::string_view text) {
+  print_to_stderr(text);
+}
+
 Result<void> print_text(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return {};

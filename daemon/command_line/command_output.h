@@ -16,6 +16,9 @@ inline constexpr int kWrongUsage = 2;
 /// Prints "instep: message: advice" as exactly one line on stderr, whatever the message holds.
 void print_error(const Error& error);
 
+/// Prints "instep: text" as exactly one line on stderr, for what does not stop a command.
+void print_warning(std::string_view text);
+
 /// Prints text to stdout. Fails if stdout takes it not: a full disk, a closed pipe.
 Result<void> print_text(std::string_view text);
 

@@ -3,8 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
+#include "config/settings_search.h"
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
@@ -95,7 +97,7 @@ Result<void> run(const MeasureCommand& command) {
 void add_measure_command(CLI::App& app, int& exit_code) {
   auto* measure =
       app.add_subcommand("measure", "Length, breadths and girths of a foot in a cloud or mesh");
-  measure->footer(kExamples);
+  measure->footer(std::string(kExamples) + "\n" + kMeasuringEnvironmentHelp);
   const auto command = std::make_shared<MeasureCommand>();
   add_cloud_options(*measure, command->cloud);
   measure->add_option("--side", command->side, "which foot it is; auto tells it from the shape")

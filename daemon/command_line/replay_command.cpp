@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "config/settings_search.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
@@ -114,7 +116,7 @@ Result<void> run(const ReplayCommand& command) {
 
 void add_replay_command(CLI::App& app, int& exit_code) {
   auto* replay = app.add_subcommand("replay", "Measure the feet of a recording, without a daemon");
-  replay->footer(kExamples);
+  replay->footer(std::string(kExamples) + "\n" + kMeasuringEnvironmentHelp);
   const auto command = std::make_shared<ReplayCommand>();
   replay->add_option("RECORDING", command->recording, "folder of a recording")->required();
   replay->add_option("--out", command->out,

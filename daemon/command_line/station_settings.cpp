@@ -6,6 +6,7 @@
 #include "config/settings_file.h"
 #include "config/settings_search.h"
 #include "daemon/build_facts.h"
+#include "daemon/command_line/command_output.h"
 
 namespace instep {
 namespace {
@@ -36,14 +37,18 @@ Result<FoundSettings> find_uncalibrated_station_settings() {
   return found_by(load_uncalibrated_settings);
 }
 
-Result<Settings> measuring_settings() {
-  auto found = find_uncalibrated_station_settings();
-  if (found) return std::move(found->settings);
+Result<MeasuringSettings> measuring_settings() {
   const bool is_named = process_environment("INSTEP_CONFIG").has_value();
-  if (is_named || found.error().code != ErrorCode::kNotFound) {
-    return tl::make_unexpected(found.error());
-  }
-  return Settings{};
+  const auto file = find_station_settings_file();
+  if (!file && is_named) return tl::make_unexpected(file.error());
+  if (!file) return MeasuringSettings{};
+  auto settings = load_measuring_settings(*file);
+  if (settings || is_named) return settings;
+  print_warning(
+      "measures by the usual definitions and sizes, since those of the settings are "
+      "unsound: " +
+      settings.error().line() + ": instepd --check says all that is wrong");
+  return MeasuringSettings{};
 }
 
 Settings station_settings() {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "config/measuring_settings.h"
 #include "config/settings.h"
 #include "core/result.h"
 
@@ -23,10 +24,12 @@ Result<FoundSettings> find_station_settings();
 /// not to stop.
 Result<FoundSettings> find_uncalibrated_station_settings();
 
-/// What a person or a program is to measure by: the defaults only where there is no file at all.
-/// One that is named or found but unsound fails, as its definitions may be others than the
-/// defaults'. Poses are the settings' own.
-Result<Settings> measuring_settings();
+/// What a person or a program is to measure by who needs no station: [measures] and [sizes] of the
+/// settings, whatever is wrong with the rest; the defaults where there is no file. Where the two
+/// are unsound it fails if somebody named the file in INSTEP_CONFIG, who wants its definitions and
+/// no others; one that merely lies on this machine holds up no measuring: a warning on stderr says
+/// so, and the defaults count. Every measure says its definition.
+Result<MeasuringSettings> measuring_settings();
 
 /// For whoever only talks to a daemon: the defaults (and the environment) where there is no sound
 /// file: enough to reach a daemon. Poses are the settings' own.
