@@ -32,6 +32,13 @@ Result<void> check(const V4l2Camera::Settings& settings) {
   return check_intrinsics(settings.geometry.intrinsics);
 }
 
+/// Of a socket, the number of what is plugged into it now.
+std::string serial_of(const V4l2Camera::Settings& settings) {
+  if (!settings.address.serial.empty()) return settings.address.serial;
+  const auto nodes = find_video_nodes(settings.address, settings.folders);
+  return nodes ? nodes->front().device.address.serial : std::string();
+}
+
 }  // namespace
 
 Result<std::unique_ptr<V4l2Camera>> V4l2Camera::create(Settings settings, VideoSystem& system) {
@@ -48,7 +55,7 @@ V4l2Camera::V4l2Camera(Settings settings, VideoSystem& system)
     : settings_(std::move(settings)), system_(system) {
   description_.geometry = settings_.geometry;
   description_.model = "V4L2 depth camera";
-  description_.serial = settings_.address.serial;
+  description_.serial = serial_of(settings_);
   description_.depth_unit_mm = settings_.depth_unit_mm;
 }
 
@@ -57,6 +64,11 @@ Result<void> V4l2Camera::start() {
   if (stream_) return {};
   const auto nodes = find_video_nodes(settings_.address, settings_.folders);
   if (!nodes) return tl::make_unexpected(nodes.error());
+  const auto& serial = nodes->front().device.address.serial;
+  if (!description_.serial.empty() && serial != description_.serial) {
+    return fail(ErrorCode::kUnsupported, "another camera than before is in its place",
+                "plug the old one in again, or restart instepd");
+  }
   std::optional<Error> refusal;
   for (const auto& node : *nodes) {
     auto stream = VideoStream::open(system_, node.path, settings_.format);

@@ -252,5 +252,27 @@ TEST_F(V4l2CameraTest, SaysWhichControlCannotBeSet) {
   EXPECT_EQ(bench_.kernel().held(), 0);
 }
 
+TEST(V4l2CameraInASocket, TellsWhichUnitIsInItsSocketAndTakesNoOtherForIt) {
+  test::V4l2Bench bench;
+  auto settings = bench.settings();
+  const auto nodes = list_video_nodes(settings.folders);
+  ASSERT_EQ(nodes.size(), 1U);
+  settings.address = {nodes.front().device.address.bus_path, ""};
+  const auto camera = bench.camera(settings);
+  EXPECT_EQ(camera->description().serial, "A1");
+  ASSERT_TRUE(camera->start());
+  camera->stop();
+  bench.unplug();
+  EXPECT_EQ(bench.camera(settings)->description().serial, "") << "nothing is there";
+  bench.bus().plug({.port = "2", .serial = "B2", .nodes = {0}});
+  bench.kernel().add(bench.node(), {});
+  const auto started = camera->start();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kUnsupported);
+  const auto fresh = bench.camera(settings);
+  EXPECT_EQ(fresh->description().serial, "B2");
+  EXPECT_TRUE(fresh->start());
+}
+
 }  // namespace
 }  // namespace instep
