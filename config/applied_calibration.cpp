@@ -5,15 +5,18 @@
 namespace instep {
 
 std::string describe(const AppliedCalibration& calibration) {
-  const auto& [file, time, placed, left_out, unknown] = calibration;
+  const std::string file = calibration.file.string();
+  const auto& placed = calibration.placed;
+  const auto& left_out = calibration.left_out;
+  const auto& unknown = calibration.unknown;
   if (placed.empty() && left_out.empty()) {
     return fmt::format("poses    simulated and recorded cameras bring their own; {} is not used\n",
-                       file.string());
+                       file);
   }
   std::string text =
       fmt::format("poses    {} as calibrated at {}, {}\n",
-                  placed.empty() ? "no camera" : fmt::format("{}", fmt::join(placed, ", ")), time,
-                  file.string());
+                  placed.empty() ? "no camera" : fmt::format("{}", fmt::join(placed, ", ")),
+                  calibration.time, file);
   if (!left_out.empty()) {
     text +=
         fmt::format("poses    {} as the settings say, for want of calibration: instep calibrate\n",

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,10 @@ struct AppliedCalibration {
   /// in another frame than the calibrated ones: worth a warning.
   std::vector<std::string> left_out;
   std::vector<std::string> unknown;  ///< cameras that it holds and the settings do not
+  /// Of the placed cameras those whose pose in the settings is not the one that it was found from.
+  std::vector<std::string> moved{};
+  std::map<std::string, std::string> serials{};  ///< of the placed units, by camera, where it tells
+  std::optional<double> platform_height_mm{};    ///< StationCalibration::platform_height_mm
 };
 
 /// The lines of `instepd --check` say it so.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -14,9 +15,13 @@ namespace instep {
 namespace {
 
 constexpr const char* kHead =
-    "# Where the cameras of the station stand, written by `instep calibrate`. instepd reads it "
-    "beside\n"
-    "# its settings and takes these poses for theirs; delete it to go back to the settings' own.\n";
+    R"(# Where the cameras of the station stand, written by `instep calibrate`. instepd reads it beside
+# its settings and takes these poses for theirs; delete it to go back to the settings' own.
+# Beside them stands what they were found from: the units by their serial numbers, the poses of the
+# settings (began_from), the height of the platform. Where the station is another by now, instepd,
+# its results and instep doctor say so, and it is time to run `instep calibrate` again.
+)";
+constexpr int kVersion = 2;
 
 std::string quoted(const std::string& text) {
   std::ostringstream out;
@@ -30,15 +35,52 @@ std::string exact(double number) {
   return text == "-0" ? "-0.0" : text;  // a whole number has no negative zero
 }
 
-std::string camera_table(const CalibratedCamera& camera) {
-  std::string text =
-      fmt::format("\n[[camera]]\nname = {}\nstation_from_camera = [\n", quoted(camera.name));
-  const Eigen::Matrix4d& matrix = camera.station_from_camera.matrix();
+std::string pose_text(const char* key, const RigidTransform& pose) {
+  std::string text = fmt::format("{} = [\n", key);
+  const Eigen::Matrix4d& matrix = pose.matrix();
   for (int row = 0; row < 4; ++row) {
     text += fmt::format("  {}, {}, {}, {},\n", exact(matrix(row, 0)), exact(matrix(row, 1)),
                         exact(matrix(row, 2)), exact(matrix(row, 3)));
   }
   return text + "]\n";
+}
+
+/// The version whose keys it can fill.
+int version_of(const StationCalibration& calibration) {
+  const bool tells_its_origin =
+      calibration.platform_height_mm &&
+      std::all_of(calibration.cameras.begin(), calibration.cameras.end(),
+                  [](const auto& camera) { return camera.began_from.has_value(); });
+  return tells_its_origin ? kVersion : 1;
+}
+
+std::string head_of(const StationCalibration& calibration, int version) {
+  std::string text = kHead;
+  if (version == kVersion) text += fmt::format("version = {}\n", kVersion);
+  text += fmt::format("calibrated_at = {}\n", quoted(calibration.time));
+  if (version != kVersion) return text;
+  return text + fmt::format("platform_height_mm = {}\n", exact(*calibration.platform_height_mm));
+}
+
+std::string camera_table(const CalibratedCamera& camera, int version) {
+  const bool has_serial = version == kVersion && !camera.serial.empty();
+  std::string text = fmt::format("\n[[camera]]\nname = {}\n", quoted(camera.name));
+  if (has_serial) text += fmt::format("serial = {}\n", quoted(camera.serial));
+  text += pose_text("station_from_camera", camera.station_from_camera);
+  return version == kVersion ? text + pose_text("began_from", *camera.began_from) : text;
+}
+
+/// Nothing if it is one that is not known.
+std::optional<int> read_version(SettingsTable& root, SettingsFaults& faults) {
+  int version = 1;
+  const auto faults_before = faults.count();
+  root.read("version", version, std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+  if (faults.count() != faults_before) return std::nullopt;
+  if (version == 1 || version == kVersion) return version;
+  faults.add(
+      root.line("version"),
+      fmt::format("version = {} is none of 1 to {}: it is of another program", version, kVersion));
+  return std::nullopt;
 }
 
 bool is_utc_time(const std::string& text) {
@@ -70,23 +112,32 @@ std::string read_time(SettingsTable& root, SettingsFaults& faults) {
   return time;
 }
 
-CalibratedCamera read_camera(SettingsTable& table, SettingsFaults& faults) {
+void require(const SettingsTable& table, const char* key, SettingsFaults& faults) {
+  if (!table.has(key)) faults.add(table.line(), table.full(key) + " is missing");
+}
+
+CalibratedCamera read_camera(SettingsTable& table, int version, SettingsFaults& faults) {
   constexpr std::size_t kLongestName = 64;
+  constexpr std::size_t kLongestSerial = 64;
   CalibratedCamera camera;
   table.read("name", camera.name, kLongestName);
   if (const auto pose = read_pose_matrix(table, faults)) camera.station_from_camera = *pose;
-  for (const char* key : {"name", "station_from_camera"}) {
-    if (!table.has(key)) faults.add(table.line(), table.full(key) + " is missing");
+  for (const char* key : {"name", "station_from_camera"}) require(table, key, faults);
+  if (version == kVersion) {
+    table.read("serial", camera.serial, kLongestSerial);
+    camera.began_from = read_pose_matrix(table, faults, "began_from");
+    require(table, "began_from", faults);
   }
   table.finish();
   return camera;
 }
 
-std::vector<CalibratedCamera> read_cameras(SettingsTable& root, SettingsFaults& faults) {
+std::vector<CalibratedCamera> read_cameras(SettingsTable& root, int version,
+                                           SettingsFaults& faults) {
   std::vector<CalibratedCamera> cameras;
   for (const toml::table* camera : root.tables("camera")) {
     SettingsTable table(*camera, "camera", faults);
-    CalibratedCamera read = read_camera(table, faults);
+    CalibratedCamera read = read_camera(table, version, faults);
     const bool is_twice = std::any_of(cameras.begin(), cameras.end(), [&](const auto& before) {
       return !read.name.empty() && before.name == read.name;
     });
@@ -107,8 +158,15 @@ StationCalibration read_all(std::string_view text, const std::string& file,
   try {
     const toml::table toml = toml::parse(text, file);
     SettingsTable root(toml, "", faults);
+    const auto version = read_version(root, faults);
+    if (!version) return calibration;  // nobody knows what else it may say
     calibration.time = read_time(root, faults);
-    calibration.cameras = read_cameras(root, faults);
+    calibration.cameras = read_cameras(root, *version, faults);
+    if (*version == kVersion) {
+      root.read("platform_height_mm", calibration.platform_height_mm, -kFarthestCamera_mm,
+                kFarthestCamera_mm);
+      require(root, "platform_height_mm", faults);
+    }
     root.finish();
   } catch (const toml::parse_error& error) {
     faults.add(error.source().begin.line, std::string(error.description()));
@@ -125,8 +183,9 @@ std::filesystem::path calibration_beside(const std::filesystem::path& settings_f
 }
 
 std::string calibration_toml(const StationCalibration& calibration) {
-  std::string text = kHead + fmt::format("calibrated_at = {}\n", quoted(calibration.time));
-  for (const auto& camera : calibration.cameras) text += camera_table(camera);
+  const int version = version_of(calibration);
+  std::string text = head_of(calibration, version);
+  for (const auto& camera : calibration.cameras) text += camera_table(camera, version);
   return text;
 }
 

@@ -43,16 +43,30 @@ Result<std::string> read_text(const std::filesystem::path& file) {
   });
 }
 
+/// But for the rounding on the way from the settings through a recording.
+bool is_same(const RigidTransform& one, const RigidTransform& other) {
+  constexpr double kRounding_mm = 1e-6;
+  constexpr double kRounding = 1e-9;
+  const auto apart = [](const auto& a, const auto& b) { return (a - b).cwiseAbs().maxCoeff(); };
+  return apart(one.translation(), other.translation()) < kRounding_mm &&
+         apart(one.linear(), other.linear()) < kRounding;
+}
+
 /// Puts the cameras where it has those of the same name.
 void apply(const StationCalibration& calibration, const std::filesystem::path& file,
            Settings& settings) {
   AppliedCalibration applied{file, calibration.time, {}, {}, {}};
+  applied.platform_height_mm = calibration.platform_height_mm;
   for (auto& camera : settings.cameras) {
     CameraPlacement* placement = camera.placement();
     if (placement == nullptr) continue;
     const CalibratedCamera* found = find_camera(calibration, placement->name);
     (found == nullptr ? applied.left_out : applied.placed).push_back(placement->name);
     if (found == nullptr) continue;
+    if (!found->serial.empty()) applied.serials[placement->name] = found->serial;
+    if (found->began_from && !is_same(*found->began_from, placement->station_from_camera)) {
+      applied.moved.push_back(placement->name);
+    }
     placement->station_from_camera = found->station_from_camera;
     placement->is_rough = false;
   }

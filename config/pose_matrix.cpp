@@ -1,7 +1,5 @@
 #include "config/pose_matrix.h"
 
-#include <string>
-
 namespace instep {
 namespace {
 
@@ -18,8 +16,8 @@ RigidTransform without_rounding(const Eigen::Matrix4d& matrix) {
 
 }  // namespace
 
-std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFaults& faults) {
-  const std::string key = "station_from_camera";
+std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFaults& faults,
+                                               const std::string& key) {
   const auto numbers = table.numbers(key, 16);
   if (numbers.empty()) return std::nullopt;
   const Eigen::Matrix4d matrix =

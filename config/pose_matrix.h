@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "config/settings_table.h"
 #include "core/geometry/rigid_transform.h"
@@ -18,6 +19,7 @@ inline constexpr double kFarthestCamera_mm = 1e5;
 /// The rounding of decimals is taken out of the rotation; one that is written to the last digit
 /// stays as it is, bit by bit. Nothing if the key is not there, or if it leaves a fault: no list of
 /// 16 finite numbers, no rotation and shift, or more than kFarthestCamera_mm away.
-std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFaults& faults);
+std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFaults& faults,
+                                               const std::string& key = "station_from_camera");
 
 }  // namespace instep

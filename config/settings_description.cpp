@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/warnings_of_poses.h"
+
 namespace instep {
 namespace {
 
@@ -184,6 +186,9 @@ const char* name_of(LogLevel level) {
 std::string describe(const Settings& settings) {
   std::string text = describe_station(settings.station) + describe_cameras(settings);
   if (settings.calibration) text += describe(*settings.calibration);
+  for (const auto& change : what_has_changed(settings, {})) {
+    text += fmt::format("poses    {}: run instep calibrate again\n", change);
+  }
   text += describe_capture(settings.capture) + describe_pedal(settings.pedal);
   for (const auto& [name, output] : settings.outputs.named()) {
     text += fmt::format("output   {}: {}\n", name, describe(*output));

@@ -148,6 +148,10 @@ Result<Subject> look_at_recording(const CalibrateCommand& command) {
   return subject;
 }
 
+double platform_height_mm(const Capture& capture) {
+  return capture.platform_height_mm.value_or(0.0);
+}
+
 Result<FoundPoses> poses_of(const Capture& capture, const StopRequest& stop) {
   ProgressLine line;
   const ScanProgress progress = [&](std::string_view stage, double done) {
@@ -161,16 +165,20 @@ Result<FoundPoses> poses_of(const Capture& capture, const StopRequest& stop) {
   if (!images) return tl::make_unexpected(images.error());
   clock.begin("poses", 0.3);
   PoseFinding settings;
-  settings.platform_height_mm = capture.platform_height_mm.value_or(0.0);
+  settings.platform_height_mm = platform_height_mm(capture);
   return find_poses(views_of(capture, std::move(*images)), settings, on_all_processors, go_on);
 }
 
-StationCalibration calibration_of(const CalibrationReport& report) {
+/// With what it was found from.
+StationCalibration calibration_of(const CalibrationReport& report, const Capture& capture) {
   StationCalibration calibration;
   calibration.time = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   for (std::size_t i = 0; i < report.names.size(); ++i) {
-    calibration.cameras.push_back({report.names[i], report.poses.cameras[i].station_from_camera});
+    const auto& camera = capture.cameras[i];
+    calibration.cameras.push_back({report.names[i], report.poses.cameras[i].station_from_camera,
+                                   camera.serial, camera.geometry.station_from_camera});
   }
+  calibration.platform_height_mm = platform_height_mm(capture);
   return calibration;
 }
 
@@ -185,7 +193,7 @@ Result<CalibrationReport> calibrate(const CalibrateCommand& command, const StopR
   CalibrationReport report{{}, std::move(*poses), std::nullopt, subject->use};
   for (const auto& camera : subject->capture.cameras) report.names.push_back(camera.geometry.id);
   if (!subject->target) return report;
-  written = write_calibration(*subject->target, calibration_of(report));
+  written = write_calibration(*subject->target, calibration_of(report, subject->capture));
   if (written) report.file = subject->target->file;
   if (!written) report.use = PosesUse::kNotWritten;
   return report;

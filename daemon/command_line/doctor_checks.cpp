@@ -95,24 +95,52 @@ DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path
   return good("daemon", string_at(*status, "state") + ", answers on " + socket.string());
 }
 
-/// Asks the daemon, who has the cameras, or opens them if there is none.
-DoctorCheck check_cameras(const Result<json>& status, const Settings& settings) {
-  if (status && status->contains("cameras") && (*status)["cameras"].is_array()) {
-    const auto& cameras = (*status)["cameras"];
-    for (const auto& camera : cameras) {
-      if (!camera.value("ok", false)) {
-        return bad("cameras", string_at(camera, "trouble"),
-                   "plug it in again, then: instep status");
-      }
+bool has_cameras(const Result<json>& status) {
+  return status && status->contains("cameras") && (*status)["cameras"].is_array();
+}
+
+DoctorCheck check_cameras(const json& cameras) {
+  for (const auto& camera : cameras) {
+    if (!camera.value("ok", false)) {
+      return bad("cameras", string_at(camera, "trouble"), "plug it in again, then: instep status");
     }
-    return good("cameras", fmt::format("all {} answer", cameras.size()));
   }
-  const auto devices = open_devices(settings);
+  return good("cameras", fmt::format("all {} answer", cameras.size()));
+}
+
+ToldSerials told_serials(const json& cameras) {
+  ToldSerials told;
+  for (const auto& camera : cameras) told[string_at(camera, "id")] = string_at(camera, "serial");
+  return told;
+}
+
+DoctorCheck check_cameras(const Result<Devices>& devices) {
   if (!devices) {
     return bad("cameras", devices.error().message,
                devices.error().advice.empty() ? "instepd --check" : devices.error().advice);
   }
   return good("cameras", fmt::format("{} can be opened", devices->cameras.size()));
+}
+
+ToldSerials told_serials(const Result<Devices>& devices) {
+  ToldSerials told;
+  if (!devices) return told;
+  for (const auto& camera : devices->cameras) {
+    told[camera->description().geometry.id] = camera->description().serial;
+  }
+  return told;
+}
+
+/// Asks the daemon, who has the cameras, or opens them if there is none. Gives what they tell.
+ToldSerials look_at_cameras(const Result<json>& status, const Settings& settings,
+                            std::vector<DoctorCheck>& checks) {
+  if (has_cameras(status)) {
+    checks.push_back(check_cameras((*status)["cameras"]));
+    return told_serials((*status)["cameras"]);
+  }
+  const auto devices = open_devices(settings);
+  checks.push_back(check_cameras(devices));
+  return told_serials(devices);
 }
 
 /// What a camera that does not answer lacks, as the kernel's folders show it.
@@ -196,7 +224,7 @@ Result<json> ask_status(const std::filesystem::path& socket) {
 
 }  // namespace
 
-std::optional<DoctorCheck> check_calibration(const Settings& settings) {
+std::optional<DoctorCheck> check_calibration(const Settings& settings, const ToldSerials& told) {
   std::vector<CameraPlacement> cameras;
   for (const auto& camera : settings.cameras) {
     if (camera.placement() != nullptr) cameras.push_back(*camera.placement());
@@ -205,6 +233,12 @@ std::optional<DoctorCheck> check_calibration(const Settings& settings) {
   if (cameras.empty()) return std::nullopt;
   const std::string lacking = what_is_lacking(*settings.calibration);
   if (!lacking.empty()) return bad("calibration", lacking, kCalibrate);
+  const auto changes = what_has_changed(settings, told);
+  if (!changes.empty()) {
+    return bad("calibration",
+               fmt::format("of another station than this: {}", fmt::join(changes, "; ")),
+               kCalibrate);
+  }
   return good("calibration",
               fmt::format("of all {} cameras, {}", cameras.size(), settings.calibration->time));
 }
@@ -220,10 +254,11 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(check_store(store));
   if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
-  if (found) checks.push_back(check_cameras(status, settings));
+  ToldSerials told;
+  if (found) told = look_at_cameras(status, settings, checks);
   check_video_cameras(settings, checks);
   // Of a faulty calibration check_settings() tells.
-  auto calibration = found ? check_calibration(settings) : std::nullopt;
+  auto calibration = found ? check_calibration(settings, told) : std::nullopt;
   if (calibration) checks.push_back(std::move(*calibration));
   check_usb_memory(checks);
   check_pedal(status.has_value(), settings, checks);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/settings.h"
+#include "config/warnings_of_poses.h"
 
 namespace instep {
 
@@ -17,10 +18,11 @@ struct DoctorCheck {
 };
 
 /// Whether the real cameras stand where a calibration found them. Bad for those that it left out,
-/// and for those placed by tape measure alone; several that stand as the settings say may do so
-/// rightly, which is good, with a word. Nothing where there is nothing to calibrate: no real
-/// camera, or a single one that stands as the settings say.
-std::optional<DoctorCheck> check_calibration(const Settings& settings);
+/// for those placed by tape measure alone, and where the station is another than was calibrated:
+/// `told` are serial numbers as cameras tell them. Several cameras that stand as the settings say
+/// may do so rightly, which is good, with a word. Nothing where there is nothing to calibrate: no
+/// real camera, or a single one that stands as the settings say.
+std::optional<DoctorCheck> check_calibration(const Settings& settings, const ToldSerials& told);
 
 /// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes
 /// nothing. Takes up to some seconds: if no daemon runs, the cameras are opened.

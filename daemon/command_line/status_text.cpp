@@ -78,6 +78,9 @@ std::string status_line(const json& status) {
 
 std::string status_text(const json& status) {
   std::string lines = status_line(status) + "\n";
+  for (const auto& warning : list_at(status, "warnings")) {
+    if (warning.is_string()) lines += "  warning: " + warning.get<std::string>() + "\n";
+  }
   for (const auto& camera : list_at(status, "cameras")) {
     lines += fmt::format("  camera {:<12} {}\n", string_at(camera, "id"), camera_text(camera));
   }

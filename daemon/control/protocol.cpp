@@ -107,6 +107,7 @@ json to_json(const StationStatus& status) {
   for (const auto& camera : status.cameras) {
     cameras.push_back({{"id", camera.id},
                        {"model", camera.model},
+                       {"serial", camera.serial},
                        {"ok", !camera.trouble.has_value()},
                        {"trouble", camera.trouble ? camera.trouble->line() : ""},
                        {"recovery", camera.health.recovery},
@@ -123,6 +124,7 @@ json to_json(const StationStatus& status) {
   }
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble},
+          {"warnings", status.warnings},
           {"stage", status.stage},
           {"done", json(json_number(status.done))},
           {"cameras", cameras},

@@ -17,7 +17,6 @@
 #include "config/settings_description.h"
 #include "config/settings_file.h"
 #include "config/settings_search.h"
-#include "config/source_of_poses.h"
 #include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/scan/scan_pipeline.h"
@@ -63,22 +62,12 @@ int check(const std::filesystem::path& file, const Settings& settings) {
   return print(fmt::format("settings {}\n{}", file.string(), describe(settings)));
 }
 
-/// A camera in another frame than the others makes measures wrong, and a scan cannot always tell.
-void warn_of_what_is_not_calibrated(const Settings& settings) {
-  const std::string by_tape = warning_of_tape_measure(settings);
-  if (!by_tape.empty()) log_warning(by_tape);
-  if (!settings.calibration) return;
-  const std::string lacking = what_is_lacking(*settings.calibration);
-  if (!lacking.empty()) log_warning(lacking + ": run instep calibrate, then restart");
-}
-
 int serve(const std::filesystem::path& file, const Settings& settings) {
   ::umask(0027);
   keep_to_one_heap();
   keep_signals_for_the_loop();
   set_up_log(settings.log.level);
   log_info(fmt::format("instepd {} with {}", program_version(), file.string()));
-  warn_of_what_is_not_calibrated(settings);
   auto service = StationService::create(
       settings, [file] { return read_settings(file); }, measure_capture);
   if (!service) return complain(service.error());

@@ -146,6 +146,9 @@ void StationService::station_changed() {
   if (said_.is_news("trouble", status.trouble)) {
     status.trouble.empty() ? log_info("all is well again") : log_warning(status.trouble);
   }
+  for (const auto& warning : status.warnings) {
+    if (said_.is_news(warning, "said")) log_warning(warning);
+  }
   for (const auto& [name, on, trouble] : status.outputs) {
     const std::string line = trouble ? trouble->line() : "";
     if (!said_.is_news(name, line)) continue;

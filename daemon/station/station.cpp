@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "config/source_of_poses.h"
+#include "config/warnings_of_poses.h"
 
 namespace instep {
 namespace {
@@ -95,6 +95,7 @@ StationStatus Station::status() const {
   StationStatus status;
   status.state = machine_.state();
   if (const auto trouble = first_trouble()) status.trouble = trouble->line();
+  status.warnings = pose_warnings();
   status.stage = stage_;
   status.done = done_;
   status.cameras = camera_status_;
@@ -166,7 +167,7 @@ void Station::take_devices(Result<Devices> devices) {
   devices_ = std::move(*devices);
   cameras_ = std::make_shared<CameraSet>(std::exchange(devices_.cameras, {}));
   for (const auto& camera : cameras_->descriptions()) {
-    camera_status_.push_back({camera.geometry.id, camera.model});
+    camera_status_.push_back({camera.geometry.id, camera.model, camera.serial});
   }
   begin_care();
   work_out_truth();
@@ -298,15 +299,20 @@ void Station::remark_missing_light() {
   }
 }
 
-void Station::remark_tape_measure() {
-  const auto warning = warning_of_tape_measure(settings_);
-  if (!warning.empty()) remarks_->note(warning);
+void Station::remark_poses() {
+  for (const auto& warning : pose_warnings()) remarks_->note(warning);
+}
+
+std::vector<std::string> Station::pose_warnings() const {
+  ToldSerials told;
+  for (const auto& camera : camera_status_) told[camera.id] = camera.serial;
+  return warnings_of_poses(settings_, told);
 }
 
 void Station::start_scan() {
   remarks_ = std::make_shared<CaptureRemarks>();
   remark_missing_light();
-  remark_tape_measure();
+  remark_poses();
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
   check_timer_.clear();
   stage_ = "capture";

@@ -30,6 +30,7 @@ namespace instep {
 struct CameraStatus {
   std::string id;
   std::string model;
+  std::string serial{};            ///< as the camera itself tells it; empty if it does not
   std::optional<Error> trouble{};  ///< nothing = it answers
   CameraHealth health{};
   FrameCounts frames{};
@@ -39,8 +40,9 @@ struct CameraStatus {
 struct StationStatus {
   StationState state = StationState::kStarting;
   std::string trouble;  ///< what is wrong and what to do, one line; empty if nothing is
-  std::string stage;    ///< of the scan that runs; empty if none does
-  double done = 0.0;    ///< of that scan, 0 to 1
+  std::vector<std::string> warnings;  ///< what makes measures wrong and stops no scan
+  std::string stage;                  ///< of the scan that runs; empty if none does
+  double done = 0.0;                  ///< of that scan, 0 to 1
   std::vector<CameraStatus> cameras;
   std::vector<OutputStatus> outputs;  ///< lamps and the projector
   std::uint64_t scans = 0;            ///< that ended with a result, since the daemon started
@@ -102,8 +104,9 @@ class Station {
   void start_scan();
   /// A projector that is away fails no scan, but its frames are the poorer for it.
   void remark_missing_light();
-  /// Nor does a camera that only a tape measure placed, whatever comes of its poses.
-  void remark_tape_measure();
+  /// Nor do cameras that are not where a calibration found them, whatever comes of their poses.
+  void remark_poses();
+  std::vector<std::string> pose_warnings() const;
   void scan_ended(const ScanOutcome& outcome);
   ScanTools tools() const;
   std::optional<Error> first_trouble() const;

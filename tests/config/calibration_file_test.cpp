@@ -77,6 +77,54 @@ TEST(CalibrationFile, ReadsBackToTheSameBits) {
   }
 }
 
+/// What a file of version 2 has to say.
+std::string second_version(const std::string& more_of_camera = "") {
+  return "version = 2\n" + std::string(kTime) + "platform_height_mm = -1.25\n" + camera("left") +
+         "began_from = [1, 0, 0, 7,  0, 1, 0, 8,  0, 0, 1, 9,  0, 0, 0, 1]\n" + more_of_camera;
+}
+
+TEST(CalibrationFile, HoldsWhatItWasFoundFrom) {
+  const auto calibration = read(second_version("serial = \"0042\"\n"));
+  ASSERT_TRUE(calibration) << calibration.error().line();
+  EXPECT_EQ(calibration->platform_height_mm, -1.25);
+  EXPECT_EQ(calibration->cameras[0].serial, "0042");
+  ASSERT_TRUE(calibration->cameras[0].began_from);
+  EXPECT_EQ(calibration->cameras[0].began_from->translation(), Eigen::Vector3d(7, 8, 9));
+  EXPECT_EQ(calibration->cameras[0].station_from_camera.translation(),
+            Eigen::Vector3d(10, 20, 500));
+  const auto without_serial = read(second_version());
+  ASSERT_TRUE(without_serial) << without_serial.error().line();
+  EXPECT_EQ(without_serial->cameras[0].serial, "") << "not every camera tells one";
+}
+
+TEST(CalibrationFile, OfTheFirstVersionSaysNothingOfThat) {
+  for (const std::string version : {"", "version = 1\n"}) {
+    const auto calibration = read(version + kTime + camera("left"));
+    ASSERT_TRUE(calibration) << calibration.error().line();
+    EXPECT_FALSE(calibration->platform_height_mm);
+    EXPECT_EQ(calibration->cameras[0].serial, "");
+    EXPECT_FALSE(calibration->cameras[0].began_from);
+  }
+}
+
+TEST(CalibrationFile, ReadsBackWhatItWasFoundFrom) {
+  std::mt19937_64 random(13);
+  StationCalibration written{"2026-11-28T02:11:12Z", {}};
+  written.platform_height_mm = -0.1;
+  for (const std::string serial : {"", "A \"1\""}) {
+    written.cameras.push_back({"camera" + serial, drawn_pose(random), serial, drawn_pose(random)});
+  }
+  const auto text = calibration_toml(written);
+  EXPECT_THAT(text, HasSubstr("\nversion = 2\n"));
+  const auto again = read(text);
+  ASSERT_TRUE(again) << again.error().line();
+  EXPECT_EQ(again->platform_height_mm, written.platform_height_mm);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(again->cameras[i].serial, written.cameras[i].serial);
+    EXPECT_TRUE(same_bits(*again->cameras[i].began_from, *written.cameras[i].began_from));
+  }
+}
+
 TEST(CalibrationFile, KeepsAnyNameThatSettingsTake) {
   for (const std::string name : {"left \"2\"", "C:\\left", "l'avant", "'\"\\", "früh", "# [[x]]"}) {
     const auto again =
@@ -165,6 +213,17 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{std::string(kTime) + "[[camera]]\nname = \"left\"\nstation_from_camera = "
                                    "[1,0,0,2e5, 0,1,0,0, 0,0,1,0, 0,0,0,1]\n",
               "4: camera.station_from_camera puts the camera more than 100 m away"},
+        Fault{kTime + camera("left") + "serial = \"1\"\n", "5: there is no setting camera.serial"},
+        Fault{"platform_height_mm = 0\n" + (kTime + camera("left")),
+              "1: there is no setting platform_height_mm"},
+        Fault{"version = 2\nplatform_height_mm = 0\n" + (kTime + camera("left")),
+              "4: camera.began_from is missing"},
+        Fault{second_version("serial = 42\n"), "8: camera.serial must be text in quotes"},
+        Fault{second_version("seriel = \"42\"\n"), "8: there is no setting camera.seriel"},
+        // Whatever else it says is another version's concern.
+        Fault{"version = 3\nrooms = 4\n", "1: version = 3 is none of 1 to 2"},
+        Fault{"version = \"2\"\n" + (kTime + camera("left")),
+              "1: version must be a whole number, but it is text"},
         Fault{kTime + camera("left") + "[[", "5: "}));
 
 TEST(CalibrationFile, NeverThrowsOnDamagedText) {

@@ -110,6 +110,44 @@ TEST_F(CalibrationBesideSettings, NamesCamerasThatOnlyOneOfTheTwoHas) {
                     HasSubstr("poses    of top are calibrated too")));
 }
 
+/// The camera, found from where the settings have it, as the unit of that serial number.
+CalibratedCamera found_from_settings(const std::string& name, const std::string& serial) {
+  auto camera = calibrated(name, 700.0);
+  camera.serial = serial;
+  camera.began_from = RigidTransform::Identity();
+  // As stands_at_mm and looks_at_mm of real_camera() have it: to -x, upright.
+  camera.began_from->linear() << 0, 0, -1, 1, 0, 0, 0, -1, 0;
+  camera.began_from->translation() << 500, 0, 60;
+  return camera;
+}
+
+TEST_F(CalibrationBesideSettings, IsUsedAndToldOfWhereTheSettingsHaveChangedSince) {
+  write_settings(real_camera("left"));
+  const auto loaded_with = [&](const CalibratedCamera& camera) {
+    write_calibration(calibration_toml({"2026-11-28T02:11:12Z", {camera}, 0.0}));
+    auto settings = load_settings(settings_file());
+    EXPECT_TRUE(settings) << settings.error().line();
+    EXPECT_EQ(height_mm(*settings, 0), 700.0) << "used in any case";
+    return describe(*settings);
+  };
+  auto camera = found_from_settings("left", "left");
+  EXPECT_THAT(loaded_with(camera), Not(HasSubstr("calibrate again")));
+  camera.began_from->translation().y() += 1e-9;  // rounding
+  EXPECT_THAT(loaded_with(camera), Not(HasSubstr("calibrate again")));
+  camera.began_from->translation().y() += 0.01;
+  EXPECT_THAT(loaded_with(camera),
+              HasSubstr("poses    left stands elsewhere by the settings than when it was "
+                        "calibrated: run instep calibrate again\n"));
+  camera = found_from_settings("left", "left");
+  camera.began_from->rotate(Eigen::AngleAxisd(1e-4, Eigen::Vector3d::UnitZ()));
+  EXPECT_THAT(loaded_with(camera), HasSubstr("left stands elsewhere"));
+  EXPECT_THAT(loaded_with(found_from_settings("left", "other")),
+              HasSubstr("poses    left is the unit left, and other was calibrated"));
+  write_settings(real_camera("left") + "[station]\nplatform_height_mm = 8\n");
+  EXPECT_THAT(loaded_with(found_from_settings("left", "left")),
+              HasSubstr("poses    station.platform_height_mm is 8, and was 0 when"));
+}
+
 TEST_F(CalibrationBesideSettings, IsNotForSimulatedCameras) {
   write_settings("[[camera]]\nkind = \"simulated\"\n");
   calibrate({calibrated("left", 700.0)});

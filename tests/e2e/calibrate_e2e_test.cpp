@@ -31,6 +31,7 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {
@@ -268,6 +269,19 @@ TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
     }
   }
   EXPECT_EQ(compared, 3);
+
+  EXPECT_EQ(read->platform_height_mm, 0.0);
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    EXPECT_EQ(read->cameras[i].serial, sensors.serial(i));
+  }
+  EXPECT_THAT(result.at("warnings").dump(), Not(HasSubstr("calibrate")));
+  EXPECT_THAT(station.run_instep("doctor").text, Not(HasSubstr("of another station")));
+  station.write_settings(sensors.camera_tables_by_tape(62.0) +
+                         "[station]\nplatform_height_mm = 3\n");
+  EXPECT_THAT(
+      station.run_instep("doctor").text,
+      AllOf(HasSubstr("of another station"), HasSubstr(sensors.name(0) + " stands elsewhere"),
+            HasSubstr("platform_height_mm is 3, and was 0")));
   station.signal(SIGTERM);
   EXPECT_EQ(station.wait_for_exit(5s), 0);
 }

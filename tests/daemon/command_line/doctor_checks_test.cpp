@@ -28,20 +28,20 @@ AppliedCalibration calibration_of(std::vector<std::string> placed,
 
 TEST(CalibrationCheck, IsNotMadeWhereThereIsNothingToCalibrate) {
   Settings settings;
-  EXPECT_FALSE(check_calibration(settings));
+  EXPECT_FALSE(check_calibration(settings, {}));
   settings.cameras.resize(2);  // simulated ones
-  EXPECT_FALSE(check_calibration(settings));
+  EXPECT_FALSE(check_calibration(settings, {}));
   settings.calibration = calibration_of({}, {});
-  EXPECT_FALSE(check_calibration(settings));
+  EXPECT_FALSE(check_calibration(settings, {}));
   settings.calibration.reset();
   settings.cameras = {camera("left", false)};
-  EXPECT_FALSE(check_calibration(settings)) << "one camera alone";
+  EXPECT_FALSE(check_calibration(settings, {})) << "one camera alone";
 }
 
 TEST(CalibrationCheck, NamesTheCommandWherePosesAreTheSettingsOwn) {
   Settings settings;
   settings.cameras = {camera("left", false), camera("right", false)};
-  const auto check = check_calibration(settings);
+  const auto check = check_calibration(settings, {});
   ASSERT_TRUE(check);
   EXPECT_TRUE(check->good);
   EXPECT_THAT(check->finding, HasSubstr("instep calibrate"));
@@ -50,13 +50,13 @@ TEST(CalibrationCheck, NamesTheCommandWherePosesAreTheSettingsOwn) {
 TEST(CalibrationCheck, IsBadWhereATapeMeasureIsAllThatThereIs) {
   Settings settings;
   settings.cameras = {camera("left", false), camera("right", true)};
-  const auto check = check_calibration(settings);
+  const auto check = check_calibration(settings, {});
   ASSERT_TRUE(check);
   EXPECT_FALSE(check->good);
   EXPECT_THAT(check->finding, HasSubstr("by tape measure alone: right"));
   EXPECT_EQ(check->remedy, "instep calibrate");
   settings.cameras = {camera("only", true)};  // its tilt and its height are found
-  const auto alone = check_calibration(settings);
+  const auto alone = check_calibration(settings, {});
   ASSERT_TRUE(alone);
   EXPECT_FALSE(alone->good);
 }
@@ -65,10 +65,23 @@ TEST(CalibrationCheck, IsBadForCamerasThatTheCalibrationLeftOut) {
   Settings settings;
   settings.cameras = {camera("left", false), camera("right", false)};
   settings.calibration = calibration_of({"left"}, {"right"});
-  const auto check = check_calibration(settings);
+  const auto check = check_calibration(settings, {});
   ASSERT_TRUE(check);
   EXPECT_FALSE(check->good);
   EXPECT_THAT(check->finding, AllOf(HasSubstr("/etc/c.toml"), HasSubstr("right")));
+  EXPECT_EQ(check->remedy, "instep calibrate");
+}
+
+TEST(CalibrationCheck, IsBadWhereAnotherUnitThanTheCalibratedOneAnswers) {
+  Settings settings;
+  settings.cameras = {camera("left", false), camera("right", false)};
+  settings.calibration = calibration_of({"left", "right"}, {});
+  settings.calibration->serials = {{"left", "111"}, {"right", "222"}};
+  EXPECT_TRUE(check_calibration(settings, {{"left", "111"}, {"right", ""}})->good);
+  const auto check = check_calibration(settings, {{"left", "111"}, {"right", "333"}});
+  ASSERT_TRUE(check);
+  EXPECT_FALSE(check->good);
+  EXPECT_THAT(check->finding, HasSubstr("right is the unit 333, and 222 was calibrated"));
   EXPECT_EQ(check->remedy, "instep calibrate");
 }
 
@@ -76,7 +89,7 @@ TEST(CalibrationCheck, SaysWhenAllWereCalibrated) {
   Settings settings;
   settings.cameras = {camera("left", false), camera("right", false)};
   settings.calibration = calibration_of({"left", "right"}, {});
-  const auto check = check_calibration(settings);
+  const auto check = check_calibration(settings, {});
   ASSERT_TRUE(check);
   EXPECT_TRUE(check->good);
   EXPECT_THAT(check->finding, HasSubstr("2026-11-28T02:11:12Z"));

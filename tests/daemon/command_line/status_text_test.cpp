@@ -33,6 +33,13 @@ TEST(StatusText, SaysWhatRunsAndHowEachDeviceIs) {
             "  scans 3, ignored presses 1\n");
 }
 
+TEST(StatusText, WarnsOfWhatStopsNoScan) {
+  EXPECT_EQ(status_text({{"state", "ready"}, {"warnings", {"a camera was swapped", 3}}}),
+            "ready\n"
+            "  warning: a camera was swapped\n"
+            "  scans 0, ignored presses 0\n");
+}
+
 TEST(StatusText, SaysOnceWhySeveralLampsAreAway) {
   const json status = {{"state", "ready"},
                        {"outputs",

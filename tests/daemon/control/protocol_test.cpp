@@ -56,6 +56,15 @@ TEST(Protocol, TellsHowMuchIsDoneToAThousandth) {
   EXPECT_NE(to_json(status).dump().find("\"done\":0.9,"), std::string::npos);
 }
 
+TEST(Protocol, TellsUnitsAndWarningsInTheStatus) {
+  StationStatus status;
+  status.cameras = {{"left", "Model 1", "0042"}};
+  status.warnings = {"left is another"};
+  const auto json = to_json(status);
+  EXPECT_EQ(json.at("cameras").at(0).at("serial"), "0042");
+  EXPECT_EQ(json.at("warnings").at(0), "left is another");
+}
+
 TEST(Protocol, SurvivesTextThatIsNoUnicode) {
   const Error error{ErrorCode::kIo, Remedy::kOperator,
                     "a\xff"

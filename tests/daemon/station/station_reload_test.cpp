@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "daemon/station/station.h"
 #include "daemon/store/posix_storage.h"
@@ -47,9 +49,8 @@ class ReloadedStation : public testing::Test {
       station_->begin();
     });
   }
-  ~ReloadedStation() override {
-    loop_.call([&] { station_.reset(); });
-  }
+  /// What is under way still tells the station of itself, on the loop.
+  ~ReloadedStation() override { loop_.stop(); }
 
   void reload(const Settings& settings) {
     loop_.call([&] { station_->reload(settings); });
@@ -85,6 +86,31 @@ TEST_F(ReloadedStation, GoesBackToWhatTheCamerasSayWhereASettingIsTakenOut) {
   const auto again = scan();
   EXPECT_EQ(again.platform_height_mm, 0.0);
   EXPECT_EQ(again.side, std::nullopt);
+}
+
+TEST(StationWarnings, TellOfAPlatformThatTheCamerasWereNotCalibratedFor) {
+  test::LoopThread loop;
+  const test::TemporaryFolder folder;
+  auto settings = small_station();
+  settings.calibration = AppliedCalibration{};
+  settings.calibration->placed = {"left"};
+  settings.calibration->platform_height_mm = 0.0;
+  std::optional<Station> station;
+  std::vector<std::string> before;
+  std::vector<std::string> after;
+  loop.call([&] {
+    auto store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path());
+    station.emplace(loop.loop(), settings, MeasureCapture(), store, StationListener());
+    before = station->status().warnings;
+    settings.station.platform_height_mm = 12.5;
+    settings.calibration.reset();  // a file that is gone leaves the poses that are in use
+    station->reload(settings);
+    after = station->status().warnings;
+    station.reset();
+  });
+  EXPECT_TRUE(before.empty());
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_NE(after[0].find("platform_height_mm is 12.5, and was 0"), std::string::npos) << after[0];
 }
 
 }  // namespace
