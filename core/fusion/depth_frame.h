@@ -30,6 +30,12 @@ struct CameraIntrinsics {
 Result<void> check_intrinsics(const CameraIntrinsics& intrinsics);
 
 /// A camera as the fusion needs it: its lens and where it stands.
+///
+/// Station frame: right-handed, in millimetres, z up; its origin is in the middle of the platform,
+/// x points to where the customer looks, y to the customer's left. The standing surface is level:
+/// at the height that settings or recording give it, else where the views show it; a calibration
+/// puts it at 0 if none is given. No measure depends on where x and y point, nor on the origin as
+/// long as the feet are near it (FusionSettings::region_radius_mm).
 struct CameraGeometry {
   std::string id;
   CameraIntrinsics intrinsics;
