@@ -19,6 +19,17 @@ ControlServer::Connection::~Connection() {
   if (descriptor >= 0) ::close(descriptor);
 }
 
+bool ControlServer::Connection::is_done() const {
+  return is_read_out && !has_open_request && !watches && output.empty();
+}
+
+void ControlServer::Connection::await_events() {
+  std::uint32_t events = 0;
+  if (!has_open_request && !is_read_out) events |= EPOLLIN;
+  if (!output.empty()) events |= EPOLLOUT;
+  watch.set_events(events);
+}
+
 Result<std::unique_ptr<ControlServer>> ControlServer::listen(EventLoop& loop,
                                                              const std::filesystem::path& socket,
                                                              Handler handler) {
@@ -66,49 +77,57 @@ void ControlServer::ready(Client client, std::uint32_t events) {
   const auto found = connections_.find(client);
   if (found == connections_.end()) return;
   const auto connection = found->second;
-  const bool stays = ((events & EPOLLOUT) == 0 || flush(*connection)) &&
-                     ((events & (EPOLLIN | EPOLLHUP | EPOLLERR)) == 0 || read(client));
+  // Nobody is left to read an answer that is still to come.
+  const bool left = (events & (EPOLLHUP | EPOLLERR)) != 0 &&
+                    (connection->has_open_request || connection->is_read_out);
+  const bool stays = !left && ((events & EPOLLOUT) == 0 || flush(*connection)) &&
+                     ((events & EPOLLIN) == 0 || read(*connection)) &&
+                     take_lines(client, *connection);
   if (!stays) drop(client);
 }
 
-bool ControlServer::read(Client client) {
-  auto& connection = *connections_.at(client);
+bool ControlServer::read(Connection& connection) {
   std::array<char, kLongestRequest> block;
   const auto got = ::recv(connection.descriptor, block.data(), block.size(), 0);
   if (got < 0) return errno == EAGAIN || errno == EINTR;
-  if (got == 0) return false;
+  connection.is_read_out = got == 0;
   connection.input.append(block.data(), static_cast<std::size_t>(got));
-  return take_lines(client);
+  return true;
 }
 
-bool ControlServer::take_lines(Client client) {
-  while (true) {
-    const auto found = connections_.find(client);
-    if (found == connections_.end()) return false;
-    auto& connection = *found->second;
+bool ControlServer::take_lines(Client client, Connection& connection) {
+  connection.takes_lines = true;
+  while (!connection.has_open_request) {
     const auto end = connection.input.find('\n');
     if (std::min(end, connection.input.size()) > kLongestRequest) {
       send(client, error_answer({ErrorCode::kInvalidInput, Remedy::kOperator,
                                  "the request is too long", "send short lines"}));
       return false;
     }
-    if (end == std::string::npos) return true;
+    if (end == std::string::npos) break;
     const std::string line = connection.input.substr(0, end);
     connection.input.erase(0, end + 1);
-    if (++connection.open_requests > kMostOpenRequests) return false;
+    connection.has_open_request = true;
     if (const auto request = parse_request(line)) {
       handler_(client, *request);
     } else {
       answer(client, error_answer(request.error()));
     }
+    if (!connections_.contains(client)) return false;
   }
+  connection.takes_lines = false;
+  connection.await_events();
+  return !connection.is_done();
 }
 
 void ControlServer::answer(Client client, const std::string& line) {
   const auto found = connections_.find(client);
   if (found == connections_.end()) return;
-  if (found->second->open_requests > 0) --found->second->open_requests;
+  const auto connection = found->second;
+  connection->has_open_request = false;
   send(client, line);
+  if (connection->takes_lines || !connections_.contains(client)) return;
+  if (!take_lines(client, *connection)) drop(client);
 }
 
 void ControlServer::send(Client client, const std::string& line) {
@@ -131,7 +150,7 @@ bool ControlServer::flush(Connection& connection) {
     done += static_cast<std::size_t>(sent);
   }
   connection.output.erase(0, done);
-  connection.watch.set_events(connection.output.empty() ? EPOLLIN : EPOLLIN | EPOLLOUT);
+  connection.await_events();
   return true;
 }
 

@@ -15,14 +15,14 @@
 namespace instep {
 
 /// The listening end of the local protocol (protocol.h), on the event loop; never blocks. Clients
-/// cannot hurt it: their number, the length of their lines, the requests they may have open and the
-/// unread output they may pile up are bounded, and who goes beyond is disconnected.
+/// cannot hurt it: their number, the length of their lines and the unread output they may pile up
+/// are bounded, and who goes beyond is disconnected. Of each client one request is open at a time,
+/// so that answers come in order; those behind it wait, the most of them unread in its socket.
 class ControlServer {
  public:
   using Client = std::uint64_t;
   static constexpr std::size_t kMostClients = 32;
   static constexpr std::size_t kMostUnreadBytes = 20 * 1024 * 1024;
-  static constexpr std::size_t kMostOpenRequests = 64;
 
   /// A sound request; answer() it once, now or later.
   using Handler = std::function<void(Client, const Request&)>;
@@ -51,9 +51,15 @@ class ControlServer {
     EventLoop::Watch watch;
     std::string input;
     std::string output;
-    std::size_t open_requests = 0;
+    bool has_open_request = false;
+    bool takes_lines = false;  ///< answers given meanwhile leave the next line to take_lines()
+    bool is_read_out = false;  ///< it has shut down its writing side
     bool watches = false;
     ~Connection();
+
+    /// It asked its last, and was told all that it asked.
+    bool is_done() const;
+    void await_events();
   };
 
   ControlServer(EventLoop& loop, std::filesystem::path socket, Handler handler)
@@ -62,8 +68,8 @@ class ControlServer {
   void accept();
   void ready(Client client, std::uint32_t events);
   /// False if the client has to go.
-  bool read(Client client);
-  bool take_lines(Client client);
+  bool read(Connection& connection);
+  bool take_lines(Client client, Connection& connection);
   void send(Client client, const std::string& line);
   bool flush(Connection& connection);
   void drop(Client client);

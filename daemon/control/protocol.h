@@ -29,8 +29,10 @@ namespace instep {
 /// | export   | id   | id, folder, files: names in it, for the caller to copy                   |
 /// | delete   | id   | id                                                                       |
 ///
-/// `id` may be "latest", but not for delete. Every request is answered by one line, in order:
-/// {"ok": true, ...} or {"ok": false, "error": {"code", "remedy", "message", "advice"}}.
+/// `id` may be "latest", but not for delete. Every request is answered by one line:
+/// {"ok": true, ...} or {"ok": false, "error": {"code", "remedy", "message", "advice"}}. The
+/// requests of one connection are done and answered in order, however many are sent at once; who
+/// shuts down the writing side of the connection is still answered all of them.
 ///
 /// Events are lines with "event":
 ///
