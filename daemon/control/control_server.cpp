@@ -13,6 +13,25 @@
 #include "daemon/control/unix_socket.h"
 
 namespace instep {
+namespace {
+
+/// As often as that it is tried whether there are descriptors or memory for a client again.
+constexpr std::chrono::milliseconds kPauseOfListening{100};
+
+bool is_exhausted(int error) {
+  return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
+}
+
+/// Tells a client that has no place, as far as it can be told without waiting.
+void turn_away(int descriptor) {
+  const std::string line =
+      error_answer({ErrorCode::kBusy, Remedy::kRetry, "too many programs talk to the daemon",
+                    "close some and try again"}) +
+      "\n";
+  [[maybe_unused]] const auto sent = ::send(descriptor, line.data(), line.size(), MSG_NOSIGNAL);
+}
+
+}  // namespace
 
 ControlServer::Connection::~Connection() {
   watch = {};
@@ -43,6 +62,7 @@ Result<void> ControlServer::open() {
   if (!descriptor) return tl::make_unexpected(descriptor.error());
   descriptor_ = *descriptor;
   watch_ = loop_.watch(descriptor_, EPOLLIN, [this](std::uint32_t) { accept(); });
+  listen_again_ = loop_.timer([this] { watch_.set_events(EPOLLIN); });
   return {};
 }
 
@@ -56,21 +76,39 @@ ControlServer::~ControlServer() {
 
 void ControlServer::accept() {
   const int descriptor = ::accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (descriptor < 0 && is_exhausted(errno)) {
+    // Who waits to be let in keeps waking the loop, which could not let them in at once.
+    watch_.set_events(0);
+    listen_again_.set(kPauseOfListening);
+  }
   if (descriptor < 0) return;
   auto connection = std::make_shared<Connection>();
   connection->descriptor = descriptor;
-  if (connections_.size() >= kMostClients) {
-    const std::string line =
-        error_answer({ErrorCode::kBusy, Remedy::kRetry, "too many programs talk to the daemon",
-                      "close some and try again"}) +
-        "\n";
-    [[maybe_unused]] const auto sent = ::send(descriptor, line.data(), line.size(), MSG_NOSIGNAL);
-    return;
-  }
+  if (connections_.size() >= kMostClients && !make_place()) return turn_away(descriptor);
+  take_up(std::move(connection));
+}
+
+void ControlServer::take_up(std::shared_ptr<Connection> connection) {
   const Client client = next_client_++;
-  connection->watch = loop_.watch(descriptor, EPOLLIN,
+  connection->last_heard = ++heard_;
+  connection->watch = loop_.watch(connection->descriptor, EPOLLIN,
                                   [this, client](std::uint32_t events) { ready(client, events); });
   connections_.emplace(client, std::move(connection));
+}
+
+bool ControlServer::make_place() {
+  auto quietest = connections_.end();
+  for (auto one = connections_.begin(); one != connections_.end(); ++one) {
+    const Connection& connection = *one->second;
+    if (connection.watches || connection.has_open_request || !connection.output.empty()) continue;
+    if (quietest == connections_.end() || connection.last_heard < quietest->second->last_heard) {
+      quietest = one;
+    }
+  }
+  if (quietest == connections_.end()) return false;
+  turn_away(quietest->second->descriptor);
+  connections_.erase(quietest);
+  return true;
 }
 
 void ControlServer::ready(Client client, std::uint32_t events) {
@@ -90,6 +128,7 @@ bool ControlServer::read(Connection& connection) {
   std::array<char, kLongestRequest> block;
   const auto got = ::recv(connection.descriptor, block.data(), block.size(), 0);
   if (got < 0) return errno == EAGAIN || errno == EINTR;
+  connection.last_heard = ++heard_;
   connection.is_read_out = got == 0;
   connection.input.append(block.data(), static_cast<std::size_t>(got));
   return true;
@@ -154,10 +193,17 @@ bool ControlServer::flush(Connection& connection) {
   return true;
 }
 
-void ControlServer::add_watcher(Client client) {
-  if (const auto found = connections_.find(client); found != connections_.end()) {
-    found->second->watches = true;
+Result<void> ControlServer::add_watcher(Client client) {
+  const auto found = connections_.find(client);
+  if (found == connections_.end() || found->second->watches) return {};
+  const auto watchers = std::count_if(connections_.begin(), connections_.end(),
+                                      [](const auto& one) { return one.second->watches; });
+  if (static_cast<std::size_t>(watchers) >= kMostWatchers) {
+    return fail(ErrorCode::kBusy, "too many programs watch the station",
+                "close some and try again");
   }
+  found->second->watches = true;
+  return {};
 }
 
 void ControlServer::send_event(Client client, const std::string& line) {

@@ -21,7 +21,10 @@ namespace instep {
 class ControlServer {
  public:
   using Client = std::uint64_t;
+  /// When another comes, the one that was quiet for longest and waits for nothing has to go.
   static constexpr std::size_t kMostClients = 32;
+  /// So that a request finds a place beside those who only watch.
+  static constexpr std::size_t kMostWatchers = 24;
   static constexpr std::size_t kMostUnreadBytes = 20 * 1024 * 1024;
 
   /// A sound request; answer() it once, now or later.
@@ -39,8 +42,8 @@ class ControlServer {
 
   /// Lines without their end. A client that has gone is passed over.
   void answer(Client client, const std::string& line);
-  /// From now on the client gets every event.
-  void add_watcher(Client client);
+  /// From now on the client gets every event. Fails with kBusy if too many do.
+  Result<void> add_watcher(Client client);
   void send_event(Client client, const std::string& line);
   void broadcast(const std::string& line);
   bool has_watchers() const;
@@ -55,6 +58,7 @@ class ControlServer {
     bool takes_lines = false;  ///< answers given meanwhile leave the next line to take_lines()
     bool is_read_out = false;  ///< it has shut down its writing side
     bool watches = false;
+    std::uint64_t last_heard = 0;  ///< grows with each word of any client
     ~Connection();
 
     /// It asked its last, and was told all that it asked.
@@ -66,6 +70,9 @@ class ControlServer {
       : loop_(loop), socket_(std::move(socket)), handler_(std::move(handler)) {}
   Result<void> open();
   void accept();
+  void take_up(std::shared_ptr<Connection> connection);
+  /// False if each connection is needed.
+  bool make_place();
   void ready(Client client, std::uint32_t events);
   /// False if the client has to go.
   bool read(Connection& connection);
@@ -79,6 +86,8 @@ class ControlServer {
   Handler handler_;
   int descriptor_ = -1;
   EventLoop::Watch watch_;
+  EventLoop::Timer listen_again_;
+  std::uint64_t heard_ = 0;
   Client next_client_ = 1;
   std::map<Client, std::shared_ptr<Connection>> connections_;
 };

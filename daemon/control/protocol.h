@@ -44,8 +44,9 @@ namespace instep {
 /// Who starts to watch is first told the result of a scan that ended within the last
 /// kRecentResult, so that pressing and then watching misses nothing.
 ///
-/// A line that is too long or a client that does not read what it is sent loses its connection;
-/// what is no request is answered with an error.
+/// A line that is too long or a client that does not read what it is sent loses its connection, as
+/// does who is quiet and waits for nothing when there are too many; what is no request is answered
+/// with an error.
 inline constexpr std::size_t kLongestRequest = 4096;
 inline constexpr std::chrono::seconds kRecentResult{5};
 

@@ -179,15 +179,20 @@ void StationService::serve(ControlServer::Client client, const Request& request)
   };
   if (request.verb == "scan") return reply(station_->request_scan());
   if (request.verb == "cancel") return reply(station_->request_cancel());
-  if (request.verb == "status" || request.verb == "watch") {
-    server_->answer(client, ok_answer(to_json(station_->status())));
-    if (request.verb == "status") return;
-    server_->add_watcher(client);
-    const bool recent = EventLoop::monotonic_now() - last_result_time_ < kRecentResult;
-    if (recent && !last_result_event_.empty()) server_->send_event(client, last_result_event_);
-    return;
+  if (request.verb == "watch") return begin_to_watch(client);
+  if (request.verb == "status") {
+    return server_->answer(client, ok_answer(to_json(station_->status())));
   }
   serve_from_store(client, request);
+}
+
+void StationService::begin_to_watch(ControlServer::Client client) {
+  if (const auto added = server_->add_watcher(client); !added) {
+    return server_->answer(client, error_answer(added.error()));
+  }
+  server_->answer(client, ok_answer(to_json(station_->status())));
+  const bool recent = EventLoop::monotonic_now() - last_result_time_ < kRecentResult;
+  if (recent && !last_result_event_.empty()) server_->send_event(client, last_result_event_);
 }
 
 void StationService::serve_from_store(ControlServer::Client client, const Request& request) {

@@ -48,6 +48,7 @@ class StationService {
   void scan_succeeded(const std::vector<StoredResult>& results);
   void scan_failed(const Error& error);
   void serve(ControlServer::Client client, const Request& request);
+  void begin_to_watch(ControlServer::Client client);
   void serve_from_store(ControlServer::Client client, const Request& request);
   void sweep_store();
   void tell_of(const Swept& swept);
