@@ -22,12 +22,14 @@ bool is_exhausted(int error) {
   return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
 }
 
+Error too_many() {
+  return {ErrorCode::kBusy, Remedy::kRetry, "too many programs talk to the daemon",
+          "close some and try again"};
+}
+
 /// Tells a client that has no place, as far as it can be told without waiting.
-void turn_away(int descriptor) {
-  const std::string line =
-      error_answer({ErrorCode::kBusy, Remedy::kRetry, "too many programs talk to the daemon",
-                    "close some and try again"}) +
-      "\n";
+void turn_away(int descriptor, const Error& reason) {
+  const std::string line = error_answer(reason) + "\n";
   [[maybe_unused]] const auto sent = ::send(descriptor, line.data(), line.size(), MSG_NOSIGNAL);
 }
 
@@ -61,7 +63,9 @@ Result<void> ControlServer::open() {
   const auto descriptor = listen_on_unix_socket(socket_);
   if (!descriptor) return tl::make_unexpected(descriptor.error());
   descriptor_ = *descriptor;
-  watch_ = loop_.watch(descriptor_, EPOLLIN, [this](std::uint32_t) { accept(); });
+  auto watching = loop_.watch(descriptor_, EPOLLIN, [this](std::uint32_t) { accept(); });
+  if (!watching) return tl::make_unexpected(watching.error());
+  watch_ = std::move(*watching);
   listen_again_ = loop_.timer([this] { watch_.set_events(EPOLLIN); });
   return {};
 }
@@ -84,15 +88,18 @@ void ControlServer::accept() {
   if (descriptor < 0) return;
   auto connection = std::make_shared<Connection>();
   connection->descriptor = descriptor;
-  if (connections_.size() >= kMostClients && !make_place()) return turn_away(descriptor);
+  if (connections_.size() >= kMostClients && !make_place())
+    return turn_away(descriptor, too_many());
   take_up(std::move(connection));
 }
 
 void ControlServer::take_up(std::shared_ptr<Connection> connection) {
   const Client client = next_client_++;
   connection->last_heard = ++heard_;
-  connection->watch = loop_.watch(connection->descriptor, EPOLLIN,
-                                  [this, client](std::uint32_t events) { ready(client, events); });
+  auto watching = loop_.watch(connection->descriptor, EPOLLIN,
+                              [this, client](std::uint32_t events) { ready(client, events); });
+  if (!watching) return turn_away(connection->descriptor, watching.error());
+  connection->watch = std::move(*watching);
   connections_.emplace(client, std::move(connection));
 }
 
@@ -106,7 +113,7 @@ bool ControlServer::make_place() {
     }
   }
   if (quietest == connections_.end()) return false;
-  turn_away(quietest->second->descriptor);
+  turn_away(quietest->second->descriptor, too_many());
   connections_.erase(quietest);
   return true;
 }

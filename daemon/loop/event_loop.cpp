@@ -5,8 +5,10 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "drivers/files/wake_up.h"
@@ -46,6 +48,14 @@ struct EventLoop::Mailbox {
     mail.clear();
     return std::exchange(tasks, {});
   }
+
+  /// The tasks end when nothing is locked any more.
+  void close() {
+    std::vector<std::function<void()>> dropped;
+    const std::lock_guard lock(mutex);
+    closed = true;
+    dropped.swap(tasks);
+  }
 };
 
 struct EventLoop::SignalHandler {
@@ -68,29 +78,36 @@ struct EventLoop::Timer::State {
 
 Result<std::unique_ptr<EventLoop>> EventLoop::create() {
   std::unique_ptr<EventLoop> loop(new EventLoop);
-  if (const int failed = sd_event_new(&loop->event_); failed < 0) {
-    return tl::make_unexpected(refused(failed));
-  }
-  loop->mailbox_ = std::make_shared<Mailbox>();
-  if (!loop->mailbox_->mail.is_open()) return tl::make_unexpected(refused(-errno));
-  const std::weak_ptr<Mailbox> weak = loop->mailbox_;
-  loop->mail_watch_ =
-      loop->watch(loop->mailbox_->mail.descriptor(), EPOLLIN, [weak](std::uint32_t) {
-        const auto mailbox = weak.lock();
-        if (!mailbox) return;
-        for (auto& task : mailbox->take()) task();
-      });
+  if (const auto opened = loop->open(); !opened) return tl::make_unexpected(opened.error());
   return loop;
 }
 
-EventLoop::~EventLoop() {
-  if (mailbox_) {
-    const std::lock_guard lock(mailbox_->mutex);
-    mailbox_->closed = true;
-    mailbox_->tasks.clear();
+Result<void> EventLoop::open() {
+  if (const int failed = sd_event_new(&event_); failed < 0) {
+    return tl::make_unexpected(refused(failed));
   }
+  mailbox_ = std::make_shared<Mailbox>();
+  if (!mailbox_->mail.is_open()) return tl::make_unexpected(refused(-errno));
+  const std::weak_ptr<Mailbox> weak = mailbox_;
+  auto watching = watch(mailbox_->mail.descriptor(), EPOLLIN, [weak](std::uint32_t) {
+    const auto mailbox = weak.lock();
+    if (!mailbox) return;
+    for (auto& task : mailbox->take()) task();
+  });
+  if (!watching) return tl::make_unexpected(watching.error());
+  mail_watch_ = std::move(*watching);
+  auto first = make_timer([] {});
+  if (!first) return tl::make_unexpected(first.error());
+  first_timer_ = std::move(*first);
+  return {};
+}
+
+EventLoop::~EventLoop() {
+  // What the tasks hold may post once more as it ends.
+  if (mailbox_) mailbox_->close();
   signal_handlers_.clear();
   mail_watch_ = {};
+  first_timer_ = {};
   sd_event_unref(event_);
 }
 
@@ -108,8 +125,8 @@ EventLoop::Post EventLoop::poster() const {
   return [mailbox = mailbox_](std::function<void()> task) { mailbox->put(std::move(task)); };
 }
 
-EventLoop::Watch EventLoop::watch(int descriptor, std::uint32_t events,
-                                  std::function<void(std::uint32_t)> on_ready) {
+Result<EventLoop::Watch> EventLoop::watch(int descriptor, std::uint32_t events,
+                                          std::function<void(std::uint32_t)> on_ready) {
   Watch watch;
   watch.state_ = std::make_shared<Watch::State>();
   watch.state_->on_ready = std::move(on_ready);
@@ -119,7 +136,9 @@ EventLoop::Watch EventLoop::watch(int descriptor, std::uint32_t events,
     callback(ready);
     return 0;
   };
-  sd_event_add_io(event_, &watch.state_->source, descriptor, events, ring, watch.state_.get());
+  const int failed =
+      sd_event_add_io(event_, &watch.state_->source, descriptor, events, ring, watch.state_.get());
+  if (failed < 0) return tl::make_unexpected(refused(failed));
   return watch;
 }
 
@@ -128,6 +147,12 @@ void EventLoop::Watch::set_events(std::uint32_t events) {
 }
 
 EventLoop::Timer EventLoop::timer(std::function<void()> on_time) {
+  auto timer = make_timer(std::move(on_time));
+  if (!timer) throw std::bad_alloc();
+  return std::move(*timer);
+}
+
+Result<EventLoop::Timer> EventLoop::make_timer(std::function<void()> on_time) {
   Timer timer;
   timer.state_ = std::make_shared<Timer::State>();
   timer.state_->on_time = std::move(on_time);
@@ -137,8 +162,9 @@ EventLoop::Timer EventLoop::timer(std::function<void()> on_time) {
     return 0;
   };
   constexpr std::uint64_t kAccuracy = 1000;
-  sd_event_add_time(event_, &timer.state_->source, CLOCK_MONOTONIC, 0, kAccuracy, ring,
-                    timer.state_.get());
+  const int failed = sd_event_add_time(event_, &timer.state_->source, CLOCK_MONOTONIC, 0, kAccuracy,
+                                       ring, timer.state_.get());
+  if (failed < 0) return tl::make_unexpected(refused(failed));
   timer.clear();
   return timer;
 }

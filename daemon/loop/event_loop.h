@@ -47,7 +47,9 @@ class EventLoop {
     struct State;
     std::shared_ptr<State> state_;
   };
-  Watch watch(int descriptor, std::uint32_t events, std::function<void(std::uint32_t)> on_ready);
+  /// Fails with kIo if the system refuses (a file that cannot be waited for, too many watches).
+  Result<Watch> watch(int descriptor, std::uint32_t events,
+                      std::function<void(std::uint32_t)> on_ready);
 
   /// A timer that rings once each time it is set.
   class Timer {
@@ -63,6 +65,8 @@ class EventLoop {
     struct State;
     std::shared_ptr<State> state_;
   };
+  /// All timers share what create() has taken from the system; like any other object, one more can
+  /// only want for memory, and throws std::bad_alloc then.
   Timer timer(std::function<void()> on_time);
 
   /// The signal must be blocked in every thread: block it before the first one starts.
@@ -74,10 +78,13 @@ class EventLoop {
   struct Mailbox;
   struct SignalHandler;
   EventLoop() = default;
+  Result<void> open();
+  Result<Timer> make_timer(std::function<void()> on_time);
 
   sd_event* event_ = nullptr;
   std::shared_ptr<Mailbox> mailbox_;
   Watch mail_watch_;
+  Timer first_timer_;  ///< holds the descriptor that all share
   std::vector<std::unique_ptr<SignalHandler>> signal_handlers_;
 };
 

@@ -35,9 +35,11 @@ void PedalWatch::open() {
 void PedalWatch::begin() {
   const auto pressed = pedal_->is_pressed();
   if (!pressed) return lost(pressed.error());
+  auto watching = loop_.watch(pedal_->descriptor(), EPOLLIN, [this](std::uint32_t) { read(); });
+  if (!watching) return lost(watching.error());
+  watch_ = std::move(*watching);
   debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, *pressed,
                      EventLoop::monotonic_now());
-  watch_ = loop_.watch(pedal_->descriptor(), EPOLLIN, [this](std::uint32_t) { read(); });
   back_off_.reset();
   if (std::exchange(was_lost_, false)) listener_.on_returned();
   pass_on();

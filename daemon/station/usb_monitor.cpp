@@ -9,9 +9,11 @@ namespace instep {
 UsbMonitor::UsbMonitor(EventLoop& loop, Result<std::unique_ptr<UsbWatch>> watch, OnChange on_change)
     : on_change_(std::move(on_change)) {
   if (!watch) return;
+  auto readable = loop.watch((*watch)->descriptor(), EPOLLIN, [this](std::uint32_t) { read(); });
+  if (!readable) return;
   watch_ = std::move(*watch);
+  readable_ = std::move(*readable);
   settle_timer_ = loop.timer([this] { settle(); });
-  readable_ = loop.watch(watch_->descriptor(), EPOLLIN, [this](std::uint32_t) { read(); });
   read();
 }
 
