@@ -57,7 +57,7 @@ SimulatedPedal::~SimulatedPedal() {
   for (const int descriptor : {poll_descriptor_, event_descriptor_, fifo_descriptor_}) {
     if (descriptor >= 0) close(descriptor);
   }
-  if (made_fifo_) unlink(settings_.fifo.c_str());
+  remove_if_same(settings_.fifo, made_fifo_);
 }
 
 Result<void> SimulatedPedal::open_descriptors() {
@@ -83,8 +83,8 @@ Result<void> SimulatedPedal::open_descriptors() {
 Result<void> SimulatedPedal::open_fifo() {
   const std::string name = settings_.fifo.string();
   const std::string advice = "choose another file for the pedal, or another folder";
-  made_fifo_ = mkfifo(name.c_str(), 0660) == 0;
-  if (!made_fifo_ && errno != EEXIST) return system_failure("cannot make the FIFO " + name, advice);
+  const bool made = mkfifo(name.c_str(), 0660) == 0;
+  if (!made && errno != EEXIST) return system_failure("cannot make the FIFO " + name, advice);
   // Open for writing as well: the FIFO then never reports its last writer's leaving.
   fifo_descriptor_ = ::open(name.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (fifo_descriptor_ < 0) return system_failure("cannot open the FIFO " + name, advice);
@@ -92,6 +92,7 @@ Result<void> SimulatedPedal::open_fifo() {
   if (fstat(fifo_descriptor_, &status) != 0 || !S_ISFIFO(status.st_mode)) {
     return fail(ErrorCode::kInvalidInput, name + " is there, but is no FIFO", advice);
   }
+  if (made) made_fifo_ = FileIdentity::of(fifo_descriptor_);
   return {};
 }
 

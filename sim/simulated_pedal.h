@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/files/file_identity.h"
 #include "drivers/pedal.h"
 #include "sim/fault_script.h"
 
@@ -27,7 +28,7 @@ class SimulatedPedal final : public Pedal {
  public:
   struct Settings {
     PedalFaults faults;
-    /// Made (mode 0660) if absent, and removed at the end if it was made here; empty = none.
+    /// Made (mode 0660) if absent, and removed at the end if it is the one made here; empty = none.
     std::filesystem::path fifo;
   };
 
@@ -68,7 +69,7 @@ class SimulatedPedal final : public Pedal {
   int poll_descriptor_ = -1;  ///< readable when either of the two below is
   int event_descriptor_ = -1;
   int fifo_descriptor_ = -1;
-  bool made_fifo_ = false;
+  std::optional<FileIdentity> made_fifo_;  ///< nothing if it was there
   std::string unfinished_line_;
 
   std::mutex mutex_;

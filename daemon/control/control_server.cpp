@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/control/unix_socket.h"
-
 namespace instep {
 namespace {
 
@@ -60,10 +58,10 @@ Result<std::unique_ptr<ControlServer>> ControlServer::listen(EventLoop& loop,
 }
 
 Result<void> ControlServer::open() {
-  const auto descriptor = listen_on_unix_socket(socket_);
-  if (!descriptor) return tl::make_unexpected(descriptor.error());
-  descriptor_ = *descriptor;
-  auto watching = loop_.watch(descriptor_, EPOLLIN, [this](std::uint32_t) { accept(); });
+  auto socket = ListeningSocket::open(path_);
+  if (!socket) return tl::make_unexpected(socket.error());
+  socket_.emplace(std::move(*socket));
+  auto watching = loop_.watch(socket_->descriptor(), EPOLLIN, [this](std::uint32_t) { accept(); });
   if (!watching) return tl::make_unexpected(watching.error());
   watch_ = std::move(*watching);
   listen_again_ = loop_.timer([this] { watch_.set_events(EPOLLIN); });
@@ -71,15 +69,14 @@ Result<void> ControlServer::open() {
 }
 
 ControlServer::~ControlServer() {
-  if (descriptor_ < 0) return;
   connections_.clear();
+  // Before the socket that it watches.
   watch_ = {};
-  ::close(descriptor_);
-  ::unlink(socket_.c_str());
 }
 
 void ControlServer::accept() {
-  const int descriptor = ::accept4(descriptor_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  const int descriptor =
+      ::accept4(socket_->descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (descriptor < 0 && is_exhausted(errno)) {
     // Who waits to be let in keeps waking the loop, which could not let them in at once.
     watch_.set_events(0);

@@ -6,10 +6,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/result.h"
 #include "daemon/control/protocol.h"
+#include "daemon/control/unix_socket.h"
 #include "daemon/loop/event_loop.h"
 
 namespace instep {
@@ -35,7 +37,6 @@ class ControlServer {
   static Result<std::unique_ptr<ControlServer>> listen(EventLoop& loop,
                                                        const std::filesystem::path& socket,
                                                        Handler handler);
-  /// Removes the socket.
   ~ControlServer();
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
@@ -66,8 +67,8 @@ class ControlServer {
     void await_events();
   };
 
-  ControlServer(EventLoop& loop, std::filesystem::path socket, Handler handler)
-      : loop_(loop), socket_(std::move(socket)), handler_(std::move(handler)) {}
+  ControlServer(EventLoop& loop, std::filesystem::path path, Handler handler)
+      : loop_(loop), path_(std::move(path)), handler_(std::move(handler)) {}
   Result<void> open();
   void accept();
   void take_up(std::shared_ptr<Connection> connection);
@@ -82,9 +83,9 @@ class ControlServer {
   void drop(Client client);
 
   EventLoop& loop_;
-  std::filesystem::path socket_;
+  std::filesystem::path path_;
   Handler handler_;
-  int descriptor_ = -1;
+  std::optional<ListeningSocket> socket_;
   EventLoop::Watch watch_;
   EventLoop::Timer listen_again_;
   std::uint64_t heard_ = 0;

@@ -1,5 +1,7 @@
 #include "daemon/control/unix_socket.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -37,6 +39,12 @@ tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::pa
       "check control.socket (INSTEP_SOCKET names another place) and who may use its folder");
 }
 
+tl::unexpected<Error> taken(const std::filesystem::path& path) {
+  return fail(ErrorCode::kBusy, Remedy::kOperator,
+              "another instepd answers on " + path.string() + ", or is about to",
+              "stop it, or give this one its own control.socket");
+}
+
 }  // namespace
 
 Result<int> connect_unix_socket(const std::filesystem::path& path) {
@@ -51,35 +59,73 @@ Result<int> connect_unix_socket(const std::filesystem::path& path) {
   return error;
 }
 
-Result<int> listen_on_unix_socket(const std::filesystem::path& path) {
-  const auto address = address_of(path);
-  if (!address) return tl::make_unexpected(address.error());
-  struct stat there {};
-  if (::lstat(path.c_str(), &there) == 0) {
-    if (!S_ISSOCK(there.st_mode)) {
-      return fail(ErrorCode::kInvalidInput, path.string() + " is there and is no socket",
-                  "choose another control.socket");
-    }
-    if (const auto other = connect_unix_socket(path)) {
-      ::close(*other);
-      return fail(ErrorCode::kBusy, Remedy::kOperator,
-                  "another instepd answers on " + path.string(),
-                  "stop it, or give this one its own control.socket");
-    }
-    ::unlink(path.c_str());
-  }
-  const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (descriptor < 0) return failed("making a socket for", path);
-  // Where nothing is installed nobody has made it. If it cannot be made, binding says so.
+Result<ListeningSocket> ListeningSocket::open(const std::filesystem::path& path) {
+  // Where nothing is installed nobody has made it. If it cannot be made, locking says so.
   ::mkdir(path.parent_path().c_str(), 0755);
+  ListeningSocket socket(path);
+  const auto opened = socket.lock().and_then([&] { return socket.make_way(); }).and_then([&] {
+    return socket.listen();
+  });
+  if (!opened) return tl::make_unexpected(opened.error());
+  return socket;
+}
+
+ListeningSocket::~ListeningSocket() {
+  if (!lock_) return;
+  remove_if_same(path_, socket_);
+  // While it is locked, so that nobody is robbed of one just locked.
+  remove_if_same(lock_path(), FileIdentity::of(lock_->number()));
+}
+
+Result<void> ListeningSocket::lock() {
+  // Reading is enough to lock it, and anyone's left-over can be read.
+  constexpr mode_t kReadable = 0644;
+  const std::string name = lock_path();
+  while (true) {
+    auto file = std::make_unique<Descriptor>(
+        ::open(name.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, kReadable));
+    if (!file->is_open()) return failed("locking", name);
+    if (::flock(file->number(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
+      return errno == EWOULDBLOCK ? taken(path_) : failed("locking", name);
+    }
+    // The one that had it may have removed it in between.
+    if (FileIdentity::of(name) != FileIdentity::of(file->number())) continue;
+    ::fchmod(file->number(), kReadable);
+    lock_ = std::move(file);
+    return {};
+  }
+}
+
+Result<void> ListeningSocket::make_way() const {
+  struct stat there {};
+  if (::lstat(path_.c_str(), &there) != 0) return {};
+  if (!S_ISSOCK(there.st_mode)) {
+    return fail(ErrorCode::kInvalidInput, path_.string() + " is there and is no socket",
+                "choose another control.socket");
+  }
+  if (const auto other = connect_unix_socket(path_)) {
+    ::close(*other);
+    return taken(path_);
+  }
+  ::unlink(path_.c_str());
+  return {};
+}
+
+Result<void> ListeningSocket::listen() {
+  const auto address = address_of(path_);
+  if (!address) return tl::make_unexpected(address.error());
+  descriptor_ = std::make_unique<Descriptor>(
+      ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!descriptor_->is_open()) return failed("making a socket for", path_);
   // The mode is right from the start: with the umask it never was wider for a moment.
   const mode_t before = ::umask(0117);
-  const bool bound = ::bind(descriptor, generic(*address), sizeof *address) == 0;
+  const bool bound = ::bind(descriptor(), generic(*address), sizeof *address) == 0;
   ::umask(before);
-  if (bound && ::listen(descriptor, 16) == 0) return descriptor;
-  const auto error = failed("listening on", path);
-  ::close(descriptor);
-  return error;
+  if (!bound) return failed("listening on", path_);
+  socket_ = FileIdentity::of(path_);
+  if (::listen(descriptor(), 16) != 0) return failed("listening on", path_);
+  return {};
 }
 
 }  // namespace instep

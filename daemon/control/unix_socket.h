@@ -1,8 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/result.h"
+#include "drivers/files/descriptor.h"
+#include "drivers/files/file_identity.h"
 
 namespace instep {
 
@@ -10,8 +15,31 @@ namespace instep {
 /// kNotFound if nobody listens there, kPermissionDenied, or kIo.
 Result<int> connect_unix_socket(const std::filesystem::path& path);
 
-/// One that listens there, non-blocking, mode 0660. A socket that nobody listens on any more is
-/// replaced; fails with kBusy if somebody does.
-Result<int> listen_on_unix_socket(const std::filesystem::path& path);
+/// One that listens, non-blocking, mode 0660, and is removed at its end if it is still the one that
+/// has the name. A locked file beside it, PATH.lock, keeps two daemons that start at once from
+/// taking it from each other.
+class ListeningSocket {
+ public:
+  /// A socket that nobody listens on any more is replaced; fails with kBusy if somebody does, and
+  /// with kPermissionDenied, kNotFound, kInvalidInput or kIo if it cannot be made.
+  static Result<ListeningSocket> open(const std::filesystem::path& path);
+  ~ListeningSocket();
+  ListeningSocket(ListeningSocket&&) = default;
+  ListeningSocket& operator=(ListeningSocket&&) = delete;
+
+  int descriptor() const { return descriptor_->number(); }
+
+ private:
+  explicit ListeningSocket(std::filesystem::path path) : path_(std::move(path)) {}
+  Result<void> lock();
+  Result<void> make_way() const;
+  Result<void> listen();
+
+  std::filesystem::path path_;
+  std::filesystem::path lock_path() const { return path_.string() + ".lock"; }
+  std::unique_ptr<Descriptor> lock_;
+  std::unique_ptr<Descriptor> descriptor_;
+  std::optional<FileIdentity> socket_;
+};
 
 }  // namespace instep

@@ -158,5 +158,21 @@ TEST(SimulatedPedal, MayBePressedFromAnotherThread) {
   }
 }
 
+TEST(SimulatedPedal, RemovesItsFifoAndNoOtherThatTookItsPlace) {
+  const TemporaryFolder folder;
+  const auto fifo = folder.path() / "pedal";
+  {
+    const auto pedal = SimulatedPedal::open({{}, fifo}).value();
+    ASSERT_TRUE(std::filesystem::is_fifo(fifo));
+  }
+  EXPECT_FALSE(std::filesystem::exists(fifo));
+  {
+    const auto pedal = SimulatedPedal::open({{}, fifo}).value();
+    std::filesystem::remove(fifo);
+    ASSERT_EQ(::mkfifo(fifo.c_str(), 0660), 0);
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(fifo));
+}
+
 }  // namespace
 }  // namespace instep

@@ -1,0 +1,104 @@
+#include "daemon/control/unix_socket.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <thread>
+#include <vector>
+
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class UnixSocket : public testing::Test {
+ protected:
+  std::size_t files_left() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
+  }
+  test::TemporaryFolder folder_;
+  const fs::path path_ = folder_.path() / "control.sock";
+};
+
+TEST_F(UnixSocket, IsReachedByItsGroupAndLeavesNothingBehind) {
+  {
+    const auto socket = ListeningSocket::open(path_);
+    ASSERT_TRUE(socket) << socket.error().line();
+    const auto client = connect_unix_socket(path_);
+    ASSERT_TRUE(client) << client.error().line();
+    ::close(*client);
+    struct stat status {};
+    ASSERT_EQ(::stat(path_.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777, 0660U);
+  }
+  EXPECT_EQ(files_left(), 0U);
+}
+
+TEST_F(UnixSocket, TakesTheNameOfOneThatNobodyListensOn) {
+  {
+    // As a daemon leaves it that was killed: with no lock, but its file.
+    auto killed = std::make_unique<ListeningSocket>(ListeningSocket::open(path_).value());
+    fs::rename(path_, folder_.path() / "kept");
+    killed.reset();
+    fs::rename(folder_.path() / "kept", path_);
+    std::ofstream(path_.string() + ".lock");
+  }
+  const auto socket = ListeningSocket::open(path_);
+  ASSERT_TRUE(socket) << socket.error().line();
+}
+
+// The place is taken from the moment it is locked, though nobody listens yet.
+TEST_F(UnixSocket, OfManyThatOpenItAtOnceOneHasIt) {
+  for (int round = 0; round < 50; ++round) {
+    constexpr std::size_t kMany = 4;
+    std::vector<std::optional<Result<ListeningSocket>>> sockets(kMany);
+    std::vector<std::thread> threads;
+    for (auto& socket : sockets) {
+      threads.emplace_back([&socket, this] { socket.emplace(ListeningSocket::open(path_)); });
+    }
+    for (auto& thread : threads) thread.join();
+    std::size_t open = 0;
+    for (const auto& socket : sockets) {
+      if (*socket) {
+        ++open;
+      } else {
+        EXPECT_EQ((*socket).error().code, ErrorCode::kBusy);
+        EXPECT_THAT((*socket).error().message, HasSubstr("another instepd answers on"));
+      }
+    }
+    ASSERT_EQ(open, 1U);
+    const auto client = connect_unix_socket(path_);
+    ASSERT_TRUE(client) << "the one that is open is the one that has the name";
+    ::close(*client);
+  }
+}
+
+TEST_F(UnixSocket, LeavesAloneWhatHasTakenItsPlace) {
+  {
+    const auto socket = ListeningSocket::open(path_);
+    ASSERT_TRUE(socket);
+    fs::remove(path_);
+    std::ofstream(path_) << "another";
+  }
+  EXPECT_TRUE(fs::exists(path_));
+}
+
+TEST_F(UnixSocket, RefusesAPlaceThatHoldsSomethingElse) {
+  std::ofstream(path_) << "precious";
+  const auto socket = ListeningSocket::open(path_);
+  ASSERT_FALSE(socket);
+  EXPECT_THAT(socket.error().message, HasSubstr("is no socket"));
+  EXPECT_EQ(fs::file_size(path_), 8U);
+  EXPECT_EQ(files_left(), 1U) << "no lock is left";
+}
+
+}  // namespace
+}  // namespace instep
