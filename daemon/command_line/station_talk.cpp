@@ -43,7 +43,11 @@ Result<json> ask_daemon(const std::string& verb, const std::string& id = {}) {
 Result<json> stored_result(ControlClient& client, const std::string& id) {
   auto shown = client.ask("show", id);
   if (!shown) return shown;
-  return std::move(shown->at("result"));
+  const auto result = shown->find("result");
+  if (result == shown->end() || !result->is_object()) {
+    return tl::make_unexpected(answer_not_understood());
+  }
+  return std::move(*result);
 }
 
 /// The result or failure that the next scan ends with.
@@ -61,26 +65,11 @@ Result<json> wait_for_end(ControlClient& client, milliseconds limit) {
   }
 }
 
-/// The live line of a terminal: a bar while a scan runs.
-std::string live_line(const json& event) {
-  constexpr int kBarWidth = 30;
-  std::string line = string_at(event, "state");
-  if (const auto stage = string_at(event, "stage"); !stage.empty()) {
-    const double done = event.value("done", 0.0);
-    const auto filled = static_cast<std::size_t>(done * kBarWidth);
-    line = fmt::format("[{:<{}}] {:>3.0f} % {}", std::string(filled, '#'), kBarWidth, 100 * done,
-                       stage);
-  } else if (const auto trouble = string_at(event, "trouble"); !trouble.empty()) {
-    line += ": " + trouble;
-  }
-  return "\r\033[K" + line;
-}
-
 std::string told_in_terminal(const json& line) {
   const auto event = string_at(line, "event");
   std::string told;
   if (event == "result") {
-    for (const auto& scan : line.value("scans", json::array())) {
+    for (const auto& scan : list_at(line, "scans")) {
       told += fmt::format("\r\033[Kscan {} ({} foot)\n", string_at(scan, "id"),
                           string_at(scan, "side"));
     }
@@ -99,15 +88,24 @@ Result<void> tell(const json& line, bool in_terminal) {
                                 : line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
+/// Of a file in a scan's folder, and never of one elsewhere.
+Result<std::string> name_of(const json& file) {
+  if (!file.is_string()) return tl::make_unexpected(answer_not_understood());
+  auto name = file.get<std::string>();
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos) {
+    return tl::make_unexpected(answer_not_understood());
+  }
+  return name;
+}
+
 /// Copies files into a folder that was made for them; takes it away again if that fails.
 Result<void> fill_folder(const json& files, const std::filesystem::path& from,
                          const std::filesystem::path& to) {
   for (const auto& file : files) {
-    const auto name = file.get<std::string>();
-    const auto copied =
-        read_file_bytes(from / name, kMostExportedBytes).and_then([&](const std::string& bytes) {
-          return write_file_bytes(to / name, bytes);
-        });
+    const auto copied = name_of(file).and_then([&](const std::string& name) {
+      return read_file_bytes(from / name, kMostExportedBytes)
+          .and_then([&](const std::string& bytes) { return write_file_bytes(to / name, bytes); });
+    });
     if (copied) continue;
     std::error_code ignored;
     std::filesystem::remove_all(to, ignored);
@@ -134,7 +132,7 @@ Result<void> scan_on_station(bool wait, bool as_json) {
   auto asking = reach_daemon();
   if (!asking) return tl::make_unexpected(asking.error());
   json results = json::array();
-  for (const auto& scan : end->value("scans", json::array())) {
+  for (const auto& scan : list_at(*end, "scans")) {
     auto result = stored_result(*asking, string_at(scan, "id"));
     if (!result) return tl::make_unexpected(result.error());
     results.push_back(std::move(*result));
@@ -189,7 +187,7 @@ Result<void> watch_station(std::optional<seconds> until_result) {
 Result<void> list_scans(bool as_json) {
   const auto answer = ask_daemon("list");
   if (!answer) return tl::make_unexpected(answer.error());
-  const json scans = answer->value("scans", json::array());
+  const json scans = list_at(*answer, "scans");
   if (as_json) return print_json({{"scans", scans}});
   std::string ids;
   for (const auto& scan : scans) ids += string_at(scan, "id") + "\n";
@@ -209,8 +207,10 @@ Result<void> show_scan(const std::string& id, const std::string& format) {
 Result<void> export_scan(const std::string& id, const std::filesystem::path& out) {
   const auto answer = ask_daemon("export", id);
   if (!answer) return tl::make_unexpected(answer.error());
+  const auto name = name_of(answer->value("id", json()));
+  if (!name) return tl::make_unexpected(name.error());
   const std::filesystem::path from = string_at(*answer, "folder");
-  const auto to = out / string_at(*answer, "id");
+  const auto to = out / *name;
   std::error_code failed;
   std::filesystem::create_directories(out, failed);
   const bool made = !failed && std::filesystem::create_directory(to, failed);
@@ -222,7 +222,7 @@ Result<void> export_scan(const std::string& id, const std::filesystem::path& out
   // A scan is personal: only who may read it in the store may read the copy.
   std::filesystem::permissions(to, std::filesystem::perms::others_all,
                                std::filesystem::perm_options::remove, failed);
-  const auto filled = fill_folder(answer->value("files", json::array()), from, to);
+  const auto filled = fill_folder(list_at(*answer, "files"), from, to);
   if (!filled) return filled;
   return print_text(to.string() + "\n");
 }

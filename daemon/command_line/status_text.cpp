@@ -76,6 +76,20 @@ std::string status_line(const json& status) {
   return line;
 }
 
+std::string live_line(const json& status) {
+  constexpr std::size_t kBarWidth = 30;
+  std::string line = string_at(status, "state");
+  if (const auto stage = string_at(status, "stage"); !stage.empty()) {
+    const double done = std::clamp(number_at(status, "done").value_or(0.0), 0.0, 1.0);
+    const auto filled = static_cast<std::size_t>(done * kBarWidth);
+    line = fmt::format("[{:<{}}] {:>3.0f} % {}", std::string(filled, '#'), kBarWidth, 100 * done,
+                       stage);
+  } else if (const auto trouble = string_at(status, "trouble"); !trouble.empty()) {
+    line += ": " + trouble;
+  }
+  return "\r\033[K" + line;
+}
+
 std::string status_text(const json& status) {
   std::string lines = status_line(status) + "\n";
   for (const auto& warning : list_at(status, "warnings")) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -81,8 +82,7 @@ Result<nlohmann::json> ControlClient::next(milliseconds limit) {
           input_.begin(), input_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
       input_.erase(0, end + 1);
       if (line.is_object()) return line;
-      return fail(ErrorCode::kCorruptData, "the daemon's answer cannot be understood",
-                  "check that instep and instepd are of the same version");
+      return tl::make_unexpected(answer_not_understood());
     }
     looked_at = input_.size();
     const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
@@ -90,6 +90,11 @@ Result<nlohmann::json> ControlClient::next(milliseconds limit) {
     const int ready =
         ::poll(&waiting, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30)));
     if (ready < 0 && errno == EINTR) continue;
+    if (ready < 0) {
+      return fail(ErrorCode::kIo,
+                  std::string("waiting for the daemon failed: ") + std::strerror(errno),
+                  "check the limits on open files and memory");
+    }
     if (ready == 0) {
       return fail(ErrorCode::kTimeout, "the daemon did not answer in time",
                   "see what it does: systemctl status instepd");

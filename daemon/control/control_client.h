@@ -24,7 +24,7 @@ class ControlClient {
                              std::chrono::milliseconds limit = std::chrono::seconds(10));
 
   /// The next line the daemon sends. Fails with kTimeout if none comes within the limit,
-  /// kDeviceGone if the daemon ended.
+  /// kDeviceGone if the daemon ended, kIo if the system does not let it wait.
   Result<nlohmann::json> next(std::chrono::milliseconds limit);
 
  private:

@@ -143,11 +143,13 @@ json to_json(const std::vector<StoredResult>& results) {
   return {{"scans", scans}};
 }
 
+Error answer_not_understood() {
+  return {ErrorCode::kCorruptData, Remedy::kOperator, "the daemon's answer cannot be understood",
+          "check that instep and instepd are of the same version"};
+}
+
 Result<void> answer_outcome(const json& answer) {
-  if (!answer.is_object()) {
-    return fail(ErrorCode::kCorruptData, "the daemon's answer cannot be understood",
-                "check that instep and instepd are of the same version");
-  }
+  if (!answer.is_object()) return tl::make_unexpected(answer_not_understood());
   if (answer.value("ok", json(false)) == json(true)) return {};
   const json error = answer.value("error", json::object());
   const auto text = [&](const char* key) {

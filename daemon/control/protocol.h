@@ -68,6 +68,9 @@ nlohmann::json to_json(const Error& error);
 nlohmann::json to_json(const StationStatus& status);
 nlohmann::json to_json(const std::vector<StoredResult>& results);
 
+/// What a client is told of an answer that is of another shape than agreed.
+Error answer_not_understood();
+
 /// The Error in an answer, as the client sees it; nothing if the answer is good.
 Result<void> answer_outcome(const nlohmann::json& answer);
 

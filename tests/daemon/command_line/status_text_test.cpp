@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace instep {
@@ -55,12 +56,26 @@ TEST(StatusText, SaysOnceWhySeveralLampsAreAway) {
             "  scans 0, ignored presses 0\n");
 }
 
+TEST(StatusText, ShowsABarThatIsNeverLongerThanItsPlace) {
+  const auto bar = [](const json& done) {
+    const auto line = live_line({{"state", "measuring"}, {"stage", "girths"}, {"done", done}});
+    return std::count(line.begin(), line.end(), '#');
+  };
+  EXPECT_EQ(bar(0.5), 15);
+  EXPECT_EQ(bar(1.0), 30);
+  EXPECT_EQ(bar(7.5e9), 30);
+  EXPECT_EQ(bar(-1.0), 0);
+  EXPECT_EQ(bar("half"), 0);
+  EXPECT_EQ(live_line({{"state", "fault"}, {"trouble", "no pedal"}}), "\r\033[Kfault: no pedal");
+}
+
 TEST(StatusText, LeavesOutWhatIsOfTheWrongShape) {
   for (const char* odd :
        {"3", "[]", "{}",
         R"({"cameras": [3, {"frames": 3, "ok": "x"}], "outputs": [[], {"on": 1}]})",
         R"({"done": "x", "stage": "capture", "scans": -1, "outputs": 7})"}) {
     EXPECT_NO_THROW(static_cast<void>(status_text(json::parse(odd)))) << odd;
+    EXPECT_NO_THROW(static_cast<void>(live_line(json::parse(odd)))) << odd;
   }
 }
 

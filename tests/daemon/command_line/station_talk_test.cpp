@@ -1,0 +1,91 @@
+#include "daemon/command_line/station_talk.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "daemon/control/control_server.h"
+#include "tests/support/loop_thread.h"
+#include "tests/support/temporary_folder.h"
+
+namespace instep {
+namespace {
+
+using testing::HasSubstr;
+
+/// A daemon of another make: gives every request the answer that the test chooses.
+class OddDaemon : public testing::Test {
+ protected:
+  OddDaemon() {
+    ::setenv("INSTEP_SOCKET", socket_.c_str(), 1);
+    loop_.call([this] {
+      const auto serve = [this](ControlServer::Client client, const Request& request) {
+        server_->answer(client, answer_);
+        if (request.verb == "scan") server_->send_event(client, event_);
+      };
+      server_ = ControlServer::listen(loop_.loop(), socket_, serve).value();
+    });
+  }
+  ~OddDaemon() override {
+    loop_.call([this] { server_.reset(); });
+    ::unsetenv("INSTEP_SOCKET");
+  }
+  void say(const std::string& answer, const std::string& event = "") {
+    loop_.call([&] {
+      answer_ = answer;
+      event_ = event;
+    });
+  }
+
+  test::TemporaryFolder folder_;
+  const std::filesystem::path socket_ = folder_.path() / "control.sock";
+  test::LoopThread loop_;
+  std::unique_ptr<ControlServer> server_;
+  std::string answer_;
+  std::string event_;
+};
+
+void expect_not_understood(const Result<void>& outcome, const std::string& answer) {
+  ASSERT_FALSE(outcome) << answer;
+  EXPECT_THAT(outcome.error().line(), HasSubstr("of the same version")) << answer;
+}
+
+using StationTalk = OddDaemon;
+
+TEST_F(StationTalk, SaysThatItDoesNotUnderstandAResultOfAnotherShape) {
+  for (const auto* answer : {R"({"ok": true})", R"({"ok": true, "result": 3})",
+                             R"({"ok": true, "result": [1]})", R"({"ok": 1, "result": null})"}) {
+    say(answer);
+    for (const auto* format : {"text", "json", "csv"}) {
+      EXPECT_FALSE(show_scan("latest", format)) << answer;
+    }
+  }
+  say(R"({"ok": true, "result": 3})");
+  expect_not_understood(show_scan("latest", "json"), answer_);
+}
+
+TEST_F(StationTalk, CopiesNoFileOfAnotherFolder) {
+  const auto out = folder_.path() / "out";
+  const std::string scan = R"({"ok": true, "id": "scan", "folder": "/etc", "files": )";
+  for (const auto* files : {"[3]", R"(["../etc/hostname"])", R"(["/etc/hostname"])", "[[]]"}) {
+    say(scan + files + "}");
+    expect_not_understood(export_scan("latest", out), files);
+    EXPECT_FALSE(std::filesystem::exists(out / "scan")) << files;
+  }
+  for (const auto* id : {"3", R"("../scan")", "null", R"("")"}) {
+    say(std::string(R"({"ok": true, "folder": "/etc", "files": [], "id": )") + id + "}");
+    expect_not_understood(export_scan("latest", out), id);
+  }
+}
+
+TEST_F(StationTalk, OutlivesListsAndEventsOfAnotherShape) {
+  for (const auto* scans : {"3", R"("scan")", "[3, []]", R"({"id": 3})"}) {
+    say(std::string(R"({"ok": true, "scans": )") + scans + "}",
+        std::string(R"({"event": "result", "scans": )") + scans + "}");
+    EXPECT_NO_THROW(static_cast<void>(list_scans(false))) << scans;
+    EXPECT_NO_THROW(static_cast<void>(scan_on_station(true, false))) << scans;
+  }
+}
+
+}  // namespace
+}  // namespace instep
