@@ -21,11 +21,6 @@ constexpr milliseconds kStopGrace{300};
 /// A camera that sends this many bad frames for each one asked is broken.
 constexpr int kMostBadFramesForEach = 3;
 
-Error silent(const std::string& camera) {
-  return {ErrorCode::kTimeout, Remedy::kReopen, "camera " + camera + " does not answer",
-          "unplug it and plug it in again; if that does not help, restart instepd"};
-}
-
 /// Takes as many good frames as are asked for from a started camera.
 Result<Frames> take_frames(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
                            const std::atomic<bool>& cancelled, TaskProgress& progress) {
@@ -57,7 +52,53 @@ Result<Frames> take_frames(DepthCamera& camera, FrameTally& tally, const Capture
   return frames;
 }
 
+bool is_all_zero(const DepthFrame& frame) {
+  return std::all_of(frame.raw.begin(), frame.raw.end(), [](auto depth) { return depth == 0; });
+}
+
+/// Until a frame is sound, as a stream may begin with some that are not.
+Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
+                     CameraSet::ZeroFrames zero_frames, TaskProgress& progress) {
+  const auto deadline = steady_clock::now() + settings.frame_limit;
+  FrameFault fault = FrameFault::kNone;
+  tally.begin_stream();
+  for (int i = 0; i < settings.warmup_frames + kMostBadFramesForEach; ++i) {
+    if (i > 0 && steady_clock::now() >= deadline) break;
+    const auto frame = camera.next_frame(settings.frame_limit);
+    if (!frame) return tl::make_unexpected(frame.error());
+    progress.step();
+    fault = tally.count(*frame);
+    // Nobody needs to stand there, and then there may be hardly anything to be seen.
+    const bool nearly_empty = fault == FrameFault::kEmpty && !is_all_zero(*frame);
+    const bool as_expected =
+        fault == FrameFault::kEmpty && zero_frames == CameraSet::ZeroFrames::kAreAsExpected;
+    if (fault == FrameFault::kNone || nearly_empty || as_expected) return {};
+  }
+  return tl::make_unexpected(bad_frames_only(fault));
+}
+
 }  // namespace
+
+Error silent_camera(const std::string& camera) {
+  return {ErrorCode::kTimeout, Remedy::kReopen, "camera " + camera + " does not answer",
+          "unplug it and plug it in again; if that does not help, restart instepd"};
+}
+
+/// Who is told of the next look at a camera; nobody if none waits.
+struct CameraSet::Look {
+  std::mutex mutex;
+  Report report;
+
+  /// True if a look waits already.
+  bool ask(const Report& asking) {
+    const std::lock_guard lock(mutex);
+    return static_cast<bool>(std::exchange(report, asking));
+  }
+  Report begin() {
+    const std::lock_guard lock(mutex);
+    return std::exchange(report, nullptr);
+  }
+};
 
 struct CameraSet::Worker {
   explicit Worker(std::unique_ptr<DepthCamera> owned)
@@ -68,6 +109,7 @@ struct CameraSet::Worker {
   std::shared_ptr<DepthCamera> camera;
   CameraDescription description;
   std::shared_ptr<FrameTally> tally = std::make_shared<FrameTally>();
+  std::shared_ptr<Look> look = std::make_shared<Look>();
   std::unique_ptr<TaskThread> thread;
 
   const std::string& id() const { return description.geometry.id; }
@@ -202,7 +244,7 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
     auto& brought = gathering->brought[i];
     const std::string& id = workers_[i]->id();
     if (!brought) {
-      blame(id, silent(id));
+      blame(id, silent_camera(id));
     } else if (brought->has_value()) {
       std::move((*brought)->begin(), (*brought)->end(), std::back_inserter(all));
     } else if (brought->error().code != ErrorCode::kCancelled) {
@@ -220,24 +262,19 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
   return tl::make_unexpected(*first_fault);
 }
 
-void CameraSet::check(milliseconds frame_limit, const Report& report) {
+void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
+                      const Report& report) {
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     const Worker& worker = *workers_[i];
-    if (worker.thread->is_busy()) {
-      report(i, tl::make_unexpected(silent(worker.id())));
-      continue;
-    }
-    worker.thread->post([i, report, frame_limit, camera = worker.camera, tally = worker.tally,
-                         id = worker.id()](TaskProgress&) {
-      const auto frame = camera->start().and_then([&] { return camera->next_frame(frame_limit); });
+    // A camera that hangs is not to find a heap of them.
+    if (worker.look->ask(report)) continue;
+    worker.thread->post([i, settings, zero_frames, look = worker.look, camera = worker.camera,
+                         tally = worker.tally, id = worker.id()](TaskProgress& progress) {
+      const Report tell = look->begin();
+      const auto outcome = camera->start().and_then(
+          [&] { return look_at(*camera, *tally, settings, zero_frames, progress); });
       camera->stop();
-      tally->begin_stream();
-      if (frame) {
-        tally->count(*frame);
-        report(i, {});
-      } else {
-        report(i, tl::make_unexpected(named_after_camera(id, frame.error())));
-      }
+      outcome ? tell(i, {}) : tell(i, tl::make_unexpected(named_after_camera(id, outcome.error())));
     });
   }
 }

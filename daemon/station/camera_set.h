@@ -16,6 +16,9 @@
 
 namespace instep {
 
+/// What is wrong with a camera that neither gives a frame nor fails.
+Error silent_camera(const std::string& camera);
+
 /// The cameras of the station, each on a thread of its own, so that one that hangs holds up neither
 /// the others nor the daemon. All calls may be made from any thread; none but capture() waits.
 class CameraSet {
@@ -39,10 +42,15 @@ class CameraSet {
   Result<std::vector<DepthFrame>> capture(const CaptureSettings& settings,
                                           const std::function<bool()>& go_on);
 
-  /// Looks whether each camera gives a frame, and reports each on its thread. One that is not done
-  /// with what it was asked before counts as silent.
+  /// What is made of frames without any depth, where no scan asked for them.
+  enum class ZeroFrames { kAreFaulty, kAreAsExpected };
+
+  /// Looks whether each camera gives a frame that is no worse than those a scan drops, and reports
+  /// each on its thread, twice settings.frame_limit after its start at the latest. One that is not
+  /// done with what it was asked before is looked at when it is, which may be never: who asks has
+  /// to set a limit. It then reports to whoever asked last.
   using Report = std::function<void(std::size_t camera, Result<void> outcome)>;
-  void check(std::chrono::milliseconds frame_limit, const Report& report);
+  void check(const CaptureSettings& settings, ZeroFrames zero_frames, const Report& report);
 
   /// Enters every camera's thread for the watchdog.
   void note_progress(ProgressWatch& watch) const;
@@ -50,6 +58,7 @@ class CameraSet {
  private:
   struct Worker;
   struct Gathering;
+  struct Look;
 
   Result<std::vector<DepthFrame>> capture_once(const CaptureSettings& settings,
                                                std::chrono::steady_clock::time_point deadline,

@@ -191,8 +191,11 @@ void Station::check_cameras() {
   if (std::find(unanswered_.begin(), unanswered_.end(), true) != unanswered_.end()) return;
   const auto round = ++check_round_;
   unanswered_.assign(cameras_->size(), true);
-  check_deadline_.set(settings_.capture.frame_limit + kOpeningGrace);
-  cameras_->check(settings_.capture.frame_limit,
+  check_deadline_.set(2 * settings_.capture.frame_limit + kOpeningGrace);
+  // The projector is lit for scans alone.
+  const auto zero_frames = settings_.outputs.projector ? CameraSet::ZeroFrames::kAreAsExpected
+                                                       : CameraSet::ZeroFrames::kAreFaulty;
+  cameras_->check(settings_.capture, zero_frames,
                   [this, round, post = loop_.poster()](std::size_t camera, Result<void> outcome) {
                     post([this, round, camera, outcome = std::move(outcome)] {
                       camera_answered(round, camera, outcome);
@@ -216,10 +219,7 @@ void Station::end_check() {
   bool all = true;
   for (std::size_t i = 0; i < camera_status_.size(); ++i) {
     if (unanswered_[i]) {
-      camera_status_[i].trouble =
-          Error{ErrorCode::kTimeout, Remedy::kReopen,
-                "camera " + camera_status_[i].id + " does not answer",
-                "unplug it and plug it in again; if that does not help, restart instepd"};
+      camera_status_[i].trouble = silent_camera(camera_status_[i].id);
     }
     care_->looked_at(i, camera_status_[i].trouble);
     all = all && !camera_status_[i].trouble;

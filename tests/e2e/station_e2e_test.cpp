@@ -304,6 +304,15 @@ TEST(Station, CountsTheDamagedFramesOfEachCamera) {
   EXPECT_THAT(text, HasSubstr("camera right        ok\n"));
 }
 
+// Ready it is not: every scan would fail.
+TEST(Station, SaysWhichCameraSeesNothingBeforeAnybodyScans) {
+  StationProcess station("fault_script = \"faults.txt\"\n");
+  std::ofstream(station.folder() / "faults.txt") << "camera left: zero frames 1-1000000\n";
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=degraded", kLong)) << station.log();
+  EXPECT_THAT(station.run_instep("status").text, HasSubstr("camera left: it sees nothing"));
+}
+
 TEST(Station, RefusesASecondDaemonOnItsSocket) {
   StationProcess station;
   station.start();

@@ -15,7 +15,7 @@ namespace instep::test {
 /// A camera that does what its script says, one entry a call of next_frame(); then good frames.
 class ScriptedCamera : public DepthCamera {
  public:
-  enum class Step { kGood, kCorrupt, kShort, kStale, kEmpty, kLost, kTimeout, kGone, kHang };
+  enum class Step { kGood, kCorrupt, kShort, kStale, kEmpty, kZero, kLost, kTimeout, kGone, kHang };
 
   ScriptedCamera(const std::string& id, std::deque<Step> script) : script_(std::move(script)) {
     description_.geometry.id = id;
@@ -36,7 +36,7 @@ class ScriptedCamera : public DepthCamera {
     }
     if (step == Step::kHang) {
       // What no camera may do: neither its limit nor an interrupt ends this call.
-      changed_.wait_for(lock, std::chrono::seconds(3), [this] { return released_; });
+      changed_.wait_for(lock, std::chrono::minutes(1), [this] { return released_; });
       return fail(ErrorCode::kTimeout, "far too late", "");
     }
     if (step == Step::kTimeout) {
@@ -48,6 +48,12 @@ class ScriptedCamera : public DepthCamera {
     return frame_of(step);
   }
   void stop() override {}
+  /// Ends kHang before its time.
+  void release() {
+    const std::lock_guard lock(mutex_);
+    released_ = true;
+    changed_.notify_all();
+  }
   void interrupt() override {
     const std::lock_guard lock(mutex_);
     interrupted_ = true;
@@ -65,6 +71,7 @@ class ScriptedCamera : public DepthCamera {
     // These two, no driver says.
     if (step == Step::kShort) frame.raw.resize(frame.raw.size() / 2);
     if (step == Step::kEmpty) std::fill(frame.raw.begin() + 3, frame.raw.end(), 0);
+    if (step == Step::kZero) std::fill(frame.raw.begin(), frame.raw.end(), 0);
     if (step == Step::kLost) sequence_ += 2;
     frame.sequence = sequence_++;
     return frame;

@@ -7,6 +7,8 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
+#include <string>
 
 #include "tests/support/scripted_camera.h"
 
@@ -199,20 +201,89 @@ TEST(CameraSet, EndsTurnsWhenACameraFailsOrTheScanIsStopped) {
   EXPECT_LT(steady_clock::now() - begun, 1s);
 }
 
+/// What a look at the cameras has reported, by camera.
+class Reports {
+ public:
+  explicit Reports(std::size_t cameras) : outcomes_(cameras) {}
+  CameraSet::Report taker() {
+    return [this](std::size_t camera, Result<void> outcome) {
+      const std::lock_guard lock(mutex_);
+      outcomes_[camera] = std::move(outcome);
+      changed_.notify_all();
+    };
+  }
+  /// Of one camera: "" if it is well; waits for it.
+  std::string of(std::size_t camera) {
+    std::unique_lock lock(mutex_);
+    if (!changed_.wait_for(lock, 30s, [&] { return outcomes_[camera].has_value(); })) {
+      return "no report";
+    }
+    return *outcomes_[camera] ? "" : outcomes_[camera]->error().message;
+  }
+  bool has_any() {
+    const std::lock_guard lock(mutex_);
+    return std::any_of(outcomes_.begin(), outcomes_.end(), [](const auto& one) { return !!one; });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::optional<Result<void>>> outcomes_;
+};
+
 TEST(CameraSet, ReportsEachCameraWhenChecked) {
   const auto set = cameras({}, {Step::kGone});
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::vector<std::optional<bool>> well(2);
-  set->check(100ms, [&](std::size_t camera, Result<void> outcome) {
-    const std::lock_guard lock(mutex);
-    well[camera] = outcome.has_value();
-    changed.notify_all();
-  });
-  std::unique_lock lock(mutex);
-  ASSERT_TRUE(changed.wait_for(lock, 5s, [&] { return well[0] && well[1]; }));
-  EXPECT_TRUE(*well[0]);
-  EXPECT_FALSE(*well[1]);
+  Reports reports(2);
+  set->check(settings(), CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  EXPECT_EQ(reports.of(0), "");
+  EXPECT_EQ(reports.of(1), "camera right: it left");
+}
+
+// Every scan would fail, though it answers.
+TEST(CameraSet, ReportsACameraWhoseFramesAreOfNoUse) {
+  auto patient = settings();
+  patient.frame_limit = 10s;
+  const auto set = cameras(std::deque<Step>(100, Step::kZero), std::deque<Step>(100, Step::kShort));
+  Reports reports(2);
+  set->check(patient, CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  EXPECT_THAT(reports.of(0), testing::HasSubstr("camera left: it sees nothing"));
+  EXPECT_THAT(reports.of(1), testing::HasSubstr("camera right: it sends damaged frames only"));
+
+  const auto dark =
+      cameras(std::deque<Step>(100, Step::kZero), std::deque<Step>(100, Step::kEmpty));
+  Reports unlit(2);
+  dark->check(patient, CameraSet::ZeroFrames::kAreAsExpected, unlit.taker());
+  EXPECT_EQ(unlit.of(0), "");
+  EXPECT_EQ(unlit.of(1), "");
+}
+
+TEST(CameraSet, PassesOverWhatAStreamMayBeginWithWhenItChecks) {
+  auto patient = settings();
+  patient.frame_limit = 10s;
+  const auto set = cameras({Step::kCorrupt, Step::kStale, Step::kZero}, {Step::kEmpty});
+  Reports reports(2);
+  set->check(patient, CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  EXPECT_EQ(reports.of(0), "");
+  EXPECT_EQ(reports.of(1), "") << "little is to be seen when nobody stands there";
+}
+
+// The one that failed is to blame, and not the other that was interrupted and is on its way back.
+TEST(CameraSet, WaitsForACameraThatIsNotBackYetWhenItChecks) {
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  auto owned = std::make_unique<ScriptedCamera>("slow", std::deque<Step>{Step::kHang});
+  ScriptedCamera& slow = *owned;
+  all.push_back(std::move(owned));
+  CameraSet set(std::move(all));
+  ASSERT_FALSE(set.capture(settings(), go_on));
+  Reports first(1);
+  set.check(settings(), CameraSet::ZeroFrames::kAreFaulty, first.taker());
+  Reports second(1);
+  set.check(settings(), CameraSet::ZeroFrames::kAreFaulty, second.taker());
+  EXPECT_FALSE(first.has_any());
+  EXPECT_FALSE(second.has_any());
+  slow.release();
+  EXPECT_EQ(second.of(0), "");
+  EXPECT_FALSE(first.has_any()) << "who asked last is told, and once";
 }
 
 }  // namespace

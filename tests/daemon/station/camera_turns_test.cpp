@@ -127,9 +127,12 @@ TEST(CameraTurns, BeginWhenNoCameraIsLookedAtAnyMore) {
   CameraSet set(std::move(all));
   light->counting = false;
   const auto left_done = std::make_shared<std::promise<void>>();
-  set.check(300ms, [left_done](std::size_t camera, const Result<void>&) {
-    if (camera == 0) left_done->set_value();
-  });
+  auto looking = settings(true);
+  looking.frame_limit = 300ms;
+  set.check(looking, CameraSet::ZeroFrames::kAreFaulty,
+            [left_done](std::size_t camera, const Result<void>&) {
+              if (camera == 0) left_done->set_value();
+            });
   left_done->get_future().wait();
   {
     std::unique_lock lock(light->mutex);
