@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -62,6 +63,12 @@ bool TaskThread::stop(std::chrono::milliseconds limit) {
   std::unique_lock lock(shared_->mutex);
   dropped.swap(shared_->tasks);
   return leave(std::move(lock), limit);
+}
+
+bool TaskThread::stop_by(std::chrono::steady_clock::time_point deadline) {
+  const auto left =
+      std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+  return stop(std::max(left, std::chrono::milliseconds(1)));
 }
 
 bool TaskThread::finish(std::chrono::milliseconds limit) {

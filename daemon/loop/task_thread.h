@@ -40,6 +40,8 @@ class TaskThread {
   /// Drops waiting tasks and waits for the running one. False if it did not end within the limit;
   /// the thread is then abandoned.
   bool stop(std::chrono::milliseconds limit);
+  /// The same for several threads that are to end by one moment; one that has ended is never late.
+  bool stop_by(std::chrono::steady_clock::time_point deadline);
 
   /// Takes no more tasks and waits for those it has. False if they did not end within the limit;
   /// the thread is then abandoned with them, and does them yet if it can. No call but the

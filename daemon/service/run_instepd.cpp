@@ -72,10 +72,11 @@ int serve(const std::filesystem::path& file, const Settings& settings) {
       settings, [file] { return read_settings(file); }, measure_capture);
   if (!service) return complain(service.error());
   const auto left_cleanly = (*service)->run();
-  if (!left_cleanly) return complain(left_cleanly.error());
-  // A thread that hangs cannot be waited for, and what it uses must not be torn down under it.
-  if (!*left_cleanly) ::_exit(0);
-  return 0;
+  const int code = left_cleanly ? 0 : complain(left_cleanly.error());
+  // A thread that hangs cannot be waited for, and what it uses must not be torn down under it. The
+  // log has no buffer.
+  if (!left_cleanly || !*left_cleanly) ::_exit(code);
+  return code;
 }
 
 }  // namespace
@@ -100,6 +101,10 @@ int run_instepd(int argc, char** argv) {
     return print(text.str());
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "instepd: {}: see instepd --help\n", error.what());
+    return 2;
+  }
+  if (app.count("--config") > 0 && asked.empty()) {
+    fmt::print(stderr, "instepd: --config needs the name of a file: see instepd --help\n");
     return 2;
   }
   SettingsPlaces places{std::nullopt, running_program_folder(), source_folder()};

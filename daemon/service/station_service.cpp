@@ -1,6 +1,7 @@
 #include "daemon/service/station_service.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <signal.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ namespace {
 
 /// A scan that is not over by then is left behind: a second is what SIGTERM promises.
 constexpr std::chrono::milliseconds kShutdownLimit{800};
+/// What its threads have beyond that, all together.
+constexpr std::chrono::milliseconds kThreadsLimit{150};
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
 
 }  // namespace
@@ -59,10 +62,7 @@ Result<void> StationService::open(MeasureCapture measure) {
   station_ = std::make_unique<Station>(*loop_, settings_, std::move(measure), store_, listener);
 
   watchdog_timer_ = loop_->timer([this] { feed_watchdog(); });
-  shutdown_timer_ = loop_->timer([this] {
-    left_cleanly_ = false;
-    loop_->leave();
-  });
+  shutdown_timer_ = loop_->timer([this] { loop_->leave(); });
   return loop_->on_signal(SIGTERM, [this] { shut_down(); })
       .and_then([&] { return loop_->on_signal(SIGINT, [this] { shut_down(); }); })
       .and_then([&] { return loop_->on_signal(SIGHUP, [this] { reload(); }); });
@@ -74,11 +74,20 @@ Result<bool> StationService::run() {
   manager_.ready(status_text());
   if (ServiceManager::watchdog_limit()) feed_watchdog();
   const auto ended = loop_->run();
-  station_->darken();
-  if (!ended) return tl::make_unexpected(ended.error());
+  const bool all_ended = end_threads();
   server_.reset();
-  if (!left_cleanly_) log_warning("a scan did not end in time and was abandoned");
-  return left_cleanly_;
+  if (!ended) return tl::make_unexpected(ended.error());
+  return all_ended;
+}
+
+bool StationService::end_threads() {
+  const auto deadline = std::chrono::steady_clock::now() + kThreadsLimit;
+  auto left_behind = station_->end_by(deadline);
+  if (!archive_->stop_by(deadline)) left_behind.emplace_back("the archive");
+  if (left_behind.empty()) return true;
+  log_warning(
+      fmt::format("did not end in time and was abandoned: {}", fmt::join(left_behind, ", ")));
+  return false;
 }
 
 void StationService::prepare_store() {

@@ -36,8 +36,8 @@ class StationService {
                                                         MeasureCapture measure);
   ~StationService();
 
-  /// Until it is told to end. False if something had to be left behind in the middle; the process
-  /// should then end without waiting for anything (its threads may hang).
+  /// Until it is told to end. False if a thread had to be left behind in the middle of something;
+  /// the process has to end at once then, and tear down nothing that the thread may still use.
   Result<bool> run();
 
  private:
@@ -55,6 +55,8 @@ class StationService {
   void reload();
   void shut_down();
   void feed_watchdog();
+  /// False if something had to be left behind.
+  bool end_threads();
   std::string status_text() const;
 
   Settings settings_;
@@ -73,7 +75,6 @@ class StationService {
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;
   std::shared_ptr<std::atomic<bool>> leaving_ = std::make_shared<std::atomic<bool>>(false);
-  bool left_cleanly_ = true;
 };
 
 }  // namespace instep

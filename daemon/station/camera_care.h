@@ -44,6 +44,11 @@ class CameraCare {
   CameraCare(EventLoop& loop, const std::vector<std::optional<UsbAddress>>& cameras,
              Listener listener, Bus bus = real_bus());
 
+  /// Waits for a reset that runs; false if it had to be left behind.
+  bool end_by(std::chrono::steady_clock::time_point deadline) {
+    return reset_thread_.stop_by(deadline);
+  }
+
   void looked_at(std::size_t camera, const std::optional<Error>& trouble);
   const CameraHealth& health(std::size_t camera) const { return patients_[camera].health; }
 

@@ -157,13 +157,14 @@ CameraSet::CameraSet(std::vector<std::unique_ptr<DepthCamera>> cameras) {
 }
 
 CameraSet::~CameraSet() {
+  end_by(steady_clock::now() + kStopGrace);
+}
+
+bool CameraSet::end_by(steady_clock::time_point deadline) {
   interrupt();
-  // All are asked before any is waited for, so that the limit holds for all together.
-  const auto deadline = steady_clock::now() + kStopGrace;
-  for (const auto& worker : workers_) {
-    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
-    worker->thread->stop(std::max(left, milliseconds(1)));
-  }
+  bool all_ended = true;
+  for (const auto& worker : workers_) all_ended = worker->thread->stop_by(deadline) && all_ended;
+  return all_ended;
 }
 
 std::vector<CameraDescription> CameraSet::descriptions() const {

@@ -24,7 +24,7 @@ Error silent_camera(const std::string& camera);
 class CameraSet {
  public:
   explicit CameraSet(std::vector<std::unique_ptr<DepthCamera>> cameras);
-  /// Interrupts what runs; a camera that hangs is left behind.
+  /// end_by() a moment from now.
   ~CameraSet();
   CameraSet(const CameraSet&) = delete;
   CameraSet& operator=(const CameraSet&) = delete;
@@ -51,6 +51,10 @@ class CameraSet {
   /// to set a limit. It then reports to whoever asked last.
   using Report = std::function<void(std::size_t camera, Result<void> outcome)>;
   void check(const CaptureSettings& settings, ZeroFrames zero_frames, const Report& report);
+
+  /// Interrupts what runs and waits for it. False if a camera had to be left behind; no call but
+  /// the destructor may follow.
+  bool end_by(std::chrono::steady_clock::time_point deadline);
 
   /// Enters every camera's thread for the watchdog.
   void note_progress(ProgressWatch& watch) const;

@@ -43,10 +43,14 @@ OutputKeeper::OutputKeeper(EventLoop& loop, const std::string& name, Open open,
 }
 
 OutputKeeper::~OutputKeeper() {
+  finish();
+}
+
+bool OutputKeeper::finish() {
   put_off();
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(*last_moment_ -
                                                                  std::chrono::steady_clock::now());
-  thread_.finish(std::max(left, std::chrono::milliseconds(1)));
+  return thread_.finish(std::max(left, std::chrono::milliseconds(1)));
 }
 
 void OutputKeeper::put_off() {

@@ -45,6 +45,8 @@ class OutputKeeper {
   /// Begins its end, from which kLastMoment counts: several lines can be put off at once. The
   /// loop has ended, and no call but the destructor may follow.
   void put_off();
+  /// Waits for that; false if it hangs and had to be left behind.
+  bool finish();
   /// Why it is not as wanted; nothing while all is well, and until the first attempt.
   const std::optional<Error>& trouble() const { return trouble_; }
 

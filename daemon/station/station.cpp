@@ -91,6 +91,21 @@ void Station::shut_down() {
   handle(StationEvent::kShutdown);
 }
 
+std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point deadline) {
+  if (signals_) signals_->put_off();
+  if (cancelled_) *cancelled_ = true;
+  std::vector<std::string> left_behind;
+  const auto note = [&](const char* what, bool ended) {
+    if (!ended) left_behind.emplace_back(what);
+  };
+  note("a camera", !cameras_ || cameras_->end_by(deadline));
+  note("the scan", scan_thread_.stop_by(deadline));
+  note("the truth of the simulation", truth_thread_.stop_by(deadline));
+  note("the reset of a camera", !care_ || care_->end_by(deadline));
+  note("a lamp or the projector", !signals_ || signals_->finish());
+  return left_behind;
+}
+
 StationStatus Station::status() const {
   StationStatus status;
   status.state = machine_.state();

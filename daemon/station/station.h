@@ -82,8 +82,10 @@ class Station {
   void reload(const Settings& settings);
   /// Ends a scan that runs; on_left follows.
   void shut_down();
-  /// Puts lamps and the projector off. The last call, after the loop has ended.
-  void darken() { signals_.reset(); }
+  /// Puts lamps and the projector off and waits for all threads, after the loop has ended. Returns
+  /// what hangs and had to be left behind, which goes on with what it uses. No call but the
+  /// destructor may follow.
+  std::vector<std::string> end_by(std::chrono::steady_clock::time_point deadline);
 
   StationStatus status() const;
   void note_progress(ProgressWatch& watch) const;

@@ -39,7 +39,18 @@ StationSignals::StationSignals(EventLoop& loop, const OutputSettings& outputs, c
 }
 
 StationSignals::~StationSignals() {
+  finish();
+}
+
+void StationSignals::put_off() {
   for (const auto& signal : signals_) signal.keeper->put_off();
+}
+
+bool StationSignals::finish() {
+  put_off();
+  bool all_ended = true;
+  for (const auto& signal : signals_) all_ended = signal.keeper->finish() && all_ended;
+  return all_ended;
 }
 
 void StationSignals::show(StationState state) {

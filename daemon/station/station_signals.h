@@ -29,12 +29,15 @@ class StationSignals {
   /// `on_change`: status() tells of another trouble. The loop and the keepers: as OutputKeeper.
   StationSignals(EventLoop& loop, const OutputSettings& outputs, const Open& open,
                  const std::function<void()>& on_change, const OutputKeeper::Pace& pace = {});
-  /// Puts all off at once, so that OutputKeeper::kLastMoment holds for all together.
   ~StationSignals();
   StationSignals(const StationSignals&) = delete;
   StationSignals& operator=(const StationSignals&) = delete;
 
   void show(StationState state);
+  /// Begins to put all off at once, so that OutputKeeper::kLastMoment holds for all together.
+  void put_off();
+  /// Waits for that; false if one had to be left behind. No call but the destructor may follow.
+  bool finish();
   std::vector<OutputStatus> status() const;
   /// Why the projector cannot be lit; nothing if it can, or if there is none.
   std::optional<Error> light_trouble() const;

@@ -187,6 +187,20 @@ TEST(Station, EndsWithinASecondOfSigtermInTheMiddleOfAScan) {
   }
 }
 
+// What a thread that was left behind uses must not be torn down under it.
+TEST(Station, EndsOrderlyWhileTheTruthOfItsSimulationIsWorkedOut) {
+  StationProcess station;
+  station.write_settings(
+      "[[camera]]\nkind = \"simulated\"\n"
+      "[simulation]\nsubject = \"feet\"\npacing = \"fast\"\ntruth = true\n");
+  for (int start = 0; start < 3; ++start) {
+    station.start();
+    ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
+    station.signal(SIGTERM);
+    EXPECT_EQ(station.wait_for_exit(1500ms), 0) << station.log();
+  }
+}
+
 /// Of its memory, what is in RAM.
 double resident_mb(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");

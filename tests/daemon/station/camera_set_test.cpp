@@ -286,5 +286,19 @@ TEST(CameraSet, WaitsForACameraThatIsNotBackYetWhenItChecks) {
   EXPECT_FALSE(first.has_any()) << "who asked last is told, and once";
 }
 
+TEST(CameraSet, SaysWhetherACameraHadToBeLeftBehind) {
+  const auto well = cameras({}, std::deque<Step>(20, Step::kTimeout));
+  auto patient = settings();
+  patient.frame_limit = 10s;
+  Reports reports(2);
+  well->check(patient, CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  EXPECT_TRUE(well->end_by(steady_clock::now() + 10s))
+      << "one that waits for a frame is interrupted";
+
+  const auto hangs = cameras({Step::kHang}, {});
+  ASSERT_FALSE(hangs->capture(settings(), go_on));
+  EXPECT_FALSE(hangs->end_by(steady_clock::now()));
+}
+
 }  // namespace
 }  // namespace instep
