@@ -19,11 +19,33 @@ namespace fs = std::filesystem;
 constexpr const char* kPermissionAdvice =
     "let the udev rules of Instep name it, then: sudo usermod -aG plugdev $USER";
 
-std::vector<fs::path> nodes_in(const fs::path& folder) {
+/// Of a device that cannot be opened; a pedal that is away is only one of the reasons.
+Error not_opened(int error_number, const fs::path& node) {
+  const std::string what =
+      fmt::format("{} cannot be opened: {}", node.string(), std::strerror(error_number));
+  switch (error_number) {
+    case EACCES:
+    case EPERM:
+      return fail(ErrorCode::kPermissionDenied, what, kPermissionAdvice).value();
+    case ENOENT:
+    case ENOTDIR:
+    case ENODEV:
+    case ENXIO:
+      return fail(ErrorCode::kNotFound, what, "plug the pedal in").value();
+    default:
+      return fail(ErrorCode::kIo, what, "check the limits on open files and memory").value();
+  }
+}
+
+/// None where there is no such folder, as on a machine without any input device.
+Result<std::vector<fs::path>> nodes_in(const fs::path& folder) {
   std::vector<fs::path> nodes;
-  std::error_code unreadable;
-  for (const auto& entry : fs::directory_iterator(folder, unreadable)) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
     if (entry.path().filename().native().starts_with("event")) nodes.push_back(entry.path());
+  }
+  if (failed && failed != std::errc::no_such_file_or_directory) {
+    return tl::make_unexpected(not_opened(failed.value(), folder));
   }
   std::sort(nodes.begin(), nodes.end());
   return nodes;
@@ -58,12 +80,15 @@ Result<std::unique_ptr<InputDevice>> find_by_name(const fs::path& folder, const 
 
 Result<std::unique_ptr<InputDevice>> find_by_ids(const fs::path& folder, const UsbIds& ids,
                                                  const std::string& text, unsigned key) {
+  const auto nodes = nodes_in(folder);
+  if (!nodes) return tl::make_unexpected(nodes.error());
   std::unique_ptr<InputDevice> found;
   std::string closed;  // the last device that this user may not open
   bool without_key = false;
-  for (const auto& node : nodes_in(folder)) {
+  for (const auto& node : *nodes) {
     auto device = InputDevice::open(node);
     if (!device) {
+      if (device.error().code == ErrorCode::kIo) return device;
       if (device.error().code == ErrorCode::kPermissionDenied) closed = node.string();
       continue;
     }
@@ -113,12 +138,7 @@ bool InputDevice::has_key(unsigned key) const {
 Result<std::unique_ptr<InputDevice>> InputDevice::open(const fs::path& node) {
   std::unique_ptr<InputDevice> device(
       new InputDevice(::open(node.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)));
-  if (device->descriptor() < 0) {
-    const bool denied = errno == EACCES || errno == EPERM;
-    return fail(denied ? ErrorCode::kPermissionDenied : ErrorCode::kNotFound,
-                fmt::format("{} cannot be opened: {}", node.string(), std::strerror(errno)),
-                denied ? kPermissionAdvice : "plug the pedal in");
-  }
+  if (device->descriptor() < 0) return tl::make_unexpected(not_opened(errno, node));
   libevdev* events = nullptr;
   if (const int failed = libevdev_new_from_fd(device->descriptor(), &events); failed < 0) {
     return fail(ErrorCode::kUnsupported,

@@ -24,11 +24,11 @@ struct UsbIds {
 /// An input device of the kernel, open for reading, by libevdev.
 class InputDevice {
  public:
-  /// Fails with kNotFound, kPermissionDenied, or kUnsupported if it is no input device.
+  /// Fails with kNotFound, kPermissionDenied, kUnsupported if it is no input device, or kIo if the
+  /// system has no descriptor or memory for it.
   static Result<std::unique_ptr<InputDevice>> open(const std::filesystem::path& node);
   /// The one device in `folder` (/dev/input) that `device` means, its USB ids or its name in by-id,
-  /// and that has this key. Fails with kNotFound, kPermissionDenied, or kInvalidInput if there are
-  /// several.
+  /// and that has this key. Fails as open() does, or with kInvalidInput if there are several.
   static Result<std::unique_ptr<InputDevice>> find(const std::filesystem::path& folder,
                                                    const std::string& device, unsigned key);
 

@@ -48,17 +48,17 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
 class Surroundings {
  public:
   explicit Surroundings(const ChildProgram& program) {
-    ::posix_spawn_file_actions_init(&actions_);
-    ::posix_spawnattr_init(&attributes_);
+    note(::posix_spawn_file_actions_init(&actions_));
+    note(::posix_spawnattr_init(&attributes_));
     open_null(STDIN_FILENO, O_RDONLY);
     if (program.output) {
-      ::posix_spawn_file_actions_adddup2(&actions_, *program.output, STDOUT_FILENO);
+      note(::posix_spawn_file_actions_adddup2(&actions_, *program.output, STDOUT_FILENO));
     } else {
       open_null(STDOUT_FILENO, O_WRONLY);
     }
     int next = kFirstInherited;
     for (const int descriptor : program.descriptors) inherit(descriptor, next++);
-    ::posix_spawn_file_actions_addclosefrom_np(&actions_, next);
+    note(::posix_spawn_file_actions_addclosefrom_np(&actions_, next));
     set_plain_signals();
   }
   ~Surroundings() {
@@ -70,18 +70,27 @@ class Surroundings {
 
   const posix_spawn_file_actions_t* actions() const { return &actions_; }
   const posix_spawnattr_t* attributes() const { return &attributes_; }
+  /// The first errno value that preparing them met; 0 if they are as asked.
+  int failure() const { return failure_; }
 
  private:
+  void note(int failure) {
+    if (failure_ == 0) failure_ = failure;
+  }
+
   void open_null(int as, int how) {
-    ::posix_spawn_file_actions_addopen(&actions_, as, "/dev/null", how, 0);
+    note(::posix_spawn_file_actions_addopen(&actions_, as, "/dev/null", how, 0));
   }
 
   /// By way of a copy above all the numbers that are given, so that none is overwritten before its
   /// turn.
   void inherit(int descriptor, int as) {
     constexpr int kAbove = 64;
-    copies_.push_back(std::make_unique<Descriptor>(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove)));
-    ::posix_spawn_file_actions_adddup2(&actions_, copies_.back()->number(), as);
+    auto copy = std::make_unique<Descriptor>(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove));
+    // Invalid is a number above the limit on open files.
+    if (!copy->is_open()) return note(errno == EINVAL ? EMFILE : errno);
+    note(::posix_spawn_file_actions_adddup2(&actions_, copy->number(), as));
+    copies_.push_back(std::move(copy));
   }
 
   void set_plain_signals() {
@@ -89,14 +98,15 @@ class Surroundings {
     sigset_t all;
     ::sigemptyset(&none);
     ::sigfillset(&all);
-    ::posix_spawnattr_setsigmask(&attributes_, &none);
-    ::posix_spawnattr_setsigdefault(&attributes_, &all);
-    ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    note(::posix_spawnattr_setsigmask(&attributes_, &none));
+    note(::posix_spawnattr_setsigdefault(&attributes_, &all));
+    note(::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF));
   }
 
   posix_spawn_file_actions_t actions_{};
   posix_spawnattr_t attributes_{};
   std::vector<std::unique_ptr<Descriptor>> copies_;
+  int failure_ = 0;
 };
 
 Error start_error(int number, const ChildProgram& program) {
@@ -107,6 +117,9 @@ Error start_error(int number, const ChildProgram& program) {
       return fail(ErrorCode::kNotFound, what, "install it beside instepd").value();
     case EACCES:
       return fail(ErrorCode::kPermissionDenied, what, "let the user of the station run it").value();
+    case EMFILE:
+    case ENFILE:
+      return fail(ErrorCode::kIo, Remedy::kRetry, what, "raise the limit on open files").value();
     default:
       return fail(ErrorCode::kIo, Remedy::kRetry, what, "free some memory or processes").value();
   }
@@ -116,6 +129,9 @@ Error start_error(int number, const ChildProgram& program) {
 
 Result<ChildProcess> ChildProcess::start(const ChildProgram& program) {
   const Surroundings surroundings(program);
+  if (surroundings.failure() != 0) {
+    return tl::make_unexpected(start_error(surroundings.failure(), program));
+  }
   std::vector<std::string> words = program.arguments;
   words.insert(words.begin(), program.file.filename().string());
   std::vector<std::string> variables = environment_of(program);

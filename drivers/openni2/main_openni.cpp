@@ -1,9 +1,11 @@
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "drivers/openni2/child/capture_service.h"
@@ -39,20 +41,35 @@ int capture(const instep::SensorChoice& choice) {
   using namespace instep;
   enum Inherited { kRing = 3, kConnection, kArrival };
   auto ring = FrameRing::attach(kRing);
-  if (!ring) return wrong_usage();
+  if (!ring) {
+    std::fprintf(stderr, "instep-openni: %s\n", ring.error().line().c_str());
+    return 1;
+  }
   return serve_captures(choice, *ring, WakeUp(kArrival), Descriptor(kConnection));
+}
+
+/// A size as WIDTHxHEIGHT; nothing if it is written otherwise.
+std::optional<instep::ImageSize> read_size(const std::string& text) {
+  instep::ImageSize size;
+  const char* end = text.data() + text.size();
+  const auto [after_width, no_width] = std::from_chars(text.data(), end, size.width);
+  if (no_width != std::errc() || after_width == end || *after_width != 'x') return {};
+  const auto [after_height, no_height] = std::from_chars(after_width + 1, end, size.height);
+  if (no_height != std::errc() || after_height != end) return {};
+  if (size.width <= 0 || size.height <= 0) return {};
+  return size;
 }
 
 std::optional<instep::SensorChoice> read_choice(const std::vector<std::string>& words) {
   instep::SensorChoice choice;
+  if (words.size() % 2 == 0) return {};  // after --capture, each option has a value
   for (std::size_t i = 1; i + 1 < words.size(); i += 2) {
     const std::string& value = words[i + 1];
     if (words[i] == "--serial") {
       choice.serial = value;
     } else if (words[i] == "--size") {
-      instep::ImageSize size;
-      if (std::sscanf(value.c_str(), "%5dx%5d", &size.width, &size.height) != 2) return {};
-      choice.size = size;
+      choice.size = read_size(value);
+      if (!choice.size) return {};
     } else {
       return {};
     }

@@ -121,7 +121,7 @@ Result<void> OpenniCamera::start() {
   if (!done && !is_passing(done.error())) child_.reset();
   if (!done) return done;
   started_ = true;
-  last_of_sensor_ = 0;
+  numbers_.begin_stream();
   return {};
 }
 
@@ -141,18 +141,13 @@ Result<DepthFrame> OpenniCamera::next_frame(milliseconds limit) {
 
 DepthFrame OpenniCamera::to_frame(RingFrame from) {
   const RingRecord& record = from.record;
-  // A sensor that begins to count anew, or runs wild, still gives numbers that grow.
-  if (last_of_sensor_ > 0 && record.sequence > last_of_sensor_) {
-    next_sequence_ += record.sequence - last_of_sensor_ - 1;
-  }
-  last_of_sensor_ = record.sequence;
   const steady_clock::time_point told{std::chrono::nanoseconds(record.host_time_ns)};
   last_host_time_ =
       std::clamp(told, last_host_time_, std::max(last_host_time_, steady_clock::now()));
 
   DepthFrame frame;
   frame.camera = settings_.name;
-  frame.sequence = next_sequence_++;
+  frame.sequence = numbers_.next(record.sequence);
   frame.width = description_.geometry.intrinsics.width;
   frame.height = description_.geometry.intrinsics.height;
   frame.depth_unit_mm = description_.depth_unit_mm;

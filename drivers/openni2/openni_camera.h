@@ -7,6 +7,7 @@
 
 #include "core/geometry/rigid_transform.h"
 #include "drivers/depth_camera.h"
+#include "drivers/openni2/frame_numbers.h"
 #include "drivers/openni2/openni_child.h"
 
 namespace instep {
@@ -68,8 +69,7 @@ class OpenniCamera final : public DepthCamera {
   CameraDescription description_;
   std::unique_ptr<OpenniChild> child_;  ///< none = has to be launched
   bool started_ = false;
-  std::uint64_t next_sequence_ = 0;
-  std::uint64_t last_of_sensor_ = 0;  ///< its own count; 0 = none since start()
+  FrameNumbers numbers_;
   std::chrono::steady_clock::time_point last_host_time_{};
 
   WakeUp interrupt_;

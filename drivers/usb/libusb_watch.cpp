@@ -55,13 +55,7 @@ class LibusbWatch final : public UsbWatch {
   LibusbWatch(Context context, int waiting) : context_(std::move(context)), waiting_(waiting) {}
 
   Result<void> begin() {
-    const libusb_pollfd** waits = libusb_get_pollfds(context_.get());
-    for (const libusb_pollfd** one = waits; one != nullptr && *one != nullptr; ++one) {
-      epoll_event event{};
-      event.events = static_cast<std::uint32_t>((*one)->events);
-      ::epoll_ctl(waiting_.number(), EPOLL_CTL_ADD, (*one)->fd, &event);
-    }
-    libusb_free_pollfds(waits);
+    if (const auto waiting = wait_for_all(); !waiting) return waiting;
     constexpr int kBoth = LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT;
     const int failed = libusb_hotplug_register_callback(
         context_.get(), kBoth, LIBUSB_HOTPLUG_ENUMERATE, LIBUSB_HOTPLUG_MATCH_ANY,
@@ -88,6 +82,24 @@ class LibusbWatch final : public UsbWatch {
   }
 
  private:
+  Result<void> wait_for_all() {
+    const libusb_pollfd** waits = libusb_get_pollfds(context_.get());
+    if (waits == nullptr) {
+      return fail(ErrorCode::kIo, "USB cannot be watched: libusb does not say what it waits for",
+                  "free some memory");
+    }
+    int failed = 0;
+    for (const libusb_pollfd** one = waits; *one != nullptr && failed == 0; ++one) {
+      epoll_event event{};
+      event.events = static_cast<std::uint32_t>((*one)->events);
+      if (::epoll_ctl(waiting_.number(), EPOLL_CTL_ADD, (*one)->fd, &event) != 0) failed = errno;
+    }
+    libusb_free_pollfds(waits);
+    if (failed == 0) return {};
+    return fail(ErrorCode::kIo, std::string("USB cannot be watched: ") + std::strerror(failed),
+                "check the limits on open files and memory");
+  }
+
   /// Only notes the event: libusb must not be called back from here but for what it has at hand.
   static int on_event(libusb_context*, libusb_device* device, libusb_hotplug_event event,
                       void* user) {

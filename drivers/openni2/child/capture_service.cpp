@@ -119,7 +119,7 @@ class CaptureService {
 void follow_to_the_end(int connection) {
   constexpr milliseconds kClosing{1000};
   pollfd waited{connection, 0, 0};
-  while ((waited.revents & (POLLHUP | POLLERR)) == 0) ::poll(&waited, 1, -1);
+  while ((waited.revents & (POLLHUP | POLLERR | POLLNVAL)) == 0) ::poll(&waited, 1, -1);
   std::this_thread::sleep_for(kClosing);
   ::_exit(kFailed);
 }

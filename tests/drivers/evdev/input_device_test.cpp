@@ -1,4 +1,7 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <fstream>
 
 #include "drivers/evdev/evdev_pedal.h"
 #include "drivers/evdev/input_device.h"
@@ -37,6 +40,22 @@ TEST(PedalsOfAMachineWithout, SayWhatIsMissing) {
   EXPECT_EQ(GpioPedal::open(settings).error().code, ErrorCode::kInvalidInput) << "no address";
   settings.address.line = "foot";
   EXPECT_EQ(GpioPedal::open(settings).error().code, ErrorCode::kNotFound);
+}
+
+// A pedal that is plugged in cannot be helped by plugging it in.
+TEST(PedalsOfAMachineWithout, DescriptorsSayThat) {
+  test::TemporaryFolder devices;
+  std::ofstream(devices.path() / "event0");
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &limit), 0);
+  const rlimit none{0, limit.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &none);
+  const auto opened = InputDevice::open(devices.path() / "event0");
+  const auto found = InputDevice::find(devices.path(), "0c45:7403", 1);
+  ::setrlimit(RLIMIT_NOFILE, &limit);
+  EXPECT_EQ(opened.error().code, ErrorCode::kIo);
+  EXPECT_EQ(found.error().code, ErrorCode::kIo) << found.error().line();
+  EXPECT_EQ(InputDevice::open(devices.path() / "event1").error().code, ErrorCode::kNotFound);
 }
 
 }  // namespace
