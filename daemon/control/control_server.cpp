@@ -85,8 +85,8 @@ void ControlServer::accept() {
   if (descriptor < 0) return;
   auto connection = std::make_shared<Connection>();
   connection->descriptor = descriptor;
-  if (connections_.size() >= kMostClients && !make_place())
-    return turn_away(descriptor, too_many());
+  const bool has_place = connections_.size() < kMostClients || make_place();
+  if (!has_place) return turn_away(descriptor, too_many());
   take_up(std::move(connection));
 }
 
@@ -101,11 +101,14 @@ void ControlServer::take_up(std::shared_ptr<Connection> connection) {
 }
 
 bool ControlServer::make_place() {
+  // One that is slow to read its answer goes after those that have read theirs.
+  const auto rank = [](const Connection& connection) {
+    return std::pair(!connection.output.empty(), connection.last_heard);
+  };
   auto quietest = connections_.end();
   for (auto one = connections_.begin(); one != connections_.end(); ++one) {
-    const Connection& connection = *one->second;
-    if (connection.watches || connection.has_open_request || !connection.output.empty()) continue;
-    if (quietest == connections_.end() || connection.last_heard < quietest->second->last_heard) {
+    if (one->second->watches || one->second->has_open_request) continue;
+    if (quietest == connections_.end() || rank(*one->second) < rank(*quietest->second)) {
       quietest = one;
     }
   }
