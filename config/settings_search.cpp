@@ -4,6 +4,22 @@
 #include <system_error>
 
 namespace instep {
+namespace {
+
+const char* kind_of(const std::filesystem::file_status& status) {
+  switch (status.type()) {
+    case std::filesystem::file_type::directory:
+      return "a folder";
+    case std::filesystem::file_type::fifo:
+      return "a pipe";
+    case std::filesystem::file_type::socket:
+      return "a socket";
+    default:
+      return "a device";
+  }
+}
+
+}  // namespace
 
 std::vector<std::filesystem::path> settings_candidates(const SettingsPlaces& places,
                                                        const Environment& environment) {
@@ -18,8 +34,19 @@ Result<std::filesystem::path> find_settings(const SettingsPlaces& places,
                                             const Environment& environment) {
   std::string tried;
   for (const auto& candidate : settings_candidates(places, environment)) {
-    std::error_code missing;
-    if (std::filesystem::is_regular_file(candidate, missing)) return candidate;
+    std::error_code failed;
+    const auto status = std::filesystem::status(candidate, failed);
+    if (std::filesystem::is_regular_file(status)) return candidate;
+    if (std::filesystem::exists(status)) {
+      return fail(ErrorCode::kInvalidInput,
+                  candidate.string() + " is " + kind_of(status) + " and no settings file",
+                  "name the file itself");
+    }
+    if (failed == std::errc::permission_denied) {
+      return fail(ErrorCode::kPermissionDenied,
+                  "you may not look whether " + candidate.string() + " is there",
+                  "change its folder's permissions or run as a user who may");
+    }
     tried += (tried.empty() ? "" : ", ") + candidate.string();
   }
   return fail(ErrorCode::kNotFound, "there is no settings file at " + tried,

@@ -44,7 +44,8 @@ inline constexpr const char* kMeasuringEnvironmentHelp =
 std::vector<std::filesystem::path> settings_candidates(const SettingsPlaces& places,
                                                        const Environment& environment);
 
-/// The first of the candidates that exists. Fails with kNotFound, naming all that were tried.
+/// The first of the candidates that exists. Fails with kNotFound, naming all that were tried; with
+/// kInvalidInput if it is no file, and with kPermissionDenied if it cannot be seen whether it is.
 Result<std::filesystem::path> find_settings(const SettingsPlaces& places,
                                             const Environment& environment);
 

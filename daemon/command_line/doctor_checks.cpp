@@ -21,6 +21,7 @@
 #include "daemon/machine/device_checks.h"
 #include "daemon/report/json_fields.h"
 #include "daemon/station/devices.h"
+#include "drivers/files/file_bytes.h"
 
 namespace instep {
 namespace {
@@ -58,6 +59,7 @@ DoctorCheck check_store(const std::filesystem::path& root) {
                    : "install Instep (README.md), or set store.root to a folder of your own");
   }
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    if (errno == EROFS) return bad("store", folder.string() + " is read-only", kReadOnlyAdvice);
     return bad("store", "you may not write in " + folder.string() + ": " + std::strerror(errno),
                "sudo usermod -aG instep $USER; the daemon's own user needs: sudo chown instep " +
                    folder.string());

@@ -22,6 +22,11 @@ Result<FoundSettings> found_by(Loader load) {
   return FoundSettings{*file, std::move(*settings)};
 }
 
+/// One that is named has to be there.
+bool is_lack_of_a_file(const Error& error) {
+  return error.code == ErrorCode::kNotFound && !process_environment("INSTEP_CONFIG");
+}
+
 }  // namespace
 
 Result<std::filesystem::path> find_station_settings_file() {
@@ -49,6 +54,12 @@ Result<MeasuringSettings> measuring_settings() {
       "unsound: " +
       settings.error().line() + ": instepd --check says all that is wrong");
   return MeasuringSettings{};
+}
+
+std::optional<Error> passed_over_settings() {
+  const auto found = find_uncalibrated_station_settings();
+  if (found || is_lack_of_a_file(found.error())) return std::nullopt;
+  return found.error();
 }
 
 Settings station_settings() {

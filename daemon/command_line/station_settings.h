@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "config/measuring_settings.h"
@@ -34,5 +35,9 @@ Result<MeasuringSettings> measuring_settings();
 /// For whoever only talks to a daemon: the defaults (and the environment) where there is no sound
 /// file: enough to reach a daemon. Poses are the settings' own.
 Settings station_settings();
+
+/// Why station_settings() went without the file that there is, so that the daemon may be elsewhere
+/// than it says; nothing if it took it, or if there is none.
+std::optional<Error> passed_over_settings();
 
 }  // namespace instep

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "config/settings_search.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
@@ -30,7 +32,17 @@ constexpr seconds kLongestScan{300};
 constexpr std::size_t kMostExportedBytes = std::size_t{1} << 30;
 
 Result<ControlClient> reach_daemon() {
-  return ControlClient::connect(station_settings().control.socket);
+  auto client = ControlClient::connect(station_settings().control.socket);
+  if (client || client.error().code != ErrorCode::kNotFound) return client;
+  // It may well run, on the socket that those settings name.
+  const bool is_named = process_environment("INSTEP_SOCKET").has_value();
+  const auto passed_over = is_named ? std::nullopt : passed_over_settings();
+  if (!passed_over) return client;
+  std::string faults = passed_over->message;
+  std::replace(faults.begin(), faults.end(), '\n', ';');
+  return fail(passed_over->code,
+              "the settings that name the daemon's socket cannot be read: " + faults,
+              "correct them, then: instepd --check");
 }
 
 /// One request on a connection of its own.

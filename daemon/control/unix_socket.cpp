@@ -39,6 +39,11 @@ tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::pa
       "check control.socket (INSTEP_SOCKET names another place) and who may use its folder");
 }
 
+tl::unexpected<Error> no_socket(const std::filesystem::path& path) {
+  return fail(ErrorCode::kInvalidInput, path.string() + " is there and is no socket",
+              "choose another control.socket (INSTEP_SOCKET names another place)");
+}
+
 tl::unexpected<Error> taken(const std::filesystem::path& path) {
   return fail(ErrorCode::kBusy, Remedy::kOperator,
               "another instepd answers on " + path.string() + ", or is about to",
@@ -53,10 +58,12 @@ Result<int> connect_unix_socket(const std::filesystem::path& path) {
   const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return failed("making a socket for", path);
   if (::connect(descriptor, generic(*address), sizeof *address) == 0) return descriptor;
-  if (errno == ECONNREFUSED) errno = ENOENT;
-  const auto error = failed("reaching", path);
+  const int reason = errno;
   ::close(descriptor);
-  return error;
+  struct stat there {};
+  if (::stat(path.c_str(), &there) == 0 && !S_ISSOCK(there.st_mode)) return no_socket(path);
+  errno = reason == ECONNREFUSED ? ENOENT : reason;
+  return failed("reaching", path);
 }
 
 Result<ListeningSocket> ListeningSocket::open(const std::filesystem::path& path) {
@@ -100,10 +107,7 @@ Result<void> ListeningSocket::lock() {
 Result<void> ListeningSocket::make_way() const {
   struct stat there {};
   if (::lstat(path_.c_str(), &there) != 0) return {};
-  if (!S_ISSOCK(there.st_mode)) {
-    return fail(ErrorCode::kInvalidInput, path_.string() + " is there and is no socket",
-                "choose another control.socket");
-  }
+  if (!S_ISSOCK(there.st_mode)) return no_socket(path_);
   if (const auto other = connect_unix_socket(path_)) {
     ::close(*other);
     return taken(path_);

@@ -12,7 +12,8 @@
 namespace instep {
 
 /// A Unix stream socket connected to `path`, close-on-exec; the caller closes it. Fails with
-/// kNotFound if nobody listens there, kPermissionDenied, or kIo.
+/// kNotFound if nobody listens there, kInvalidInput if something else is there, kPermissionDenied,
+/// or kIo.
 Result<int> connect_unix_socket(const std::filesystem::path& path);
 
 /// One that listens, non-blocking, mode 0660, and is removed at its end if it is still the one that

@@ -41,7 +41,10 @@ Error bad_frames_only(FrameFault last) {
 }
 
 Error named_after_camera(const std::string& camera, Error error) {
-  error.message = "camera " + camera + ": " + error.message;
+  const std::string name = "camera " + camera;
+  const bool is_named =
+      error.message.starts_with(name + " ") || error.message.starts_with(name + ":");
+  if (!is_named) error.message = name + ": " + error.message;
   return error;
 }
 

@@ -22,7 +22,7 @@ enum class FrameFault {
 /// Why a camera is given up that has sent faulty frames only; `last`: what was wrong with the last.
 Error bad_frames_only(FrameFault last);
 
-/// The error of a camera, with its name.
+/// The error of a camera, with its name, unless it begins with that already.
 Error named_after_camera(const std::string& camera, Error error);
 
 /// The frames of a camera since the daemon began.

@@ -68,9 +68,11 @@ Error file_error(int error_number, const std::string& doing, const std::filesyst
       break;
     case EACCES:
     case EPERM:
-    case EROFS:
       code = ErrorCode::kPermissionDenied;
       advice = "change its permissions or run as a user who may";
+      break;
+    case EROFS:
+      advice = kReadOnlyAdvice;
       break;
     case ENOSPC:
     case EDQUOT:

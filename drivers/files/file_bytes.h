@@ -23,6 +23,11 @@ Result<std::string> read_file_bytes(const std::filesystem::path& path, std::size
 /// Fails with kNoSpace, kPermissionDenied, kNotFound (no such folder) or kIo.
 Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes);
 
+/// What to do where a file system takes nothing: the kernel itself takes writing away from one that
+/// has errors.
+inline constexpr const char* kReadOnlyAdvice =
+    "its disk is mounted read-only, often after a disk error: see dmesg, then remount it";
+
 /// The Error for an errno value met while doing something to a file: "cannot write /x/y (No space
 /// left on device): free some disk space ...".
 Error file_error(int error_number, const std::string& doing, const std::filesystem::path& path);

@@ -218,5 +218,15 @@ TEST_F(BadInput, SimulateRefusesAFolderThatHoldsSomething) {
                  "new folder");
 }
 
+// With other settings than those that were meant a station measures otherwise.
+TEST_F(BadInput, InstepdRunsWithNoOtherSettingsThanThoseThatAreNamed) {
+  const auto nameless = test::run_program("instepd", {"--check", "--config", ""});
+  EXPECT_EQ(nameless.exit_code, 2) << nameless.output;
+  EXPECT_NE(nameless.errors.find("--config needs the name of a file"), std::string::npos);
+  const auto folder = test::run_program("instepd", {"--check", "--config", folder_.path()});
+  EXPECT_EQ(folder.exit_code, 1) << folder.output;
+  EXPECT_NE(folder.errors.find("is a folder and no settings file"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace instep

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -70,6 +72,18 @@ TEST_F(Doctor, NamesAFileThatIsInTheStoresPlace) {
   EXPECT_EQ(store["good"], false);
   EXPECT_EQ(store["finding"], file.string() + " is no folder");
   EXPECT_EQ(check("store", file / "scans")["good"], false);
+}
+
+TEST_F(Doctor, TellsADiskThatTakesNothingFromAFolderThatOneMayNotWriteIn) {
+  const auto disk = folder_.path() / "disk";
+  fs::create_directory(disk);
+  if (::geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", MS_RDONLY, "") != 0) {
+    GTEST_SKIP() << "needs the right to mount a disk";
+  }
+  const auto store = check("store", disk);
+  ::umount(disk.c_str());
+  EXPECT_EQ(store["good"], false);
+  EXPECT_NE(store.dump().find("mounted read-only"), std::string::npos) << store;
 }
 
 }  // namespace

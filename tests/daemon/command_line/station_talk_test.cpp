@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <fstream>
+
 #include "daemon/control/control_server.h"
 #include "tests/support/loop_thread.h"
 #include "tests/support/temporary_folder.h"
@@ -85,6 +87,20 @@ TEST_F(StationTalk, OutlivesListsAndEventsOfAnotherShape) {
     EXPECT_NO_THROW(static_cast<void>(list_scans(false))) << scans;
     EXPECT_NO_THROW(static_cast<void>(scan_on_station(true, false))) << scans;
   }
+}
+
+// The daemon may run on the socket that those settings name.
+TEST(StationTalkWithoutSettings, SaysThatTheyCannotBeReadRatherThanThatNoDaemonRuns) {
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "instep.toml";
+  std::ofstream(file) << "[control]\nsocket = \"control.sock\"\n[no such table\n";
+  ::setenv("INSTEP_CONFIG", file.c_str(), 1);
+  const auto shown = show_scan("latest", "json");
+  ::unsetenv("INSTEP_CONFIG");
+  ASSERT_FALSE(shown);
+  EXPECT_THAT(shown.error().line(), HasSubstr("the settings that name the daemon's socket cannot"));
+  EXPECT_THAT(shown.error().line(), HasSubstr(file.string()));
+  EXPECT_EQ(shown.error().line().find('\n'), std::string::npos);
 }
 
 }  // namespace

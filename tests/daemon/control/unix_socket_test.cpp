@@ -100,5 +100,16 @@ TEST_F(UnixSocket, RefusesAPlaceThatHoldsSomethingElse) {
   EXPECT_EQ(files_left(), 1U) << "no lock is left";
 }
 
+TEST_F(UnixSocket, SaysThatWhatIsThereIsNoSocketToReach) {
+  std::ofstream(path_) << "a file";
+  for (const fs::path& place : {path_, folder_.path()}) {
+    const auto reached = connect_unix_socket(place);
+    ASSERT_FALSE(reached);
+    EXPECT_EQ(reached.error().code, ErrorCode::kInvalidInput);
+    EXPECT_THAT(reached.error().message, HasSubstr("is no socket"));
+  }
+  EXPECT_EQ(connect_unix_socket(folder_.path() / "none").error().code, ErrorCode::kNotFound);
+}
+
 }  // namespace
 }  // namespace instep
