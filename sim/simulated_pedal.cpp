@@ -137,11 +137,6 @@ void SimulatedPedal::tap() {
   tap_with(settings_.faults);
 }
 
-void SimulatedPedal::bounce() {
-  const std::lock_guard lock(mutex_);
-  tap_with(settings_.faults.bounce_edges > 0 ? settings_.faults : usual_chatter());
-}
-
 void SimulatedPedal::unplug() {
   const std::lock_guard lock(mutex_);
   gone_ = true;

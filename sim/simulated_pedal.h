@@ -22,7 +22,7 @@ namespace instep {
 /// Unknown lines are ignored. Edges that a line or a call brings at once (a tap, chatter) lie in
 /// the past, as if the program had been busy, and the last of them is now.
 ///
-/// press(), release(), tap(), bounce(), unplug() and plug_in() are safe from any thread; the calls
+/// press(), release(), tap(), unplug() and plug_in() are safe from any thread; the calls
 /// of Pedal belong to one thread.
 class SimulatedPedal final : public Pedal {
  public:
@@ -48,7 +48,6 @@ class SimulatedPedal final : public Pedal {
   void press();
   void release();
   void tap();
-  void bounce();
   void unplug();
   void plug_in();
 

@@ -10,6 +10,7 @@ namespace instep {
 /// The daemon's log on stderr. Under systemd every line begins with its journal priority; else with
 /// its time. No line says anything about a person. Safe from any thread after set_up_log().
 void set_up_log(LogLevel level);
+/// The stages of a scan: the times of these lines are theirs.
 void log_debug(const std::string& line);
 void log_info(const std::string& line);
 void log_warning(const std::string& line);

@@ -60,7 +60,9 @@ void keep_to_one_heap() {
 }
 
 int check(const std::filesystem::path& file, const Settings& settings) {
-  return print(fmt::format("settings {}\n{}", file.string(), describe(settings)));
+  const std::string too_short = warning_of_short_deadline(settings);
+  return print(fmt::format("settings {}\n{}{}", file.string(), describe(settings),
+                           too_short.empty() ? "" : "but " + too_short + "\n"));
 }
 
 void warn_of_short_deadline(const Settings& settings) {

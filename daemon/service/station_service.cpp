@@ -15,7 +15,7 @@ namespace instep {
 namespace {
 
 /// A scan that is not over by then is left behind: a second is what SIGTERM promises.
-constexpr std::chrono::milliseconds kShutdownLimit{800};
+constexpr std::chrono::milliseconds kShutdownLimit{700};
 /// What its threads have beyond that, all together.
 constexpr std::chrono::milliseconds kThreadsLimit{150};
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
@@ -157,6 +157,9 @@ void StationService::station_changed() {
   }
   for (const auto& warning : status.warnings) {
     if (said_.is_news(warning, "said")) log_warning(warning);
+  }
+  if (said_.is_news("stage", status.stage) && !status.stage.empty()) {
+    log_debug("scan is at " + status.stage);
   }
   for (const auto& [name, on, trouble] : status.outputs) {
     const std::string line = trouble ? trouble->line() : "";

@@ -32,7 +32,6 @@ std::vector<PluggedUsbDevice> list_usb_devices(const fs::path& sysfs, const fs::
     auto device = read_usb_device(folder);
     if (!device) continue;
     devices.push_back({std::move(*device), sysfs_line(folder / "idVendor"),
-                       sysfs_line(folder / "idProduct"),
                        dev / "bus/usb" / three_digits(sysfs_line(folder / "busnum")) /
                            three_digits(sysfs_line(folder / "devnum"))});
   }

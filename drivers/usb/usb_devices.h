@@ -12,7 +12,6 @@ namespace instep {
 struct PluggedUsbDevice {
   UsbDevice device;
   std::string vendor;          ///< four hexadecimal digits
-  std::string product_number;  ///< four hexadecimal digits
   std::filesystem::path node;  ///< such as /dev/bus/usb/001/004, which libusb opens
 };
 

@@ -187,20 +187,6 @@ TEST(Station, EndsWithinASecondOfSigtermInTheMiddleOfAScan) {
   }
 }
 
-// What a thread that was left behind uses must not be torn down under it.
-TEST(Station, EndsOrderlyWhileTheTruthOfItsSimulationIsWorkedOut) {
-  StationProcess station;
-  station.write_settings(
-      "[[camera]]\nkind = \"simulated\"\n"
-      "[simulation]\nsubject = \"feet\"\npacing = \"fast\"\ntruth = true\n");
-  for (int start = 0; start < 3; ++start) {
-    station.start();
-    ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
-    station.signal(SIGTERM);
-    EXPECT_EQ(station.wait_for_exit(1500ms), 0) << station.log();
-  }
-}
-
 /// Of its memory, what is in RAM.
 double resident_mb(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
@@ -316,15 +302,6 @@ TEST(Station, CountsTheDamagedFramesOfEachCamera) {
   EXPECT_THAT(text, HasSubstr("camera left         ok (frames: "));
   EXPECT_THAT(text, HasSubstr("good, 1 empty, 3 error-flagged, 2 short)\n"));
   EXPECT_THAT(text, HasSubstr("camera right        ok\n"));
-}
-
-// Ready it is not: every scan would fail.
-TEST(Station, SaysWhichCameraSeesNothingBeforeAnybodyScans) {
-  StationProcess station("fault_script = \"faults.txt\"\n");
-  std::ofstream(station.folder() / "faults.txt") << "camera left: zero frames 1-1000000\n";
-  station.start();
-  ASSERT_TRUE(station.wait_for("STATUS=degraded", kLong)) << station.log();
-  EXPECT_THAT(station.run_instep("status").text, HasSubstr("camera left: it sees nothing"));
 }
 
 TEST(Station, RefusesASecondDaemonOnItsSocket) {

@@ -1,0 +1,54 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <fstream>
+
+#include "tests/support/station_process.h"
+
+namespace instep {
+namespace {
+
+using namespace std::chrono_literals;
+using test::StationProcess;
+using testing::HasSubstr;
+
+constexpr auto kLong = 60000ms;
+
+// Ready it is not: every scan would fail.
+TEST(StationTrouble, SaysWhichCameraSeesNothingBeforeAnybodyScans) {
+  StationProcess station("fault_script = \"faults.txt\"\n");
+  std::ofstream(station.folder() / "faults.txt") << "camera left: zero frames 1-1000000\n";
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=degraded", kLong)) << station.log();
+  EXPECT_THAT(station.run_instep("status").text, HasSubstr("camera left: it sees nothing"));
+}
+
+// What a thread that was left behind uses must not be torn down under it.
+TEST(StationTrouble, EndsOrderlyWhileTheTruthOfItsSimulationIsWorkedOut) {
+  StationProcess station;
+  station.write_settings(
+      "[[camera]]\nkind = \"simulated\"\n"
+      "[simulation]\nsubject = \"feet\"\npacing = \"fast\"\ntruth = true\n");
+  for (int start = 0; start < 3; ++start) {
+    station.start();
+    ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
+    station.signal(SIGTERM);
+    EXPECT_EQ(station.wait_for_exit(1500ms), 0) << station.log();
+  }
+}
+
+TEST(StationTrouble, LogsTheStagesOfAScanWhereTheLevelIsDebug) {
+  for (const bool debug : {false, true}) {
+    StationProcess station(debug ? "[log]\nlevel = \"debug\"\n" : "");
+    station.start();
+    ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+    ASSERT_EQ(station.run_instep("scan").exit_code, 0);
+    for (const auto* stage : {"scan is at capture\n", "scan is at store\n"}) {
+      EXPECT_EQ(station.log().find(stage) != std::string::npos, debug) << stage << station.log();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace instep
