@@ -29,6 +29,8 @@ class ScriptedCamera : public DepthCamera {
   }
   Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
     std::unique_lock lock(mutex_);
+    is_asked_ = true;
+    changed_.notify_all();
     Step step = Step::kGood;
     if (!script_.empty()) {
       step = script_.front();
@@ -48,6 +50,11 @@ class ScriptedCamera : public DepthCamera {
     return frame_of(step);
   }
   void stop() override {}
+  /// Returns once a frame was asked for, which a script may keep waiting.
+  void wait_until_asked() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return is_asked_; });
+  }
   /// Ends kHang before its time.
   void release() {
     const std::lock_guard lock(mutex_);
@@ -86,6 +93,7 @@ class ScriptedCamera : public DepthCamera {
   std::condition_variable changed_;
   std::deque<Step> script_;
   bool interrupted_ = false;
+  bool is_asked_ = false;
   bool released_ = false;
 };
 

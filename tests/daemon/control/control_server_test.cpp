@@ -115,6 +115,14 @@ TEST_F(ControlServerTest, AnswersEachOfManyRequestsSentAtOnce) {
   for (int i = 0; i < kMany; ++i) ASSERT_EQ(client.line(), "status") << "after " << i;
 }
 
+TEST_F(ControlServerTest, DoesWhatWasAskedByWhoDidNotWaitForTheAnswer) {
+  loop_.call([this] {
+    const LineClient client(socket_);
+    ASSERT_TRUE(client.send(kList));
+  });
+  EXPECT_TRUE(loop_.wait_until([this] { return !waiting_.empty(); }));
+}
+
 TEST_F(ControlServerTest, GoesOnTellingAWatcherThatShutDownItsWritingSide) {
   LineClient client(socket_);
   ASSERT_TRUE(client.send(kWatch));
@@ -176,6 +184,23 @@ TEST_F(ControlServerTest, TurnsAwayWhoComesWhenEachPlaceIsNeeded) {
     ASSERT_TRUE(answer_list());
     EXPECT_EQ(client.line(), "list");
   }
+}
+
+TEST_F(ControlServerTest, GivesThePlaceOfWhoDoesNotReadItsAnswers) {
+  const std::string answer(ControlServer::kMostUnreadBytes / 2, 'a');
+  std::deque<LineClient> clients;
+  while (clients.size() < ControlServer::kMostClients) {
+    ASSERT_TRUE(clients.emplace_back(socket_).send(kList));
+    ASSERT_TRUE(loop_.wait_until([this] { return !waiting_.empty(); }));
+    loop_.call([&] {
+      server_->answer(waiting_.front(), answer);
+      waiting_.pop_front();
+    });
+  }
+  LineClient late(socket_);
+  ASSERT_TRUE(late.send(kStatus));
+  EXPECT_EQ(late.line(), "status");
+  EXPECT_EQ(clients.back().line(), answer) << "it was quiet for a shorter time than others";
 }
 
 TEST_F(ControlServerTest, KeepsPlacesForWhoDoesNotWatch) {

@@ -1,7 +1,9 @@
 #include "daemon/control/unix_socket.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,6 +55,17 @@ TEST_F(UnixSocket, TakesTheNameOfOneThatNobodyListensOn) {
   }
   const auto socket = ListeningSocket::open(path_);
   ASSERT_TRUE(socket) << socket.error().line();
+}
+
+TEST_F(UnixSocket, IsLeftToTheOneThatIsAboutToListen) {
+  const std::string name = path_.string() + ".lock";
+  const Descriptor lock(::open(name.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC, 0600));
+  ASSERT_EQ(::flock(lock.number(), LOCK_EX | LOCK_NB), 0);
+  const auto socket = ListeningSocket::open(path_);
+  ASSERT_FALSE(socket);
+  EXPECT_EQ(socket.error().code, ErrorCode::kBusy);
+  EXPECT_FALSE(fs::exists(path_));
+  EXPECT_TRUE(fs::exists(name)) << "it is not its own";
 }
 
 // The place is taken from the moment it is locked, though nobody listens yet.

@@ -287,13 +287,17 @@ TEST(CameraSet, WaitsForACameraThatIsNotBackYetWhenItChecks) {
 }
 
 TEST(CameraSet, SaysWhetherACameraHadToBeLeftBehind) {
-  const auto well = cameras({}, std::deque<Step>(20, Step::kTimeout));
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  auto owned = std::make_unique<ScriptedCamera>("waits", std::deque<Step>{Step::kTimeout});
+  ScriptedCamera& waits = *owned;
+  all.push_back(std::move(owned));
+  CameraSet set(std::move(all));
   auto patient = settings();
-  patient.frame_limit = 10s;
-  Reports reports(2);
-  well->check(patient, CameraSet::ZeroFrames::kAreFaulty, reports.taker());
-  EXPECT_TRUE(well->end_by(steady_clock::now() + 10s))
-      << "one that waits for a frame is interrupted";
+  patient.frame_limit = 60s;
+  Reports reports(1);
+  set.check(patient, CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  waits.wait_until_asked();
+  EXPECT_TRUE(set.end_by(steady_clock::now() + 30s)) << "one that waits for a frame is interrupted";
 
   const auto hangs = cameras({Step::kHang}, {});
   ASSERT_FALSE(hangs->capture(settings(), go_on));

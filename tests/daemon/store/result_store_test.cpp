@@ -202,7 +202,7 @@ TEST_F(ResultStoreOnDisk, NeverOverwritesAResult) {
 TEST(StorageError, NamesAFullDiskAndMissingRights) {
   EXPECT_EQ(storage_error(ENOSPC, "write", "/x").code, ErrorCode::kNoSpace);
   EXPECT_EQ(storage_error(EDQUOT, "write", "/x").code, ErrorCode::kNoSpace);
-  EXPECT_EQ(storage_error(EROFS, "write", "/x").code, ErrorCode::kPermissionDenied);
+  EXPECT_EQ(storage_error(EACCES, "write", "/x").code, ErrorCode::kPermissionDenied);
   EXPECT_EQ(storage_error(EIO, "write", "/x").remedy, Remedy::kOperator);
   EXPECT_THAT(storage_error(ENOSPC, "write", "/x").line(), testing::HasSubstr("disk"));
 }

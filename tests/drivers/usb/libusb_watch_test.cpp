@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <libusb-1.0/libusb.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -20,6 +21,7 @@ struct LibusbDouble {
   libusb_hotplug_callback_fn callback = nullptr;
   void* user = nullptr;
   std::vector<std::pair<int, libusb_hotplug_event>> waiting;  ///< port and event
+  std::vector<const libusb_pollfd*> waits{nullptr};  ///< as libusb lists them; empty = it cannot
   bool telling = false;
   std::set<std::string> asked_while_telling;
   int told = 0;
@@ -58,7 +60,7 @@ int LIBUSB_CALL libusb_get_port_numbers(libusb_device* device, uint8_t* ports, i
 }
 const libusb_pollfd** LIBUSB_CALL libusb_get_pollfds(libusb_context*) {
   libusb.note("get_pollfds");
-  return nullptr;
+  return libusb.waits.empty() ? nullptr : libusb.waits.data();
 }
 void LIBUSB_CALL libusb_free_pollfds(const libusb_pollfd**) {}
 int LIBUSB_CALL libusb_hotplug_register_callback(libusb_context*, int, int, int, int, int,
@@ -129,6 +131,19 @@ TEST_F(LibusbWatchTest, SurvivesEmfile) {
   ASSERT_FALSE(watch);
   EXPECT_EQ(watch.error().code, ErrorCode::kIo);
   EXPECT_TRUE(open_libusb_watch());
+}
+
+// One that is deaf would tell of no device, ever.
+TEST_F(LibusbWatchTest, FailsWhereItCannotWait) {
+  libusb.waits = {};
+  const auto unsaid = open_libusb_watch();
+  ASSERT_FALSE(unsaid);
+  EXPECT_EQ(unsaid.error().code, ErrorCode::kIo);
+  const libusb_pollfd closed{-1, POLLIN};
+  libusb.waits = {&closed, nullptr};
+  const auto refused = open_libusb_watch();
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kIo);
 }
 
 }  // namespace
