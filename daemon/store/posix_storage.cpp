@@ -33,6 +33,7 @@ tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::pa
 
 Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
   Error error = file_error(error_number, doing, path);
+  if (error_number == EROFS) return error;
   switch (error.code) {
     case ErrorCode::kNoSpace:
       error.advice =

@@ -203,6 +203,7 @@ TEST(StorageError, NamesAFullDiskAndMissingRights) {
   EXPECT_EQ(storage_error(ENOSPC, "write", "/x").code, ErrorCode::kNoSpace);
   EXPECT_EQ(storage_error(EDQUOT, "write", "/x").code, ErrorCode::kNoSpace);
   EXPECT_EQ(storage_error(EACCES, "write", "/x").code, ErrorCode::kPermissionDenied);
+  EXPECT_THAT(storage_error(EROFS, "write", "/x").line(), testing::HasSubstr("read-only"));
   EXPECT_EQ(storage_error(EIO, "write", "/x").remedy, Remedy::kOperator);
   EXPECT_THAT(storage_error(ENOSPC, "write", "/x").line(), testing::HasSubstr("disk"));
 }
