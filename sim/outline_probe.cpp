@@ -70,7 +70,7 @@ double OutlineProbe::reach(const Vector3d& centre, const Vector3d& direction) co
 
 Vector3d OutlineProbe::outermost(const Vector3d& centre, const Vector3d& direction) const {
   const auto reach_at = [&](double z) { return reach({centre.x(), centre.y(), z}, direction); };
-  const double z = place_of_maximum(reach_at, 0.0, kOutlineHeightMm, 1.0);
+  const double z = place_of_maximum(reach_at, 0.0, outline_height_mm_, 1.0);
   return Vector3d(centre.x(), centre.y(), z) + reach_at(z) * direction;
 }
 

@@ -14,14 +14,12 @@ double place_of_maximum(const std::function<double(double)>& function, double lo
                         double step);
 
 /// Feels a solid from outside with straight needles, in a frame of the caller's choice whose z = 0
-/// is the floor. Its outline is the shadow on the floor of what lies up to kOutlineHeightMm.
+/// is the floor. Its outline is the shadow on the floor of what lies up to a height.
 /// Results are good to about 1e-4 mm.
 class OutlineProbe {
  public:
-  static constexpr double kOutlineHeightMm = 25.0;
-
-  OutlineProbe(const Solid& solid, const RigidTransform& solid_from_frame)
-      : solid_(solid), solid_from_frame_(solid_from_frame) {}
+  OutlineProbe(const Solid& solid, const RigidTransform& solid_from_frame, double outline_height_mm)
+      : solid_(solid), solid_from_frame_(solid_from_frame), outline_height_mm_(outline_height_mm) {}
 
   double value(const Eigen::Vector3d& point) const {
     return solid_.value(solid_from_frame_ * point);
@@ -54,6 +52,7 @@ class OutlineProbe {
 
   const Solid& solid_;
   RigidTransform solid_from_frame_;
+  double outline_height_mm_;
 };
 
 }  // namespace instep

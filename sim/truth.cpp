@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/foot/full_size.h"
 #include "core/girth/tape_plane.h"
 #include "sim/outline_probe.h"
 #include "sim/section_contour.h"
@@ -71,7 +72,12 @@ class Measurer {
   }
 
  private:
-  OutlineProbe probe() const { return {foot_, solid_from_foot_}; }
+  /// Millimetres at full size, of this foot. The solid keeps its nominal length.
+  double at_full_size(double mm) const {
+    return mm / full_size_factor(foot_.parameters().length_mm);
+  }
+
+  OutlineProbe probe() const { return {foot_, solid_from_foot_, at_full_size(25.0)}; }
 
   Vector3d& landmark(const std::string& name) { return truth_.landmarks[name]; }
 
@@ -117,16 +123,18 @@ class Measurer {
     return felt.side(place_of_maximum(reach, from, to, 1.5), sign);
   }
 
-  /// A millimetre of handicap at a twenty-fifth of FL off the usual place, growing as its square.
+  /// A millimetre of handicap, at full size, at a twenty-fifth of FL off the usual place, growing
+  /// as its square.
   auto off_usual(double usual) const {
-    return
-        [usual, spread = 0.04 * length_](double at) { return std::pow((at - usual) / spread, 2); };
+    return [usual, spread = 0.04 * length_, one = at_full_size(1.0)](double at) {
+      return one * std::pow((at - usual) / spread, 2);
+    };
   }
 
   void find_ball_points() {
     const Vector3d mt = landmark("mt") =
         most_protruding(medial_, 0.60 * length_, 0.80 * length_, off_usual(0.69 * length_));
-    const double foremost = std::min(0.75 * length_, mt.x() - 15.0);
+    const double foremost = std::min(0.75 * length_, mt.x() - at_full_size(15.0));
     const Vector3d mf = landmark("mf") = most_protruding(
         -medial_, 0.50 * length_, foremost, off_usual(std::min(0.63 * length_, foremost)));
     truth_.measures["foot_breadth"] = (mt - mf).head<2>().norm();
@@ -267,7 +275,7 @@ class Measurer {
       return Vector3d(x, medial_ * reach(x), z);
     };
     const auto weighed = [&](double z) {
-      return medial_ * protrusion(z).y() - std::pow((z / length_ - 0.30) / 0.03, 2);
+      return medial_ * protrusion(z).y() - at_full_size(std::pow((z / length_ - 0.30) / 0.03, 2));
     };
     landmark("medial_malleolus") =
         protrusion(place_of_maximum(weighed, 0.22 * length_, 0.38 * length_, 2.0));
@@ -287,8 +295,8 @@ class Measurer {
     const double tip =
         place_of_maximum([&](double y) { return felt.end(y, 1.0).x(); }, from, to, 2.0);
     landmark("toe1_tip") = felt.end(tip, 1.0);
-    const double x = landmark("toe1_tip").x() - 15.0;
-    const auto height = [&](double y) { return felt.top(x, y, 6.0).z(); };
+    const double x = landmark("toe1_tip").x() - at_full_size(15.0);
+    const auto height = [&](double y) { return felt.top(x, y, at_full_size(6.0)).z(); };
     truth_.measures["toe1_height"] = height(place_of_maximum(height, from, to, 1.5));
   }
 

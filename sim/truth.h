@@ -14,7 +14,8 @@ namespace instep {
 /// What is true of a simulated foot, from the solid itself: no cloud, no mesh, no camera.
 ///
 /// Frame: that of core/foot/foot_scan.h, its x axis from the pternion to the second toe. FL is
-/// foot_length; the outline is the shadow on the floor of the body up to z = 25 mm.
+/// foot_length; mm at full size are FL / 260 each (core/foot/full_size.h); the outline is the
+/// shadow on the floor of the body up to z = 25 mm at full size.
 ///
 /// Landmarks:
 ///   pternion         rearmost point of the outline
@@ -22,9 +23,9 @@ namespace instep {
 ///                    over the middle of the second toe's tip, which the solid knows
 ///   acropodion       foremost point of the outline
 ///   mt               most medial point of the outline in 0.60-0.80 FL, less a handicap of 1 mm
-///                    for each (0.04 FL)^2 off 0.69 FL
-///   mf               most lateral point of the outline in 0.50-0.75 FL, 15 mm or more behind mt,
-///                    with the same handicap off 0.63 FL
+///                    at full size for each (0.04 FL)^2 off 0.69 FL
+///   mf               most lateral point of the outline in 0.50-0.75 FL, 15 mm at full size or more
+///                    behind mt, with the same handicap off 0.63 FL
 ///   instep           highest point of the back of the foot at 0.50 FL
 ///   lateral_midfoot  P2, the lateral outline point in 0.25-0.45 FL nearest to `instep` seen from
 ///                    above

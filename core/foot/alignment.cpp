@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "core/foot/foot_axis.h"
+#include "core/foot/full_size.h"
 #include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/side_from_shape.h"
 #include "core/foot/standing_body.h"
 #include "core/geometry/distinct_points.h"
+#include "core/geometry/moments.h"
 
 namespace instep {
 namespace {
@@ -20,10 +22,47 @@ constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
 constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
 
+std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double factor) {
+  for (auto& point : points) point *= factor;
+  return points;
+}
+
+/// Along the direction in which the points spread most.
+double longest_extent(const std::vector<Eigen::Vector3d>& points) {
+  Moments moments;
+  for (const auto& point : points) moments.add(point - points.front());
+  const Eigen::Vector3d along = moments.axes().eigenvectors().col(2);
+  double from = 1e300;
+  double to = -1e300;
+  for (const auto& point : points) {
+    from = std::min(from, along.dot(point));
+    to = std::max(to, along.dot(point));
+  }
+  return to - from;
+}
+
+/// Of a foot of about that length, told at full size.
+Result<StandingPlane> plane_at_size(const PointCloud& cloud, double length_mm) {
+  const double factor = full_size_factor(length_mm);
+  return find_standing_plane(scaled(cloud.positions, factor)).map([&](StandingPlane found) {
+    found.height_mm /= factor;
+    return found;
+  });
+}
+
+/// How long a foot is shows once it stands, and how it stands once its size is known, roughly.
+Result<StandingPlane> plane_under(const PointCloud& cloud) {
+  const auto rough = plane_at_size(cloud, longest_extent(cloud.positions));
+  if (!rough) return rough;
+  const auto standing = transformed(rough->standing_from_input(), cloud).positions;
+  const auto outline = find_outline_axis(standing);
+  return outline ? plane_at_size(cloud, outline->length_mm) : rough;
+}
+
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
   if (options.standing_plane) return *options.standing_plane;
   if (options.up) return plane_below(cloud.positions, *options.up);
-  return find_standing_plane(cloud.positions);
+  return plane_under(cloud);
 }
 
 Result<void> check_options(const AlignmentOptions& options) {
@@ -141,7 +180,10 @@ StandingPlane floor_again(const FootScan& foot) {
   if (foot.is_floor_known) return {};
   // A last has no flat sole to settle on: it was stood on its lowest points.
   if (is_shoe_last(foot)) return plane_below(points, Eigen::Vector3d::UnitZ());
-  return settled_on_sole(points, {});
+  const double factor = full_size_factor(foot.landmarks.at("acropodion").position_mm.x());
+  StandingPlane sole = settled_on_sole(scaled(points, factor), {});
+  sole.height_mm /= factor;
+  return sole;
 }
 
 }  // namespace

@@ -20,11 +20,13 @@ constexpr double kHeelSmoothingMm = 5.0;
 constexpr double kHeelFromShare = 0.03;  ///< further back the border is round
 constexpr double kHeelToShare = 0.13;
 constexpr double kBallFromShare = 0.45;
+constexpr double kRaisedMm = 20.0;  ///< a heel of which nothing lies lower is raised
 
-BorderProfile border(const Points& points, double sign, double smoothing_mm) {
+BorderProfile border(const Points& points, double sign, double smoothing_mm,
+                     double highest_mm = kLandmarkOutlineHeightMm) {
   std::vector<Vector2d> flat;
   for (const auto& point : points) {
-    if (point.z() <= kLandmarkOutlineHeightMm) flat.push_back(point.head<2>());
+    if (point.z() <= highest_mm) flat.push_back(point.head<2>());
   }
   return {flat, Vector2d::UnitX(), sign * Vector2d::UnitY(), smoothing_mm};
 }
@@ -78,8 +80,9 @@ std::optional<double> along_heel(const Points& points, double length) {
 std::optional<double> along_medial_ruler(const Points& points, double length) {
   const BorderProfile medial = border(points, 1.0, kBorderSmoothingMm);
   // Where the heel is raised the ruler would lie on the shank, and turn with the height.
+  const BorderProfile low = border(points, 1.0, kBorderSmoothingMm, kRaisedMm);
   for (const double share : {kHeelFromShare, kHeelToShare}) {
-    if (!medial.reach(share * length)) return std::nullopt;
+    if (!low.reach(share * length)) return std::nullopt;
   }
   const auto heel = medial.furthest(0.05 * length, 0.35 * length);
   const auto ball = medial.furthest(0.60 * length, 0.80 * length);

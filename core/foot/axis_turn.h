@@ -12,7 +12,8 @@ namespace instep {
 /// of a foot that stands roughly along it: asked again after turning, it comes to rest. For all
 /// rules but that of the second toe. Nothing where the points do not show what the rule needs.
 ///
-/// `points`: those near the floor, right-foot form, pternion at the origin, z up.
+/// `points`: those near the floor at full size (full_size.h), right-foot form, pternion at the
+/// origin, z up.
 std::optional<double> axis_turn(AxisRule rule, const std::vector<Eigen::Vector3d>& points,
                                 double length_mm);
 

@@ -182,8 +182,8 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
   const double foremost = std::min(0.75 * length, tibiale.position_mm.x() - kBehindTibialeMm);
   return most_protruding(
       outline, outline.lateral(),
-      {std::min(0.50 * length, foremost), foremost, std::min(0.63 * length, foremost),
-       kFibularePatchMm, kUsuallyLateral,
+      {0.50 * length, foremost, std::min(0.63 * length, foremost), kFibularePatchMm,
+       kUsuallyLateral,
        "most lateral point of the outline in 0.50-0.75 of the foot's length, weighed by "
        "nearness to 0.63"});
 }

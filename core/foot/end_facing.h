@@ -8,10 +8,10 @@ namespace instep {
 
 /// How squarely the skin faces along `direction` (unit length) at its furthest place `end`: the
 /// median of |normal . direction| over the points up to 2.5 mm behind it and 15 mm beside it, each
-/// normal by the points up to 5 mm round; of a crowd the means over a cell of a millimetre count.
-/// Near 1 where the skin closes, as on a heel or a toe; near 0 where it runs on and only the points
-/// end. Nothing without points there. O(n log n) for the points near the end, and some tens of
-/// milliseconds at most, where they fill all the space there.
+/// normal by the points up to 5 mm round, all at full size (full_size.h); of a crowd the means over
+/// a cell of a millimetre count. Near 1 where the skin closes, as on a heel or a toe; near 0 where
+/// it runs on and only the points end. Nothing without points there. O(n log n) for the points near
+/// the end, and some tens of milliseconds at most, where they fill all the space there.
 std::optional<double> end_facing(const std::vector<Eigen::Vector3d>& points,
                                  const Eigen::Vector3d& end, const Eigen::Vector3d& direction);
 

@@ -8,6 +8,7 @@
 #include "core/foot/axis_turn.h"
 #include "core/foot/border_crest.h"
 #include "core/foot/end_facing.h"
+#include "core/foot/full_size.h"
 #include "core/foot/robust_extreme.h"
 #include "core/foot/second_toe.h"
 
@@ -34,10 +35,12 @@ constexpr double kFurthestCrestMm = 3.0;
 /// either side.
 constexpr double kSkinMm = 6.0;
 
+/// At full size.
 Points outline_points(const Points& points, double length) {
+  const double factor = full_size_factor(length);
   Points low;
   for (const auto& point : points) {
-    if (point.z() <= kOutlineHeightShare * length) low.push_back(point);
+    if (point.z() <= kOutlineHeightShare * length) low.emplace_back(factor * point);
   }
   return low;
 }
@@ -148,27 +151,32 @@ std::optional<double> turn_by(AxisRule& rule, const std::optional<SecondToe>& to
   return turn_of(rule);
 }
 
-}  // namespace
+/// The axis of a foot that was seen larger than it is, by a factor.
+FootAxis on_foot(FootAxis axis, double factor) {
+  axis.foot_from_standing.translation() /= factor;
+  axis.pternion /= factor;
+  axis.acropodion /= factor;
+  if (axis.toe2_tip) *axis.toe2_tip /= factor;
+  return axis;
+}
 
-FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start, Side side,
-                        AxisRule rule) {
+/// Of the points of the outline at full size.
+FootAxis axis_of(const Points& low, RigidTransform start, Side side, AxisRule rule) {
   const double medial_sign = side == Side::kRight ? 1.0 : -1.0;
   FootAxis axis;
   axis.rule = rule;
-  axis.foot_from_standing = start.axis_from_standing();
-  const Points low = outline_points(standing_points, start.length_mm);
+  axis.foot_from_standing = std::move(start);
   double turn = 0.0;
   double share = 1.0;
   for (int round = 0; round < kMostRounds; ++round) {
     const Points points = moved(axis.foot_from_standing, low);
-    const auto [rear, is_seen] = heel_end(points, start.length_mm);
+    const auto [rear, is_seen] = heel_end(points, kFullSizeMm);
     const Vector3d heel(rear.x(), rear.y(), 0.0);
     axis.foot_from_standing = RigidTransform(Eigen::Translation3d(-heel)) * axis.foot_from_standing;
     axis.pternion = rear - heel;
     axis.is_heel_seen = is_seen;
-    axis.acropodion = foremost(points, rear.x() + 0.75 * start.length_mm) - heel;
-    const auto toe =
-        find_second_toe(outline_of_right_foot(points, heel, medial_sign), start.length_mm);
+    axis.acropodion = foremost(points, rear.x() + 0.75 * kFullSizeMm) - heel;
+    const auto toe = find_second_toe(outline_of_right_foot(points, heel, medial_sign), kFullSizeMm);
     axis.toe2_tip.reset();
     axis.is_second_toe_resolved = toe && toe->is_resolved;
     if (toe) {
@@ -187,6 +195,17 @@ FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start,
         RigidTransform(Eigen::AngleAxisd(-turn, Vector3d::UnitZ())) * axis.foot_from_standing;
   }
   return axis;
+}
+
+}  // namespace
+
+FootAxis find_foot_axis(const Points& standing_points, const OutlineAxis& start, Side side,
+                        AxisRule rule) {
+  const double factor = full_size_factor(start.length_mm);
+  RigidTransform axis_from_standing = start.axis_from_standing();
+  axis_from_standing.translation() *= factor;
+  const Points low = outline_points(standing_points, start.length_mm);
+  return on_foot(axis_of(low, axis_from_standing, side, rule), factor);
 }
 
 }  // namespace instep

@@ -7,9 +7,15 @@ namespace {
 
 constexpr double kBorderSmoothingMm = 9.0;
 
-std::vector<Eigen::Vector3d> as_right_foot(const FootScan& foot) {
+double length_of(const FootScan& foot) {
+  return foot.landmarks.at("acropodion").position_mm.x() -
+         foot.landmarks.at("pternion").position_mm.x();
+}
+
+std::vector<Eigen::Vector3d> as_right_foot(const FootScan& foot, double factor) {
+  const Eigen::Vector3d scale = factor * Eigen::Vector3d(1.0, foot.medial_sign(), 1.0);
   auto points = foot.cloud.positions;
-  for (auto& point : points) point.y() *= foot.medial_sign();
+  for (auto& point : points) point = scale.cwiseProduct(point);
   return points;
 }
 
@@ -32,23 +38,32 @@ BorderView from_above(double medial_sign) {
 }  // namespace
 
 FootOutline::FootOutline(const FootScan& foot)
-    : length_mm_(foot.landmarks.at("acropodion").position_mm.x() -
-                 foot.landmarks.at("pternion").position_mm.x()),
-      points_(as_right_foot(foot)),
+    : factor_(full_size_factor(length_of(foot))),
+      medial_sign_(foot.medial_sign()),
+      points_(as_right_foot(foot, factor_)),
       seen_points_(those_seen(points_, foot.cloud)),
       seen_skin_(seen_points_.empty() ? std::nullopt : std::optional<SeenSkin>(foot.cloud)),
-      medial_sign_(foot.medial_sign()),
       medial_(points_, from_above(1.0), kBorderSmoothingMm),
       lateral_(points_, from_above(-1.0), kBorderSmoothingMm) {}
 
+Eigen::Vector3d FootOutline::on_foot(const Eigen::Vector3d& place) const {
+  return Eigen::Vector3d(place.x(), medial_sign_ * place.y(), place.z()) / factor_;
+}
+
+Landmark FootOutline::in_foot_frame(Landmark landmark) const {
+  landmark.position_mm = on_foot(landmark.position_mm);
+  for (auto& off : landmark.deviations_off_mm) off = on_foot(off);
+  return landmark;
+}
+
 bool FootOutline::was_seen(const Eigen::Vector3d& place) const {
-  return !seen_skin_ || seen_skin_->is_near({place.x(), medial_sign_ * place.y(), place.z()});
+  return !seen_skin_ || seen_skin_->is_near(on_foot(place));
 }
 
 double FootOutline::distance_to_seen(const Eigen::Vector3d& place) const {
   if (!seen_skin_) return 0.0;
-  const auto nearest = seen_skin_->nearest({place.x(), medial_sign_ * place.y(), place.z()});
-  return nearest ? nearest->distance_mm : std::numeric_limits<double>::infinity();
+  const auto nearest = seen_skin_->nearest(on_foot(place));
+  return nearest ? factor_ * nearest->distance_mm : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace instep

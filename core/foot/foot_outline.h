@@ -5,22 +5,30 @@
 #include <vector>
 
 #include "core/foot/foot_scan.h"
+#include "core/foot/full_size.h"
 #include "core/foot/skin_border.h"
 #include "core/geometry/seen_skin.h"
 
 namespace instep {
 
-/// Height up to which points make the outline in which landmarks are searched.
+/// Height up to which points make the outline in which landmarks are searched, at full size.
 inline constexpr double kLandmarkOutlineHeightMm = 25.0;
 
 /// An aligned foot as the rules of landmarks see it: as a right foot (a left one is mirrored, so
-/// that medial is +y and both sides are measured alike), with its borders.
+/// that medial is +y and both sides are measured alike) of full size (full_size.h), with its
+/// borders. All places and lengths here are of that; in_foot_frame() leads back.
 class FootOutline {
  public:
   /// `foot` must have the landmarks of align_foot().
   explicit FootOutline(const FootScan& foot);
 
-  double length_mm() const { return length_mm_; }
+  double length_mm() const { return kFullSizeMm; }
+
+  /// How much larger than the foot itself it is seen.
+  double factor() const { return factor_; }
+
+  /// A landmark that was found here, on the foot itself.
+  Landmark in_foot_frame(Landmark landmark) const;
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
@@ -42,11 +50,13 @@ class FootOutline {
   const SkinBorder& lateral() const { return lateral_; }
 
  private:
-  double length_mm_;
+  Eigen::Vector3d on_foot(const Eigen::Vector3d& place) const;
+
+  double factor_;
+  double medial_sign_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3d> seen_points_;  ///< none where all were seen
   std::optional<SeenSkin> seen_skin_;         ///< of the foot as it is; none where all were seen
-  double medial_sign_;
   SkinBorder medial_;
   SkinBorder lateral_;
 };

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kHeelShare = 1.0 / 6.0;
-constexpr double kHeelMm = 40.0;
+constexpr double kHeelMm = 40.0;  ///< of the foot itself
 constexpr double kRearShare = 0.2;
 constexpr double kSmoothingMm = 9.0;
 constexpr double kStepMm = 0.5;
@@ -94,7 +94,7 @@ std::optional<Vector3d> best_place(const SkinBorder& border, double from, double
 
 std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule) {
   if (rule == HeelBreadthRule::kSixth) return kHeelShare * outline.length_mm();
-  if (rule == HeelBreadthRule::kFortyMm) return kHeelMm;
+  if (rule == HeelBreadthRule::kFortyMm) return kHeelMm * outline.factor();
   std::optional<double> place;
   double most = 0.0;
   for (double along = 0.0; along <= kRearShare * outline.length_mm(); along += kStepMm) {

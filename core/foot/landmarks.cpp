@@ -20,7 +20,7 @@ namespace {
 /// Collects landmarks of the right-foot form into a foot, in its own frame.
 class Marking {
  public:
-  explicit Marking(FootScan& foot) : foot_(foot) {}
+  Marking(const FootOutline& outline, FootScan& foot) : outline_(outline), foot_(foot) {}
 
   std::optional<Landmark> add(const char* name, std::optional<Landmark> landmark) {
     if (!landmark) {
@@ -30,14 +30,12 @@ class Marking {
     if (landmark->is_placed_by_proportion()) {
       foot_.warnings.push_back(std::string(name) + " is placed by proportion: " + landmark->rule);
     }
-    Landmark own = *landmark;
-    own.position_mm.y() *= foot_.medial_sign();
-    for (auto& off : own.deviations_off_mm) off.y() *= foot_.medial_sign();
-    foot_.landmarks[name] = own;
+    foot_.landmarks[name] = outline_.in_foot_frame(*landmark);
     return landmark;
   }
 
  private:
+  const FootOutline& outline_;
   FootScan& foot_;
 };
 
@@ -87,7 +85,7 @@ void mark_hindfoot(const FootOutline& outline, bool has_leg, HeelBreadthRule rul
 
 void mark(FootScan& foot) {
   const FootOutline outline(foot);
-  Marking marking(foot);
+  Marking marking(outline, foot);
   const bool is_last = is_shoe_last(foot);
   if (is_last) {
     foot.warnings.emplace_back(

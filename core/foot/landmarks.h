@@ -9,8 +9,9 @@ namespace instep {
 /// Adds to an aligned foot the points of anatomy that its measures hang on. Each carries the rule
 /// that found it and a confidence; where the shape gives no clear answer the point stands at the
 /// fraction of the foot's length (FL) that feet have on average, or close to it, with a confidence
-/// of 0.3 to 0.35 and a warning that names it. The outline is what lies up to 25 mm above the
-/// floor.
+/// of 0.3 to 0.35 and a warning that names it. The outline is what lies up to 25/260 FL above the
+/// floor; millimetres below are those of a foot of 260 mm, and in proportion on any other
+/// (full_size.h), but for the place of the heel's breadth.
 ///
 /// | name                       | rule                                                          |
 /// |----------------------------|---------------------------------------------------------------|

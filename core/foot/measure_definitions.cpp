@@ -84,14 +84,15 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
       {"foot_breadth_horizontal",
        foot_breadth_horizontal,
        {},
-       "extent of the outline up to 25 mm over the floor, at right angles to the axis, in "
-       "0.50-0.85 "
-       "of the foot's length"},
+       "extent of the outline up to 25/260 of the foot's length over the floor, at right angles to "
+       "the "
+       "axis, in 0.50-0.85 of that length"},
       {"heel_breadth",
        heel_breadth,
        {},
-       std::string(
-           "extent of the outline up to 25 mm over the floor, at right angles to the axis, ") +
+       std::string("extent of the outline up to 25/260 of the foot's length over the floor, at "
+                   "right angles to "
+                   "the axis, ") +
            description(rules.heel_breadth)},
       {"ball_length",
        ball_length,
@@ -130,7 +131,7 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
       {"toe1_height",
        toe1_height,
        {},
-       "height over the floor of the first toe 15 mm behind its tip",
+       "height over the floor of the first toe 15/260 of the foot's length behind its tip",
        LengthDefinition::Kind::kLength,
        kFloorDoubtAtToesMm},
       {"toe1_angle",

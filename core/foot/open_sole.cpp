@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/foot/full_size.h"
 #include "core/fusion/close_sole.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
@@ -23,8 +24,9 @@ constexpr double kMiddleMm = 20.0;        ///< height over the floor that lies w
 constexpr double kCellMm = 8.0;
 constexpr std::size_t kNeighbours = 14;
 
-double length_of(const FootScan& foot) {
-  return foot.landmarks.at("acropodion").position_mm.x();
+/// To full size, where the foot is looked at.
+double factor_of(const FootScan& foot) {
+  return full_size_factor(foot.landmarks.at("acropodion").position_mm.x());
 }
 
 using Cell = std::pair<long, long>;
@@ -34,7 +36,7 @@ Cell cell_of(const Vector3d& point) {
 }
 
 /// Normals of a wall round a foot, pointing away from the foot's middle line.
-std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points, double length) {
+std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points) {
   const PointIndex index(points);
   std::vector<Vector3d> normals;
   normals.reserve(points.size());
@@ -43,7 +45,8 @@ std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points, double l
     Moments moments;
     for (const auto& one : close) moments.add(points[one.index] - point);
     Vector3d normal = moments.flattest();
-    const Vector3d middle(std::clamp(point.x(), 0.12 * length, 0.85 * length), 0.0, kMiddleMm);
+    const Vector3d middle(std::clamp(point.x(), 0.12 * kFullSizeMm, 0.85 * kFullSizeMm), 0.0,
+                          kMiddleMm);
     if (normal.dot(point - middle) < 0.0) normal = -normal;
     normals.push_back(normal);
   }
@@ -57,11 +60,13 @@ bool is_sole_open(const FootScan& foot) {
   // Walls stand on the border of the ground that is covered, so that only ground further in tells.
   std::map<Cell, bool> ground;
   std::map<long, std::pair<long, long>> rows;
-  for (const auto& point : foot.cloud.positions) {
+  const double factor = factor_of(foot);
+  for (const auto& own : foot.cloud.positions) {
+    const Vector3d point = factor * own;
     if (point.z() > kLowMm) continue;
     const Cell cell = cell_of(point);
     auto& is_covered = ground[cell];
-    is_covered = is_covered || point.z() < kUndersideShare * length_of(foot);
+    is_covered = is_covered || point.z() < kUndersideShare * kFullSizeMm;
     const auto [row, is_new] = rows.try_emplace(cell.first, cell.second, cell.second);
     row->second.first = std::min(row->second.first, cell.second);
     row->second.second = std::max(row->second.second, cell.second);
@@ -83,21 +88,25 @@ void close_open_sole(FootScan& foot) {
   // As high as the lowest seen end of a wall may be, and as much above it as tells its bend.
   const SoleSettings settings;
   const double wall_height = settings.walls.highest_mm + settings.walls.bend_reach_mm;
+  const double factor = factor_of(foot);
   std::vector<std::size_t> low;
   for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
-    if (foot.cloud.positions[i].z() < wall_height) low.push_back(i);
+    if (factor * foot.cloud.positions[i].z() < wall_height) low.push_back(i);
   }
   PointCloud walls = foot.cloud.subset(low);
   walls.shared_errors_mm.clear();  // what is added has none
+  for (auto& place : walls.positions) place *= factor;
   if (walls.size() < kNeighbours) return;
-  if (!walls.has_normals()) walls.normals = wall_normals(walls.positions, length_of(foot));
+  if (!walls.has_normals()) walls.normals = wall_normals(walls.positions);
   const std::size_t seen = walls.size();
   close_sole(walls, 0.0, settings);
   std::vector<std::size_t> added;
   for (std::size_t i = seen; i < walls.size(); ++i) added.push_back(i);
   if (added.empty()) return;
   if (foot.cloud.origins.empty()) foot.cloud.origins.assign(foot.cloud.size(), PointOrigin::kSeen);
-  foot.cloud.append(walls.subset(added));
+  PointCloud sole = walls.subset(added);
+  for (auto& place : sole.positions) place /= factor;
+  foot.cloud.append(sole);
   foot.warnings.emplace_back("the sole was not seen: it is taken to stand flat on the floor");
 }
 

@@ -23,8 +23,8 @@ inline constexpr double kSecondToeShare = 0.415;
 /// apart by the clefts between them, seen square to the line of their tips. The tip is the foremost
 /// point of the toe so found.
 ///
-/// `outline`: the outline's points from above, x to the toes, medial side on +y, rear end near
-/// x = 0. Nothing where there is no border in front.
+/// `outline`: the outline's points from above at full size (full_size.h), x to the toes, medial
+/// side on +y, rear end near x = 0. Nothing where there is no border in front.
 std::optional<SecondToe> find_second_toe(const std::vector<Eigen::Vector2d>& outline,
                                          double length_mm);
 

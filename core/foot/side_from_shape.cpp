@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foot/border_profile.h"
+#include "core/foot/full_size.h"
 #include "core/foot/outline_axis.h"
 
 namespace instep {
@@ -71,18 +72,20 @@ double unit_evidence(double value, double clear) {
 }  // namespace
 
 SideGuess side_from_shape(const std::vector<Eigen::Vector3d>& points, double length_mm) {
+  const double factor = full_size_factor(length_mm);
   std::vector<Vector2d> outline;
   for (const auto& point : points) {
-    if (point.z() <= kOutlineHeightShare * length_mm) outline.push_back(point.head<2>());
+    if (point.z() > kOutlineHeightShare * length_mm) continue;
+    outline.emplace_back(factor * point.head<2>());
   }
   const Borders borders{{outline, Vector2d::UnitX(), Vector2d::UnitY(), kBorderSmoothingMm},
                         {outline, Vector2d::UnitX(), -Vector2d::UnitY(), kBorderSmoothingMm}};
 
   const double for_right =
-      unit_evidence(toe_offset(outline, borders, length_mm), kClearToeOffset * length_mm) +
-      unit_evidence(hollow(borders.left, length_mm) - hollow(borders.right, length_mm),
-                    kClearArchDepth * length_mm) +
-      unit_evidence(ball_offset(borders, length_mm), kClearBallOffset * length_mm);
+      unit_evidence(toe_offset(outline, borders, kFullSizeMm), kClearToeOffset * kFullSizeMm) +
+      unit_evidence(hollow(borders.left, kFullSizeMm) - hollow(borders.right, kFullSizeMm),
+                    kClearArchDepth * kFullSizeMm) +
+      unit_evidence(ball_offset(borders, kFullSizeMm), kClearBallOffset * kFullSizeMm);
   return {for_right >= 0.0 ? Side::kRight : Side::kLeft,
           1.0 / (1.0 + std::exp(-std::abs(for_right)))};
 }

@@ -26,11 +26,11 @@ struct StandingHeelPoint {
 /// that most points show does not count. How high the edge begins is held near what is usual, which
 /// decides only where no point tells, as under a sole that was not seen.
 ///
-/// `points`: those seen, foot frame (core/foot/foot_scan.h: pternion over the origin, floor at z =
-/// 0), of the heel or of all the foot. `foot_length_mm` > 0. Nothing where they show no such heel,
-/// or too little of it to tell its wall and how sure the place is, or where the place would be at
-/// the floor or too high for the wall to tell. O(n): some four milliseconds for each thousand
-/// points of the heel.
+/// `points`: those seen, at full size (core/foot/full_size.h) but else in the foot frame
+/// (core/foot/foot_scan.h: pternion over the origin, floor at z = 0), of the heel or of all the
+/// foot. `foot_length_mm` > 0. Nothing where they show no such heel, or too little of it to tell
+/// its wall and how sure the place is, or where the place would be at the floor or too high for the
+/// wall to tell. O(n): some four milliseconds for each thousand points of the heel.
 std::optional<StandingHeelPoint> furthest_of_standing_heel(
     const std::vector<Eigen::Vector3d>& points, double foot_length_mm,
     const Eigen::Vector3d& place);

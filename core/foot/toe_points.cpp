@@ -90,7 +90,7 @@ std::optional<Landmark> find_toe1_top(const FootOutline& outline, const Landmark
   const auto top = back.at(tip.position_mm.x() - kBehindTipMm);
   if (!top) return std::nullopt;
   return Landmark{back.position(*top), kConfidence,
-                  "highest point 15 mm behind the first toe's tip"};
+                  "highest point 15/260 of the foot's length behind the first toe's tip"};
 }
 
 std::optional<Landmark> find_toe1_contact(const FootOutline& outline, const Landmark& tibiale) {

@@ -14,7 +14,8 @@ namespace instep {
 std::optional<Landmark> find_toe1_tip(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare);
 
-/// The highest point of the skin 15 mm behind the first toe's tip, in the same strip.
+/// The highest point of the skin 15/260 of the foot's length behind the first toe's tip, in the
+/// same strip.
 std::optional<Landmark> find_toe1_top(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare, const Landmark& tip);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/foot/end_facing.h"
+#include "core/foot/full_size.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/robust_extreme.h"
@@ -21,27 +22,41 @@ constexpr double kLeastFacingOfToes = 0.7;
 /// What then may be missing, set by eye: of the front of a foot that eight views of a real camera
 /// saw the sides and the top of, some 5 mm. How the skin faces tells nothing of how much it is.
 constexpr double kUnseenToesMm = 10.0;
-/// What is missing of a heel at most, against what its skin lacks of facing backwards: of 16 drawn
-/// feet with 4 to 24 mm cut off half have less than 29 mm, and 95 % less than 40. Where the borders
-/// of what is left run straight on, nothing tells how much it is.
+constexpr double kToesShare = 0.7;  ///< of the length, from which on its front is looked at
+/// What is missing of a heel at most, at full size, against what its skin lacks of facing
+/// backwards: of 16 drawn feet with 4 to 24 mm cut off half have less than 29 mm, and 95 % less
+/// than 40. Where the borders of what is left run straight on, nothing tells how much it is.
 constexpr double kUnseenHeelMm = 45.0;
 constexpr double kMostUnseenHeelMm = 25.0;
 /// How far the axis is off then, in radians: of 20 feet with 12 mm cut off 0.2 degrees on average,
 /// 0.36 at most.
 constexpr double kUnseenHeelTurn = 0.01;
 
-double facing_of_toes(const FootScan& foot) {
-  const Eigen::Vector3d& tip = foot.landmarks.at("acropodion").position_mm;
-  return end_facing(foot.cloud.positions, tip, Eigen::Vector3d::UnitX()).value_or(0.0);
+double length_of(const FootScan& foot) {
+  return foot.landmarks.at("acropodion").position_mm.x();
 }
 
-/// At the rearmost place of its skin; the pternion may lie in the middle of what was not seen.
+/// At full size.
+double facing_of_toes(const FootScan& foot) {
+  const double factor = full_size_factor(length_of(foot));
+  std::vector<Eigen::Vector3d> toes;
+  for (const auto& point : foot.cloud.positions) {
+    if (point.x() > kToesShare * length_of(foot)) toes.emplace_back(factor * point);
+  }
+  const Eigen::Vector3d tip = factor * foot.landmarks.at("acropodion").position_mm;
+  return end_facing(toes, tip, Eigen::Vector3d::UnitX()).value_or(0.0);
+}
+
+/// At the rearmost place of its skin, at full size; the pternion may lie in the middle of what was
+/// not seen.
 double facing_of_heel(const FootScan& foot) {
-  const double length = foot.landmarks.at("acropodion").position_mm.x();
+  const double length = length_of(foot);
   std::vector<Eigen::Vector3d> heel;
   for (const auto& point : foot.cloud.positions) {
     const bool is_low = point.z() < kOutlineHeightShare * length;
-    if (is_low && point.x() < kHeelShare * length) heel.push_back(point);
+    if (is_low && point.x() < kHeelShare * length) {
+      heel.emplace_back(full_size_factor(length) * point);
+    }
   }
   if (heel.empty()) return 0.0;
   const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();
@@ -91,7 +106,8 @@ std::optional<UnseenEnds> unseen_ends(const FootScan& foot) {
   if (facing < kLeastFacingOfHeel) {
     ends.warning +=
         (ends.warning.empty() ? "" : " and ") + std::string("the rearmost part of the heel");
-    const double heel_mm = std::min(kUnseenHeelMm * (1.0 - facing), kMostUnseenHeelMm);
+    const double unseen_mm = kUnseenHeelMm / full_size_factor(length_of(foot)) * (1.0 - facing);
+    const double heel_mm = std::min(unseen_mm, kMostUnseenHeelMm);
     ends.if_longer.push_back(lengthened(foot, {.heel_mm = heel_mm, .turn = kUnseenHeelTurn}));
   }
   if (ends.if_longer.empty()) return std::nullopt;

@@ -13,7 +13,7 @@ namespace {
 using test::Border;
 using test::outline_with;
 
-constexpr double kLength = 250.0;
+constexpr double kLength = kFullSizeMm;  // as the outline is seen, whatever its own
 
 /// A border that reaches furthest, by a parabola, at `place`.
 Border bulging(double place, double bend) {
@@ -30,16 +30,17 @@ double weighed(double place, double bend, double usual) {
 TEST(BallPoints, StandWhereTheWeighedBorderReachesFurthest) {
   for (const double bend : {0.0, 0.003, 0.01, 0.03}) {
     SCOPED_TRACE(bend);
-    const auto outline = outline_with(bulging(178.0, bend), bulging(150.0, bend), kLength, 0.0, 1);
+    const auto outline = outline_with(bulging(0.712 * kLength, bend), bulging(0.60 * kLength, bend),
+                                      kLength, 0.0, 1);
     const auto tibiale = find_metatarsale_tibiale(outline);
     ASSERT_TRUE(tibiale);
     const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
     ASSERT_TRUE(fibulare);
-    EXPECT_NEAR(tibiale->position_mm.x(), weighed(178.0, bend, 0.69 * kLength), 0.7);
+    EXPECT_NEAR(tibiale->position_mm.x(), weighed(0.712 * kLength, bend, 0.69 * kLength), 0.7);
     const double usual = std::min(0.63 * kLength, tibiale->position_mm.x() - 15.0);
-    EXPECT_NEAR(fibulare->position_mm.x(), weighed(150.0, bend, usual), 0.7);
-    EXPECT_NEAR(fibulare->position_mm.y(), bulging(150.0, bend)(fibulare->position_mm.x()) * -1.0,
-                0.1);
+    EXPECT_NEAR(fibulare->position_mm.x(), weighed(0.60 * kLength, bend, usual), 0.7);
+    EXPECT_NEAR(fibulare->position_mm.y(),
+                bulging(0.60 * kLength, bend)(fibulare->position_mm.x()) * -1.0, 0.1);
   }
 }
 
@@ -48,7 +49,7 @@ TEST(BallPoints, SayWhereOnlyTheProportionPlacesThem) {
   const auto flat = find_metatarsale_tibiale(outline_with(straight, straight, kLength, 0.0, 2));
   ASSERT_TRUE(flat);
   EXPECT_TRUE(flat->is_placed_by_proportion());
-  const auto round = bulging(170.0, 0.02);
+  const auto round = bulging(0.68 * kLength, 0.02);
   const auto clear = find_metatarsale_tibiale(outline_with(round, round, kLength, 0.0, 2));
   ASSERT_TRUE(clear);
   EXPECT_FALSE(clear->is_placed_by_proportion());
@@ -57,30 +58,38 @@ TEST(BallPoints, SayWhereOnlyTheProportionPlacesThem) {
 TEST(BallPoints, DoNotJumpOnANearlyStraightBorder) {
   // The lateral border of some feet: hardly bent, and its furthest place near the end of the range.
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    const auto outline =
-        outline_with(bulging(172.0, 0.02), bulging(155.0, 0.004), kLength, 0.3, seed);
+    const auto outline = outline_with(bulging(0.688 * kLength, 0.02),
+                                      bulging(0.62 * kLength, 0.004), kLength, 0.3, seed);
     const auto tibiale = find_metatarsale_tibiale(outline);
     ASSERT_TRUE(tibiale);
     const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
     ASSERT_TRUE(fibulare);
-    EXPECT_NEAR(fibulare->position_mm.x(), weighed(155.0, 0.004, 0.63 * kLength), 2.0) << seed;
+    EXPECT_NEAR(fibulare->position_mm.x(), weighed(0.62 * kLength, 0.004, 0.63 * kLength), 2.0)
+        << seed;
   }
 }
 
-TEST(BallPoints, OfASmallChildKeepTheirDistance) {
-  // So short a foot has its tibiale less than 15 mm in front of where the search for the fibulare
-  // begins in longer ones.
-  constexpr double kShort = 120.0;
-  const auto knuckle = [](double place) {
-    return [=](double x) { return std::max(20.0, bulging(place, 0.3)(x)); };
+TEST(BallPoints, OfASmallChildAreThoseOfAGrownFootInProportion) {
+  constexpr double kShare = 120.0 / kLength;
+  const auto shrunk = [](const Border& border) {
+    return [=](double x) { return kShare * border(x / kShare); };
   };
-  const auto outline = outline_with(knuckle(66.0), knuckle(65.0), kShort, 0.0, 7);
-  const auto tibiale = find_metatarsale_tibiale(outline);
-  ASSERT_TRUE(tibiale);
-  ASSERT_LT(tibiale->position_mm.x(), 0.5 * kShort + 15.0);
-  const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
-  ASSERT_TRUE(fibulare);
-  EXPECT_NEAR(fibulare->position_mm.x(), tibiale->position_mm.x() - 15.0, 1e-6);
+  const Border medial = bulging(0.72 * kLength, 0.02);
+  const Border lateral = bulging(0.60 * kLength, 0.01);
+  const auto grown = outline_with(medial, lateral, kLength, 0.0, 7);
+  const auto child = outline_with(shrunk(medial), shrunk(lateral), 120.0, 0.0, 7);
+  const auto tibiale_of = [](const FootOutline& outline) {
+    return find_metatarsale_tibiale(outline).value();
+  };
+  const auto place_of = [](const FootOutline& outline, const Landmark& landmark) {
+    return outline.in_foot_frame(landmark).position_mm.x();
+  };
+  const Landmark tibiale = tibiale_of(grown);
+  const Landmark fibulare = find_metatarsale_fibulare(grown, tibiale).value();
+  const Landmark own_tibiale = tibiale_of(child);
+  const Landmark own_fibulare = find_metatarsale_fibulare(child, own_tibiale).value();
+  EXPECT_NEAR(place_of(child, own_tibiale), kShare * place_of(grown, tibiale), 0.2);
+  EXPECT_NEAR(place_of(child, own_fibulare), kShare * place_of(grown, fibulare), 0.3);
 }
 
 /// Of each coordinate.
@@ -94,8 +103,8 @@ TEST(BallPoints, WhoseLateralWallWasNotSeenKeepTheirDistance) {
   const auto is_seen = [](double x, bool is_medial) {
     return is_medial || std::abs(x - 0.63 * kLength) > 14.0;
   };
-  const auto outline = outline_with(bulging(166.0, 0.03), bulging(157.0, 0.02), kLength, 0.2, 1,
-                                    test::kPointsOfBorders, is_seen);
+  const auto outline = outline_with(bulging(0.664 * kLength, 0.03), bulging(0.628 * kLength, 0.02),
+                                    kLength, 0.2, 1, test::kPointsOfBorders, is_seen);
   const auto tibiale = find_metatarsale_tibiale(outline);
   ASSERT_TRUE(tibiale);
   const auto fibulare = find_metatarsale_fibulare(outline, *tibiale);
@@ -124,8 +133,9 @@ TEST(BallPoints, WhoseWallWasNotSeenAreNotAtTheEdgeOfWhatWas) {
   }
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);
-    const auto tibiale = find_metatarsale_tibiale(outline_with(
-        border, bulging(155.0, 0.02), kLength, 0.3, seed, test::kPointsOfBorders, is_seen));
+    const auto tibiale =
+        find_metatarsale_tibiale(outline_with(border, bulging(0.62 * kLength, 0.02), kLength, 0.3,
+                                              seed, test::kPointsOfBorders, is_seen));
     ASSERT_TRUE(tibiale);
     const Eigen::Vector3d deviation = deviation_of(*tibiale);
     EXPECT_NEAR(tibiale->position_mm.x(), truth, 2.0 * deviation.x());
@@ -134,8 +144,8 @@ TEST(BallPoints, WhoseWallWasNotSeenAreNotAtTheEdgeOfWhatWas) {
     EXPECT_LT(deviation.y(), 2.0);
     EXPECT_EQ(deviation.z(), 0.0);
   }
-  const auto seen =
-      find_metatarsale_tibiale(outline_with(border, bulging(155.0, 0.02), kLength, 0.3, 1));
+  const auto seen = find_metatarsale_tibiale(
+      outline_with(border, bulging(0.62 * kLength, 0.02), kLength, 0.3, 1));
   ASSERT_TRUE(seen);
   EXPECT_TRUE(seen->deviations_off_mm.empty());
 }

@@ -30,7 +30,9 @@ FootScan foot_with_leg() {
   throw std::runtime_error("no such foot was drawn");
 }
 
-Landmark shifted(Landmark landmark, double along, double up) {
+/// A landmark of the foot as its outline has it, but for the side.
+Landmark shifted(const FootOutline& outline, Landmark landmark, double along, double up) {
+  landmark.position_mm *= outline.factor();
   landmark.position_mm += Vector3d(along, 0.0, up);
   return landmark;
 }
@@ -46,7 +48,7 @@ TEST(HeelPoint, StaysByTheLineThatFallsFromTheInstepPoint) {
     int found = 0;
     for (double along = -60.0; along <= 60.0; along += 15.0) {
       for (double up = -60.0; up <= 60.0; up += 15.0) {
-        const auto instep = shifted(foot.landmarks.at("instep_point"), along, up);
+        const auto instep = shifted(outline, foot.landmarks.at("instep_point"), along, up);
         for (const auto stance : {HeelStance::kOnFloor, HeelStance::kRaised}) {
           const auto heel = find_heel_point(outline, instep, stance);
           if (!heel) continue;
@@ -67,7 +69,7 @@ TEST(Junction, LiesBetweenItsRaysOrIsNotFound) {
   int missing = 0;
   for (double along = -60.0; along <= 60.0; along += 15.0) {
     for (double up = -60.0; up <= 60.0; up += 15.0) {
-      const auto heel = shifted(foot.landmarks.at("heel_point"), along, up);
+      const auto heel = shifted(outline, foot.landmarks.at("heel_point"), along, up);
       const auto junction = find_junction(outline, heel);
       junction ? ++found : ++missing;
       if (!junction) continue;
@@ -89,7 +91,8 @@ TEST(Junction, IsNotFoundWhereTheLegIsCutBelowIt) {
     if (foot.cloud.positions[i].z() < height - 15.0) low.push_back(i);
   }
   foot.cloud = foot.cloud.subset(low);
-  EXPECT_FALSE(find_junction(FootOutline(foot), foot.landmarks.at("heel_point")));
+  const FootOutline outline(foot);
+  EXPECT_FALSE(find_junction(outline, shifted(outline, foot.landmarks.at("heel_point"), 0.0, 0.0)));
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLength = 250.0;
-constexpr std::size_t kFewPoints = 4000;  // as of a coarse camera
+constexpr double kFactor = full_size_factor(kLength);  // as the outline is seen
+constexpr std::size_t kFewPoints = 4000;               // as of a coarse camera
 const Landmark kFibulare{Vector3d(157.0, -45.0, 12.0), 0.9, ""};
 
 /// The little toe is round, and ends in a gap, beyond which the border is the next toe's.
@@ -46,10 +47,12 @@ TEST(ToePoints, TheRulerTouchesTheLittleToeBeforeTheGap) {
   for (int seed = 1; seed <= kFeet; ++seed) {
     const auto outline = test::outline_with([](double) { return 45.0; }, lateral_border, kLength,
                                             0.3, static_cast<std::uint64_t>(seed), kFewPoints);
-    const auto contact = find_toe5_contact(outline, kFibulare);
-    ASSERT_TRUE(contact);
-    const double off =
-        bearing_deg(contact->position_mm.x(), -contact->position_mm.y()) - true_bearing_deg();
+    Landmark fibulare = kFibulare;
+    fibulare.position_mm *= kFactor;
+    const auto found = find_toe5_contact(outline, fibulare);
+    ASSERT_TRUE(found);
+    const Vector3d contact = outline.in_foot_frame(*found).position_mm;
+    const double off = bearing_deg(contact.x(), -contact.y()) - true_bearing_deg();
     EXPECT_NEAR(off, 0.0, 0.5) << seed;
     sum += off;
   }
