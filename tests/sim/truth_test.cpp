@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/foot/full_size.h"
 #include "core/geometry/polygon.h"
 #include "core/girth/tape_plane.h"
 
@@ -18,12 +19,14 @@ struct Case {
   Side side;
 };
 
-/// Points of the skin up to z = 25 mm in the foot frame, by brute force: a grid of 1 to
-/// 2 mm over the whole foot, and the zero between neighbours of different sign by a straight line.
+/// Points of the skin up to z = 25 mm at full size in the foot frame, by brute force: a grid of 1
+/// to 2 mm over the whole foot, and the zero between neighbours of different sign by a straight
+/// line.
 std::vector<Vector3d> skin_near_floor(const FootSolid& foot, const FootTruth& truth) {
   const RigidTransform solid_from_foot = truth.foot_from_solid.inverse();
   std::vector<Vector3d> points;
-  for (double z = 0.5; z <= 25.0; z += 1.0) {
+  const double highest = 25.0 / full_size_factor(foot.parameters().length_mm);
+  for (double z = 0.5; z <= highest; z += 1.0) {
     for (double y = -80.0; y <= 80.0; y += 1.0) {
       double last = 1.0;
       for (double x = -10.0; x <= 330.0; x += 2.0) {

