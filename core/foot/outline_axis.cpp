@@ -28,7 +28,9 @@ constexpr double kLowestInstepShare = 0.18;  ///< height in the rear half over t
 constexpr double kEndShare = 0.08;
 constexpr double kStrayShare = 0.02;
 
-const char* const kAdvice = "measure one whole foot that stands on its sole, in millimetres";
+const char* const kAdvice =
+    "measure one whole foot that stands on its sole, in millimetres, without the floor, a wall or "
+    "another foot round it";
 
 tl::unexpected<Error> no_foot(const std::string& what) {
   return fail(ErrorCode::kInvalidInput, "this is not a foot: " + what, kAdvice);

@@ -25,7 +25,9 @@
 namespace instep {
 namespace {
 
-constexpr const char* kExamples = R"(No landmark is set by hand. Examples:
+constexpr const char* kExamples =
+    R"(No landmark is set by hand. JSON has landmarks, and the three points of each tape plane, in the foot's own
+frame (pternion at the origin, x to the toes, z up); "frame" leads there from the cloud. Examples:
   instep measure foot.ply
   instep measure foot.stl --unit auto --side left --format text
   instep measure foot.ply --format csv > foot.csv

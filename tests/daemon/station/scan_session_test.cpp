@@ -25,6 +25,23 @@ std::shared_ptr<CameraSet> small_cameras() {
   return std::make_shared<CameraSet>(std::move(station->cameras));
 }
 
+ScanTools small_tools(const std::filesystem::path& results) {
+  ScanTools tools;
+  tools.cameras = small_cameras();
+  tools.capture.frames_per_camera = 2;
+  tools.platform_height_mm = 0.0;
+  tools.store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), results);
+  EXPECT_TRUE(tools.store->prepare());
+  return tools;
+}
+
+ScanOutcome scan_with(const ScanTools& tools) {
+  TaskProgress progress;
+  const std::atomic<bool> cancelled = false;
+  const ScanListener listener{[](ScanStep) {}, [](std::string_view, double) {}};
+  return run_scan(tools, cancelled, progress, listener);
+}
+
 std::size_t files_in(const std::filesystem::path& folder) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -101,20 +118,11 @@ TEST_F(CancelledScan, TellsEachPieceOfEachStageAndEachStageOnce) {
 /// A remark is made once, and stands in the result.
 TEST(ScanSession, TellsInTheResultHowTheFramesWereTaken) {
   const test::TemporaryFolder folder;
-  TaskProgress progress;
-  const std::atomic<bool> cancelled = false;
-  ScanTools tools;
-  tools.cameras = small_cameras();
-  tools.capture.frames_per_camera = 2;
-  tools.platform_height_mm = 0.0;
-  tools.store =
-      std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path() / "scans");
-  ASSERT_TRUE(tools.store->prepare());
+  ScanTools tools = small_tools(folder.path() / "scans");
   tools.measure = measure_capture;
   tools.remarks->note("the projector was off");
   tools.remarks->note("the projector was off");
-  const ScanListener listener{[](ScanStep) {}, [](std::string_view, double) {}};
-  const auto outcome = run_scan(tools, cancelled, progress, listener);
+  const auto outcome = scan_with(tools);
   ASSERT_FALSE(outcome.error) << outcome.error->line();
   std::ifstream file(outcome.stored.at(0).folder / "result.json");
   const auto result = nlohmann::json::parse(file);
@@ -125,15 +133,7 @@ TEST(ScanSession, TellsInTheResultHowTheFramesWereTaken) {
 /// Whoever scanned again had one foot twice.
 TEST(ScanSession, StoresBothFeetOrNone) {
   const test::TemporaryFolder folder;
-  TaskProgress progress;
-  const std::atomic<bool> cancelled = false;
-  ScanTools tools;
-  tools.cameras = small_cameras();
-  tools.capture.frames_per_camera = 2;
-  tools.platform_height_mm = 0.0;
-  tools.store =
-      std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder.path() / "scans");
-  ASSERT_TRUE(tools.store->prepare());
+  ScanTools tools = small_tools(folder.path() / "scans");
   tools.measure = [](const Capture& capture, const PipelineSettings& settings,
                      const ScanProgress& told) {
     auto records = measure_capture(capture, settings, told);
@@ -143,8 +143,7 @@ TEST(ScanSession, StoresBothFeetOrNone) {
   };
   std::filesystem::create_directories(folder.path() / "scans/2026/11");
   std::ofstream(folder.path() / "scans/2026/11/21") << "in the way of the second foot";
-  const ScanListener listener{[](ScanStep) {}, [](std::string_view, double) {}};
-  const auto outcome = run_scan(tools, cancelled, progress, listener);
+  const auto outcome = scan_with(tools);
   EXPECT_TRUE(outcome.error);
   EXPECT_TRUE(outcome.store_failed);
   EXPECT_TRUE(outcome.stored.empty());
