@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/control/control_client.h"
+#include "tests/support/small_station.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -68,16 +69,7 @@ class Notifications {
 };
 
 Settings small_station(const std::filesystem::path& folder) {
-  Settings settings;
-  settings.cameras = {CameraSettings{}};
-  settings.pedal.kind = PedalKind::kNone;
-  settings.capture.frames_per_camera = 1;
-  settings.capture.warmup_frames = 0;
-  settings.simulation.cameras = 1;
-  settings.simulation.width_px = 64;
-  settings.simulation.height_px = 48;
-  settings.simulation.pacing = SimulatedPacing::kAsFastAsPossible;
-  settings.simulation.truth = false;
+  Settings settings = test::small_station();
   settings.store.root = folder / "scans";
   settings.control.socket = folder / "control.sock";
   settings.log.level = LogLevel::kError;

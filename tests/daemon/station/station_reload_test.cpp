@@ -7,24 +7,11 @@
 #include "daemon/station/station.h"
 #include "daemon/store/posix_storage.h"
 #include "tests/support/loop_thread.h"
+#include "tests/support/small_station.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
 namespace {
-
-Settings small_station() {
-  Settings settings;
-  settings.cameras.emplace_back();
-  settings.pedal.kind = PedalKind::kNone;
-  settings.capture.frames_per_camera = 1;
-  settings.capture.warmup_frames = 0;
-  settings.simulation.cameras = 1;
-  settings.simulation.width_px = 64;
-  settings.simulation.height_px = 48;
-  settings.simulation.pacing = SimulatedPacing::kAsFastAsPossible;
-  settings.simulation.truth = false;
-  return settings;
-}
 
 /// A station at work that notes what each of its scans was to be measured with, and fails them.
 class ReloadedStation : public testing::Test {
@@ -45,7 +32,7 @@ class ReloadedStation : public testing::Test {
       return fail(ErrorCode::kInsufficientData, "nothing stands there", "");
     };
     loop_.call([&] {
-      station_.emplace(loop_.loop(), small_station(), measure, store, listener);
+      station_.emplace(loop_.loop(), test::small_station(), measure, store, listener);
       station_->begin();
     });
   }
@@ -75,14 +62,14 @@ class ReloadedStation : public testing::Test {
 TEST_F(ReloadedStation, GoesBackToWhatTheCamerasSayWhereASettingIsTakenOut) {
   const auto by_cameras = scan();
   ASSERT_EQ(by_cameras.platform_height_mm, 0.0) << "the simulation stands at 0";
-  auto settings = small_station();
+  auto settings = test::small_station();
   settings.station.platform_height_mm = 12.5;
   settings.station.side = Side::kLeft;
   reload(settings);
   const auto by_settings = scan();
   EXPECT_EQ(by_settings.platform_height_mm, 12.5);
   EXPECT_EQ(by_settings.side, Side::kLeft);
-  reload(small_station());
+  reload(test::small_station());
   const auto again = scan();
   EXPECT_EQ(again.platform_height_mm, 0.0);
   EXPECT_EQ(again.side, std::nullopt);
@@ -91,7 +78,7 @@ TEST_F(ReloadedStation, GoesBackToWhatTheCamerasSayWhereASettingIsTakenOut) {
 TEST(StationWarnings, TellOfAPlatformThatTheCamerasWereNotCalibratedFor) {
   test::LoopThread loop;
   const test::TemporaryFolder folder;
-  auto settings = small_station();
+  auto settings = test::small_station();
   settings.calibration = AppliedCalibration{};
   settings.calibration->placed = {"left"};
   settings.calibration->platform_height_mm = 0.0;
