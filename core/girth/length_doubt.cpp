@@ -14,16 +14,28 @@
 namespace instep {
 namespace {
 
-/// How much unseen waves count against all else, so that intervals hold: between exact points, and
-/// where noise hides them.
+/// How much unseen waves between exact points count against all else, so that intervals hold.
 constexpr double kUnseenWaves = 1.25;
-constexpr double kUnseenUnderNoise = 1.1;
 /// How many of the unseen waves there are, by the middle of scanned feet and lasts, where all the
 /// bending of exact points is at their own scale.
 constexpr double kLikelyWaves = 1.6;
 /// A surface through points wanders no further between them, against the radius of a patch, however
 /// rough a crease within it seems.
 constexpr double kWidestWandering = 0.06;
+/// Noise hides fine bends of uneven skin, of which neighbours know too little: patches narrower
+/// than this (against the body) have more unseen waves than are expected by the square of how much
+/// narrower they are, up to a limit, as far as the skin is uneven. Their doubt grows less and
+/// later. Girths of scanned feet of 60,000 and 200,000 points with 0.02 to 0.5 mm of noise err 0.02
+/// to 0.22 mm, without this 0.12 to 0.26, of which half did not hold.
+constexpr double kWidthOfEvenSkin = 0.1;
+constexpr double kMostFinerWaves = 4.0;
+constexpr double kFinerWavesInDoubt = 1.5;
+constexpr double kMostFinerDoubt = 2.0;
+/// Roughness of patches under noise, the geometric mean round a section: that of simulated feet,
+/// which are smooth, is below the first unless noise hides it, that of scanned ones above the
+/// second.
+constexpr double kSmoothSkin = 0.001;
+constexpr double kUnevenSkin = 0.004;
 /// Part of the expected noise waves that is left where several patches are blended.
 constexpr double kBlendedNoise = 0.5;
 /// More than this part of a length is no correction but a guess.
@@ -57,6 +69,24 @@ struct Stretch {
   double length = 0.0;
 };
 
+/// Of the stretches where there is noise.
+struct Unevenness {
+  double length = 0.0;
+  double log_roughness = 0.0;  ///< times the length
+
+  void add(const Stretch& stretch) {
+    length += stretch.length;
+    log_roughness += stretch.length * std::log(stretch.sheet.patch->roughness());
+  }
+
+  /// From none of smooth skin to all of uneven.
+  double part() const {
+    if (!(length > 0.0)) return 0.0;
+    const double over = log_roughness / length - std::log(kSmoothSkin);
+    return std::clamp(over / std::log(kUnevenSkin / kSmoothSkin), 0.0, 1.0);
+  }
+};
+
 /// What is gathered over the stretches.
 struct Sums {
   std::vector<double> contact;  ///< influence of each point on the length
@@ -67,7 +97,9 @@ struct Sums {
   double noise_waves = 0.0;   ///< length
   double unseen_waves = 0.0;  ///< weighed
   double likely_waves = 0.0;  ///< length, as the points hint at
-  bool is_exact = true;       ///< all that were added
+  double finer_waves = 0.0;   ///< as many more if the skin is uneven
+  Unevenness unevenness;
+  bool is_exact = true;  ///< all that were added
 };
 
 std::vector<Stretch> stretches_of(const Contour& contour, const BlendedSurface& surface) {
@@ -142,16 +174,32 @@ Eigen::MatrixXd shares_of(const Stretch& stretch) {
   return shares;
 }
 
+void add_unseen_between_exact(const HeightPatch& patch, double unseen, double length, Sums& sums) {
+  unseen *= kBentAcross;
+  sums.unseen_waves += kUnseenWaves * unseen;
+  if (unseen < kLeastWaves * length) return;
+  sums.likely_waves += kLikelyWaves * patch.fine_bending() * unseen;
+}
+
+void add_unseen_under_noise(const Stretch& stretch, double unseen, Sums& sums) {
+  const double narrower = kWidthOfEvenSkin / stretch.sheet.owner->radius;
+  const double finer = std::clamp(narrower * narrower, 1.0, kMostFinerWaves);
+  sums.unseen_waves += unseen * std::clamp(finer / kFinerWavesInDoubt, 1.0, kMostFinerDoubt);
+  sums.likely_waves += unseen;
+  sums.finer_waves += (finer - 1.0) * unseen;
+  sums.unevenness.add(stretch);
+}
+
 /// A line of that length whose direction varies by `noise` and `wandering` is longer by half of it.
 void add_waves(const Stretch& stretch, double noise, double wandering, Sums& sums) {
   sums.noise_waves += 0.5 * stretch.length * std::min(noise, kSteepestWaves);
+  const double unseen = 0.5 * stretch.length * std::min(wandering, kSteepestWaves);
   const auto& patch = *stretch.sheet.patch;
-  const double across = patch.is_exact() ? kBentAcross : 1.0;
-  const double unseen = 0.5 * across * stretch.length * std::min(wandering, kSteepestWaves);
-  sums.unseen_waves += (patch.is_exact() ? kUnseenWaves : kUnseenUnderNoise) * unseen;
-  if (unseen < kLeastWaves * stretch.length) return;
-  const double likely = patch.is_exact() ? kLikelyWaves * patch.fine_bending() : 1.0;
-  sums.likely_waves += likely * unseen;
+  if (patch.is_exact()) {
+    add_unseen_between_exact(patch, unseen, stretch.length, sums);
+  } else {
+    add_unseen_under_noise(stretch, unseen, sums);
+  }
 }
 
 void add(const Stretch& stretch, const std::vector<OrientedPoint>& points, Sums& sums) {
@@ -228,8 +276,9 @@ LengthDoubt doubt_of(const Contour& contour, const BlendedSurface& surface, doub
   const auto half_width_of = [&](const std::vector<double>& influence, double wandering) {
     return std::hypot(half_width(influence, wandering, sums, points, length), direction);
   };
-  return {std::clamp(sums.likely_waves - kBlendedNoise * sums.noise_waves, -most, most),
-          half_width_of(sums.contact, sums.contact_wandering),
+  const double waves = sums.likely_waves + sums.unevenness.part() * sums.finer_waves -
+                       kBlendedNoise * sums.noise_waves;
+  return {std::clamp(waves, -most, most), half_width_of(sums.contact, sums.contact_wandering),
           half_width_of(sums.stretched, sums.stretched_wandering)};
 }
 

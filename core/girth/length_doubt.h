@@ -20,9 +20,9 @@ inline constexpr double kDeviations = 1.96;
 /// To second order waves lengthen a line: by those that noise put into the contour it is too long,
 /// by those that the true one has between the points it is too short. Both are expected from the
 /// same sums, the latter where the points show that the surface bends at their own scale
-/// (HeightPatch::fine_bending()), and more of them round a body than along it. What they make
-/// together is to be added, within limits; neither is known to be there, so both count as doubt
-/// too.
+/// (HeightPatch::fine_bending()), and more of them round a body than along it. Under noise uneven
+/// skin has more than they tell, which shows in narrow, rough patches. What waves make together is
+/// to be added, within limits; neither is known to be there, so both count as doubt too.
 ///
 /// The parts are weighed so that over thousands of drawn shapes, feet and lasts of any density,
 /// noise and sampling about 95 % of the intervals hold (tests/bench/accuracy).

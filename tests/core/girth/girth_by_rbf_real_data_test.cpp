@@ -75,23 +75,31 @@ TEST_F(GirthByRbfOfTrialData, MeetsFeetFromTheCornersOfTheirMeshes) {
 struct Outcomes {
   int count = 0;
   int held = 0;
-  double mean_error = 0.0;
+  double errors = 0.0;  ///< their sum
+
+  double mean_error() const { return errors / count; }
+
+  void add(const Outcomes& other) {
+    count += other.count;
+    held += other.held;
+    errors += other.errors;
+  }
 };
 
-/// Girths of scanned feet from exact points anywhere on their faces.
-Outcomes on_faces_of_feet(std::size_t points) {
+/// Girths of scanned feet from points anywhere on their faces, so far off along the normals.
+Outcomes on_faces_of_feet(std::size_t points, double sigma_mm = 0.0) {
   Outcomes outcomes;
   for (const auto& section : test::known_sections("feet")) {
     if (!section.file.ends_with(".stl")) continue;
     const auto mesh = test::read_shape(test::trial_data() / "feet" / section.file, 1000.0).mesh;
-    auto cloud = test::oriented_points_on(mesh, points, 0.0, 1);
+    auto cloud = test::oriented_points_on(mesh, points, sigma_mm, 1);
     cloud.normals.clear();
     const auto girth = girth_by_rbf(cloud, section.plane);
     EXPECT_TRUE(girth) << girth.error().line();
     if (!girth) continue;
     const double error = std::abs(girth->stretched_mm - section.stretched_mm);
     outcomes.held += error <= girth->stretched_u95_mm.value_or(0.0);
-    outcomes.mean_error = (outcomes.mean_error * outcomes.count + error) / (outcomes.count + 1);
+    outcomes.errors += error;
     ++outcomes.count;
   }
   return outcomes;
@@ -100,10 +108,21 @@ Outcomes on_faces_of_feet(std::size_t points) {
 // Measured: 0.10 and 0.07 mm, five of six within their intervals. Where facets passed for noise and
 // crowds were averaged, 0.16 and 0.11 mm, and one.
 TEST_F(GirthByRbfOfTrialData, KeepsTheCornersOfScannedFeet) {
-  EXPECT_LT(on_faces_of_feet(17040).mean_error, 0.14);
+  EXPECT_LT(on_faces_of_feet(17040).mean_error(), 0.14);
   const auto crowded = on_faces_of_feet(200000);
-  EXPECT_LT(crowded.mean_error, 0.09);
+  EXPECT_LT(crowded.mean_error(), 0.09);
   EXPECT_GE(crowded.held, 4) << "of " << crowded.count;
+}
+
+// Measured: 0.10 mm, 34 of 36 within their intervals. Where crowds were averaged over wide patches,
+// and no more waves were expected than neighbours told of, 0.17 mm, and 18.
+TEST_F(GirthByRbfOfTrialData, ExpectsWhatNoiseHidesOfScannedFeet) {
+  Outcomes all;
+  for (const double sigma_mm : {0.02, 0.1, 0.3}) {
+    for (const std::size_t points : {60000U, 200000U}) all.add(on_faces_of_feet(points, sigma_mm));
+  }
+  EXPECT_LT(all.mean_error(), 0.13);
+  EXPECT_GE(all.held, 31) << "of " << all.count;
 }
 
 TEST_F(GirthByRbfOfTrialData, RefusesOrBridgesTheUnseenSole) {
