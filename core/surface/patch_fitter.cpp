@@ -26,7 +26,7 @@ constexpr double kBesideLines = 0.4;
 /// times the cube of their spacing, and how many points share in averaging noise.
 constexpr double kWanderingInSpace = 0.1;
 constexpr int kAveragedInSpace = 6;
-/// A patch of exact points is at least this part of the body wide; of others their noise tells.
+/// A patch is at least this part of the body wide.
 constexpr double kLeastReach = 0.033;
 /// Neighbours that reach no further are a crowd: of exact ones a polynomial may tell all. It is
 /// made of those within the least reach, or of so many.
@@ -361,7 +361,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     return fit_in_space(here, place);
   }
   if (auto plain = fit_plain(here, place)) return plain;
-  const double narrowest = here.exact ? std::max(here.reach, kLeastReach) : here.reach;
+  const double narrowest = std::max(here.reach, kLeastReach);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   double shown = 0.0;  // of roughness, by the patch before, which was wider: it tells it better
   for (int attempt = 1;; ++attempt) {

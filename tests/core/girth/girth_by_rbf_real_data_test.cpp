@@ -114,8 +114,8 @@ TEST_F(GirthByRbfOfTrialData, KeepsTheCornersOfScannedFeet) {
   EXPECT_GE(crowded.held, 4) << "of " << crowded.count;
 }
 
-// Measured: 0.10 mm, 34 of 36 within their intervals. Where crowds were averaged over wide patches,
-// and no more waves were expected than neighbours told of, 0.17 mm, and 18.
+// Measured: 0.11 mm, 34 of 36 within their intervals. Where no more waves were expected than
+// neighbours tell of, 0.17 mm, and 18.
 TEST_F(GirthByRbfOfTrialData, ExpectsWhatNoiseHidesOfScannedFeet) {
   Outcomes all;
   for (const double sigma_mm : {0.02, 0.1, 0.3}) {
