@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/fusion/close_sole.h"
-#include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "core/foot/robust_extreme.h"

@@ -10,7 +10,6 @@
 #include "core/fusion/close_sole.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
-#include "core/geometry/polygon.h"
 
 namespace instep {
 namespace {

@@ -1,7 +1,6 @@
 #include "core/foot/second_toe.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/foot/border_profile.h"
 #include "core/foot/toe_pattern.h"

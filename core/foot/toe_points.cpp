@@ -1,7 +1,6 @@
 #include "core/foot/toe_points.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "core/foot/border_crest.h"

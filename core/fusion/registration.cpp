@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "core/fusion/view_equations.h"
-#include "core/median.h"
 
 namespace instep {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/geometry/skin_outline.h"
 #include "core/geometry/voxel_grid.h"

@@ -1,6 +1,5 @@
 #include "core/girth/contour_trace.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
@@ -13,7 +12,6 @@
 #include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
-#include "core/median.h"
 #include "core/surface/octree_surface.h"
 
 namespace instep {

@@ -1,6 +1,5 @@
 #include "core/girth/plane_band.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

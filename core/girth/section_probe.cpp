@@ -1,6 +1,5 @@
 #include "core/girth/section_probe.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>

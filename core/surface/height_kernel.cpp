@@ -1,6 +1,5 @@
 #include "core/surface/height_kernel.h"
 
-#include <cmath>
 
 namespace instep {
 namespace {

@@ -1,10 +1,8 @@
 #include "core/surface/kriging_likelihood.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace instep {
 namespace {
