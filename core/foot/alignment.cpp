@@ -1,6 +1,5 @@
 #include "core/foot/alignment.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "core/foot/side_from_shape.h"
 #include "core/foot/standing_body.h"
 #include "core/geometry/distinct_points.h"
+#include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
 
 namespace instep {
@@ -32,13 +32,7 @@ double longest_extent(const std::vector<Eigen::Vector3d>& points) {
   Moments moments;
   for (const auto& point : points) moments.add(point - points.front());
   const Eigen::Vector3d along = moments.axes().eigenvectors().col(2);
-  double from = 1e300;
-  double to = -1e300;
-  for (const auto& point : points) {
-    from = std::min(from, along.dot(point));
-    to = std::max(to, along.dot(point));
-  }
-  return to - from;
+  return extent_along(points, along).length();
 }
 
 /// Of a foot of about that length, told at full size.

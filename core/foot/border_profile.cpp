@@ -6,6 +6,8 @@
 #include <functional>
 #include <utility>
 
+#include "core/geometry/extent.h"
+
 namespace instep {
 namespace {
 
@@ -16,21 +18,6 @@ constexpr double kShortSampleWeight = 0.15;
 constexpr int kEnvelopeRounds = 4;
 constexpr double kSearchStepMm = 0.5;
 constexpr std::size_t kFewestSamples = 4;
-
-struct Extent {
-  double from = 0.0;
-  double to = 0.0;
-};
-
-Extent extent(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& along) {
-  Extent extent{1e300, -1e300};
-  for (const auto& point : points) {
-    const double place = along.dot(point);
-    extent.from = std::min(extent.from, place);
-    extent.to = std::max(extent.to, place);
-  }
-  return extent;
-}
 
 /// The two furthest points of a strip.
 struct Strip {
@@ -59,9 +46,9 @@ BorderProfile::BorderProfile(const std::vector<Eigen::Vector2d>& points,
                              const Eigen::Vector2d& along, const Eigen::Vector2d& reach,
                              double smoothing_mm, double strip_mm, double tightest_bend_mm) {
   if (points.empty()) return;
-  const Extent places = extent(points, along);
-  const double width = std::max(
-      strip_mm, kPointsInStrip * (places.to - places.from) / static_cast<double>(points.size()));
+  const Extent places = extent_along(points, along);
+  const double width =
+      std::max(strip_mm, kPointsInStrip * places.length() / static_cast<double>(points.size()));
   smoothing_mm_ = std::max(smoothing_mm, kNarrowestSmoothingInStrips * width);
   const double first = std::floor(places.from / width + 0.5);
   const auto strip_of = [&](double place) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/foot/robust_extreme.h"
+#include "core/geometry/extent.h"
 #include "core/geometry/plane_vectors.h"
 #include "core/geometry/polygon.h"
 #include "core/median.h"
@@ -73,13 +74,8 @@ Vector2d long_axis(const std::vector<Vector2d>& polygon) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
 }
 
-struct Extent {
-  double from = 0.0;
-  double to = 0.0;
-  double length() const { return to - from; }
-};
-
-Extent extent(const Points& points, const Vector2d& direction) {
+/// Without strays.
+Extent robust_extent(const Points& points, const Vector2d& direction) {
   const Vector3d along(direction.x(), direction.y(), 0.0);
   return {along.dot(robust_extreme(points, -along)), along.dot(robust_extreme(points, along))};
 }
@@ -143,9 +139,9 @@ Result<OutlineAxis> find_outline_axis(const Points& points) {
   const auto direction = long_direction(low);
   if (!direction) return no_foot("nothing of it is near the floor");
   Vector2d forward = *direction;
-  Extent along = extent(low, forward);
+  Extent along = robust_extent(low, forward);
   const Vector2d across(-forward.y(), forward.x());
-  const Extent breadth = extent(low, across);
+  const Extent breadth = robust_extent(low, across);
   if (auto checked = check_size(along, breadth); !checked) return tl::unexpected(checked.error());
 
   const double quarter = 0.25 * along.length();

@@ -1,9 +1,8 @@
 #include "core/foot/second_toe.h"
 
-#include <algorithm>
-
 #include "core/foot/border_profile.h"
 #include "core/foot/toe_pattern.h"
+#include "core/geometry/extent.h"
 
 namespace instep {
 namespace {
@@ -58,15 +57,10 @@ std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vec
                                    const BallBorders& ball) {
   const Vector2d along(-square.y(), square.x());
   const BorderProfile toes(front, along, square, kToeSmoothingMm, kToeStripMm, kToeBendMm);
-  double from = 1e300;
-  double to = -1e300;
-  for (const auto& point : front) {
-    from = std::min(from, along.dot(point));
-    to = std::max(to, along.dot(point));
-  }
+  const Extent shown = extent_along(front, along);
   std::vector<Vector2d> tips;
-  if (!(to - from < 2.0 * ball.breadth)) return tips;
-  for (const auto& summit : toes.summits(from, to, kCleftMm)) {
+  if (!(shown.length() < 2.0 * ball.breadth)) return tips;
+  for (const auto& summit : toes.summits(shown.from, shown.to, kCleftMm)) {
     tips.push_back(summit.place * along + summit.reach * square);
   }
   return tips;
