@@ -16,9 +16,9 @@ constexpr double kMostLean = 3.0;
 constexpr double kReachInGrains = 2.5;
 /// In space, against that, or of the section if it is more: what lies further off is across a hole,
 /// as the back of a heel above a sole that was not seen. Of 141 girths of feet of which 20 mm and
-/// more were not seen, 13 were off by more than two intervals without a word on it; now 5 are. With
-/// six tenths there are no fewer, but of 2,000 drawn bodies 25 that are seen all round, from one
-/// side sparsely, have far wider intervals, not 6.
+/// more were not seen, 5 are off by more than two intervals without a word on it, and 13 without
+/// this limit. With six tenths there are no fewer, but of 2,000 drawn bodies 25 that are seen all
+/// round, from one side sparsely, have far wider intervals, not 6.
 constexpr double kReachInSpace = 0.8;
 constexpr double kLeastReachInSpace = 0.03;
 constexpr double kNotableGapInGrains = 6.0;

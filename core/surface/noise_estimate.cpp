@@ -7,7 +7,7 @@
 
 #include "core/median.h"
 #include "core/stride.h"
-#include "core/surface/local_mean.h"
+#include "core/surface/local_log_mean.h"
 #include "core/surface/neighbourhood.h"
 #include "core/surface/tangent_view.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/median.h"
-#include "core/surface/local_mean.h"
+#include "core/surface/local_log_mean.h"
 
 namespace instep {
 namespace {
