@@ -1,5 +1,7 @@
 #include "config/pose_matrix.h"
 
+#include "core/geometry/pose_rows.h"
+
 namespace instep {
 namespace {
 
@@ -20,8 +22,7 @@ std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFau
                                                const std::string& key) {
   const auto numbers = table.numbers(key, 16);
   if (numbers.empty()) return std::nullopt;
-  const Eigen::Matrix4d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix4d matrix = matrix_from_rows(numbers);
   if (!is_rigid(matrix)) {
     faults.add(table.line(key), table.full(key) +
                                     " is no rotation and shift: write the rows of a rigid 4x4 "

@@ -5,18 +5,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/geometry/pose_rows.h"
 #include "daemon/report/json_number.h"
 
 namespace instep {
 namespace {
-
-Json matrix_json(const RigidTransform& pose) {
-  Json numbers = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
-  }
-  return numbers;
-}
 
 std::string known_text(const std::optional<double>& known_to_mm) {
   return known_to_mm ? fmt::format("{:.2f} mm", *known_to_mm) : "-";
@@ -47,7 +40,7 @@ Json to_json(const CalibrationReport& report) {
   for (std::size_t i = 0; i < report.names.size(); ++i) {
     const auto& found = report.poses.cameras[i];
     cameras.push_back({{"name", report.names[i]},
-                       {"station_from_camera", matrix_json(found.station_from_camera)},
+                       {"station_from_camera", pose_rows(found.station_from_camera)},
                        {"moved_mm", json_number(found.moved_mm)},
                        {"turned_deg", json_number(found.turned_deg)},
                        {"u95_mm", json_number(found.known_to_mm)},

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/geometry/pose_rows.h"
 #include "daemon/build_facts.h"
 #include "daemon/report/pair_report.h"
 #include "daemon/report/sizes_report.h"
@@ -23,11 +24,7 @@ Json coordinates(const Eigen::Vector3d& point) {
 
 Json matrix(const RigidTransform& transform) {
   Json rows = Json::array();
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) {
-      rows.push_back(json_number(transform.matrix()(row, column), 1e-9));
-    }
-  }
+  for (const double number : pose_rows(transform)) rows.push_back(json_number(number, 1e-9));
   return rows;
 }
 

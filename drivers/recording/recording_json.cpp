@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/geometry/pose_rows.h"
 #include "drivers/recording/depth_png.h"
 #include "drivers/recording/json_fields.h"
 
@@ -24,14 +25,6 @@ constexpr const char* kAdvice = "correct the file or record again";
 /// The largest distance of a camera from the station's origin, and the largest truth.
 constexpr double kLargestLength_mm = 1e5;
 
-json pose_to_json(const RigidTransform& pose) {
-  json numbers = json::array();
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) numbers.push_back(pose.matrix()(row, column));
-  }
-  return numbers;
-}
-
 json camera_to_json(const CameraDescription& camera) {
   const auto& lens = camera.geometry.intrinsics;
   json object = {{"id", camera.geometry.id},
@@ -44,7 +37,7 @@ json camera_to_json(const CameraDescription& camera) {
                  {"cx", lens.cx},
                  {"cy", lens.cy},
                  {"distortion", lens.distortion},
-                 {"station_from_camera", pose_to_json(camera.geometry.station_from_camera)}};
+                 {"station_from_camera", pose_rows(camera.geometry.station_from_camera)}};
   if (!camera.serial.empty()) object["serial"] = camera.serial;
   return object;
 }
@@ -57,9 +50,7 @@ bool is_plain_name(const std::string& name) {
 }
 
 RigidTransform take_pose(JsonFields& fields) {
-  const auto numbers = fields.numbers("station_from_camera", 16);
-  const Eigen::Matrix4d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
+  const Eigen::Matrix4d matrix = matrix_from_rows(fields.numbers("station_from_camera", 16));
   if (fields.first_fault()) return RigidTransform::Identity();
   if (!is_rigid(matrix)) {
     fields.fault("station_from_camera",

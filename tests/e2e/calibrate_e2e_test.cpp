@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "config/calibration_file.h"
+#include "core/geometry/pose_rows.h"
 #include "tests/support/background_program.h"
 #include "tests/support/openni_station.h"
 #include "tests/support/run_program.h"
@@ -40,11 +41,7 @@ std::string text_of(const fs::path& file) {
 }
 
 RigidTransform pose_of(const json& numbers) {
-  RigidTransform pose = RigidTransform::Identity();
-  for (int i = 0; i < 16; ++i) {
-    pose.matrix()(i / 4, i % 4) = numbers.at(static_cast<std::size_t>(i)).get<double>();
-  }
-  return pose;
+  return RigidTransform(matrix_from_rows(numbers));
 }
 
 /// How far two cameras put a place of a foot apart, mm, by these poses instead of the true ones.
@@ -76,8 +73,7 @@ std::map<std::string, RigidTransform> spoil_poses(const fs::path& recording) {
                         .toRotationMatrix() *
                     pose.linear();
     pose.translation() += Eigen::Vector3d(-4.0, 5.0, 2.0) * degrees;
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = pose.matrix();
-    camera["station_from_camera"] = std::vector<double>(rows.data(), rows.data() + rows.size());
+    camera["station_from_camera"] = pose_rows(pose);
     degrees = -degrees + 5.0;
   }
   std::ofstream(recording / "recording.json") << content.dump();

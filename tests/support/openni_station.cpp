@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/geometry/pose_rows.h"
+
 namespace instep::test {
 namespace {
 
@@ -30,8 +32,6 @@ BusSensor sensor_of(DepthCamera& camera, int frames) {
   }
   return sensor;
 }
-
-using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 /// As a TOML array, to the last bit.
 std::string list(const std::vector<double>& numbers) {
@@ -64,8 +64,8 @@ std::string OpenniStation::table_of(std::size_t camera, const std::string& pose)
 std::string OpenniStation::camera_tables() const {
   std::string tables;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
-    const RowMajor pose = geometries_[i].station_from_camera.matrix();
-    tables += table_of(i, "station_from_camera = " + list({pose.data(), pose.data() + 16}) + "\n");
+    const std::string pose = list(pose_rows(geometries_[i].station_from_camera));
+    tables += table_of(i, "station_from_camera = " + pose + "\n");
   }
   return tables;
 }

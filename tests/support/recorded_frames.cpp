@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "core/geometry/pose_rows.h"
+
 namespace instep {
 namespace {
 
@@ -42,9 +44,7 @@ CameraGeometry camera_from(const nlohmann::json& json) {
   lens.cx = json.at("cx");
   lens.cy = json.at("cy");
   if (json.contains("distortion")) lens.distortion = json.at("distortion");
-  const std::vector<double> pose = json.at("station_from_camera");
-  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(pose.data());
-  camera.station_from_camera = nearest_rigid(matrix);
+  camera.station_from_camera = nearest_rigid(matrix_from_rows(json.at("station_from_camera")));
   return camera;
 }
 

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/geometry/pose_rows.h"
 #include "drivers/recording/recording_reader.h"
 #include "tests/kernel/devices/usb_depth_camera.h"
 #include "tests/support/station_process.h"
@@ -32,10 +33,7 @@ std::string camera_table(const CameraDescription& camera, const std::string& ser
        << "\nintrinsics = { width = " << lens.width << ", height = " << lens.height
        << ", fx = " << lens.fx << ", fy = " << lens.fy << ", cx = " << lens.cx
        << ", cy = " << lens.cy << " }\nstation_from_camera = [";
-  const Eigen::Matrix4d pose = camera.geometry.station_from_camera.matrix();
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) toml << pose(row, column) << ", ";
-  }
+  for (const double number : pose_rows(camera.geometry.station_from_camera)) toml << number << ", ";
   toml << "]\n";
   return toml.str();
 }
