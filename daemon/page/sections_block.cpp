@@ -21,8 +21,7 @@ constexpr double kBelowSection = 128.0;
 constexpr double kBetween = 30.0;
 /// What the text under a narrow section needs.
 constexpr double kLeastWidth = 275.0;
-constexpr double kPointRadius = 1.6;
-constexpr double kOutlineStep = 4.0;
+constexpr SectionStyle kSectionStyle = {"section-tape", 4.0, 1.6};
 
 double width_of(const DrawnSection& panel, double per_mm) {
   return std::max(kLeastWidth, per_mm * (panel.drawing.right - panel.drawing.left));
@@ -53,11 +52,6 @@ double height_of(const std::vector<Row>& rows) {
   return height;
 }
 
-std::vector<Vector2d> outline(const std::vector<Vector2d>& points, const Vector2d& origin,
-                              double per_mm) {
-  return svg::thinned(svg::placed(points, origin, per_mm), kOutlineStep);
-}
-
 /// `middle` is that of the section on its base line.
 std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double per_mm) {
   const SectionDrawing& drawing = panel.drawing;
@@ -66,10 +60,7 @@ std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double 
   const Girth& girth = *panel.measure->girth;
   std::string text =
       svg::line(middle + Vector2d(-half, 6.0), middle + Vector2d(half, 6.0), "floor");
-  text += svg::polygon(outline(drawing.tape, origin, per_mm), "section-tape");
-  text += svg::polygon(outline(drawing.contour, origin, per_mm), "skin");
-  text += svg::dots(svg::placed(drawing.platform_points, origin, per_mm), kPointRadius, "platform");
-  text += svg::dots(svg::placed(drawing.seen_points, origin, per_mm), kPointRadius, "seen");
+  text += section_svg(drawing, origin, per_mm, kSectionStyle);
   text += svg::label(middle + Vector2d(0.0, 44.0), "section-name", as_words(panel.measure->id));
   text += svg::label(middle + Vector2d(0.0, 80.0), "section-number",
                      interval_text(panel.measure->value_mm, panel.measure->u95_mm));

@@ -8,6 +8,7 @@
 
 #include "daemon/page/foot_view.h"
 #include "daemon/page/tape_ring.h"
+#include "daemon/report/length_drawing.h"
 #include "daemon/report/number_text.h"
 #include "daemon/report/svg_text.h"
 
@@ -102,18 +103,13 @@ paper::Block legend(const FootScan& foot, const Vector2d& corner, double width) 
 
 std::string length_line(const FootScan& foot, const MeasureSet& measures, const FootView& view,
                         double y) {
-  const auto rear = foot.landmarks.find("pternion");
-  const auto front = foot.landmarks.find("acropodion");
-  const Measure* length = measures.find("foot_length");
-  const bool is_known = rear != foot.landmarks.end() && front != foot.landmarks.end() &&
-                        length != nullptr && rear->second.position_mm.allFinite() &&
-                        front->second.position_mm.allFinite();
-  if (!is_known) return {};
-  const Vector2d from(view(rear->second.position_mm).x(), y);
-  const Vector2d to(view(front->second.position_mm).x(), y);
+  const auto length = draw_length(foot, measures);
+  if (!length) return {};
+  const Vector2d from(view(length->rear).x(), y);
+  const Vector2d to(view(length->front).x(), y);
   return svg::measuring_line(from, to, 12.0, "rule") +
          svg::label((from + to) / 2.0 + Vector2d(0.0, 40.0), "length",
-                    "foot length " + interval_text(length->value_mm, length->u95_mm));
+                    "foot length " + length->interval);
 }
 
 std::string tapes_svg(const std::vector<TapeRing>& rings, const FootView& view) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/geometry/polygon.h"
-#include "daemon/report/number_text.h"
+#include "daemon/report/length_drawing.h"
 #include "daemon/report/svg_text.h"
 
 namespace instep {
@@ -68,15 +68,12 @@ std::string tapes(const MeasureSet& measures, const View& view) {
 
 std::string length_line(const FootScan& foot, const MeasureSet& measures, const View& view,
                         double bottom) {
-  const auto rear = foot.landmarks.find("pternion");
-  const auto front = foot.landmarks.find("acropodion");
-  const Measure* length = measures.find("foot_length");
-  if (rear == foot.landmarks.end() || front == foot.landmarks.end() || length == nullptr) return {};
-  const Vector2d from(view(rear->second.position_mm).x(), bottom + kLengthLineBelowPx);
-  const Vector2d to(view(front->second.position_mm).x(), from.y());
+  const auto length = draw_length(foot, measures);
+  if (!length) return {};
+  const Vector2d from(view(length->rear).x(), bottom + kLengthLineBelowPx);
+  const Vector2d to(view(length->front).x(), from.y());
   return svg::measuring_line(from, to, 5.0, "rule") +
-         svg::label((from + to) / 2.0 + Vector2d(0.0, 17.0), "length",
-                    interval_text(length->value_mm, length->u95_mm) + " mm");
+         svg::label((from + to) / 2.0 + Vector2d(0.0, 17.0), "length", length->interval + " mm");
 }
 
 std::string ball_line(const FootScan& foot, const View& view) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/geometry/polygon.h"
+#include "daemon/report/svg_text.h"
 
 namespace instep {
 namespace {
@@ -82,6 +83,17 @@ SectionDrawing draw_section(const FootScan& foot, const Measure& measure) {
   thin(drawing.seen_points);
   thin(drawing.platform_points);
   return drawing;
+}
+
+std::string section_svg(const SectionDrawing& drawing, const Vector2d& origin, double per_mm,
+                        const SectionStyle& style) {
+  const auto placed = [&](const std::vector<Vector2d>& points) {
+    return svg::placed(points, origin, per_mm);
+  };
+  return svg::polygon(svg::thinned(placed(drawing.tape), style.outline_step), style.tape) +
+         svg::polygon(svg::thinned(placed(drawing.contour), style.outline_step), "skin") +
+         svg::dots(placed(drawing.platform_points), style.point_radius, "platform") +
+         svg::dots(placed(drawing.seen_points), style.point_radius, "seen");
 }
 
 std::vector<DrawnSection> draw_sections(const FootScan& foot, const MeasureSet& measures) {

@@ -33,4 +33,15 @@ std::vector<DrawnSection> draw_sections(const FootScan& foot, const MeasureSet& 
 /// `measure` must have a girth and a plane; what is not finite is left out.
 SectionDrawing draw_section(const FootScan& foot, const Measure& measure);
 
+/// How a page draws its sections, in its own units.
+struct SectionStyle {
+  const char* tape = "";      ///< class of the tape
+  double outline_step = 0.0;  ///< corners of an outline nearer than this to another are left out
+  double point_radius = 0.0;
+};
+
+/// Tape, skin and points over each other; the base line's zero comes to lie at `origin`.
+std::string section_svg(const SectionDrawing& drawing, const Eigen::Vector2d& origin, double per_mm,
+                        const SectionStyle& style);
+
 }  // namespace instep

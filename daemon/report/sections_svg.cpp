@@ -25,8 +25,8 @@ constexpr double kPlanWidthPx = 560.0;
 constexpr double kPlanHeightPx = 230.0;
 constexpr double kSectionsTopPx = kPlanTopPx + 322.0;
 constexpr double kBelowSectionsPx = 150.0;
-constexpr double kOutlineStepPx = 1.5;
 constexpr double kRulerMm = 50.0;
+constexpr SectionStyle kSectionStyle = {"tape", 1.5, 1.3};
 
 constexpr const char* kStyle = R"(<style>
 text { font-family: "Source Serif 4", Georgia, "DejaVu Serif", serif; fill: #3b3028; }
@@ -57,10 +57,6 @@ double width_px(const DrawnSection& section) {
   return kPixelsPerMm * (section.drawing.right - section.drawing.left);
 }
 
-std::vector<Vector2d> placed(const std::vector<Vector2d>& points, const Vector2d& origin) {
-  return svg::placed(points, origin, kPixelsPerMm);
-}
-
 /// One section on its base line; `left` is where its leftmost point comes to lie.
 std::string panel_svg(const DrawnSection& panel, double left, double base_line) {
   const SectionDrawing& drawing = panel.drawing;
@@ -70,10 +66,7 @@ std::string panel_svg(const DrawnSection& panel, double left, double base_line) 
   const Girth& girth = *panel.measure->girth;
   std::string text = svg::line({left - 14.0, base_line + 3.0},
                                {left + width_px(panel) + 14.0, base_line + 3.0}, "floor");
-  text += svg::polygon(svg::thinned(placed(drawing.tape, origin), kOutlineStepPx), "tape");
-  text += svg::polygon(svg::thinned(placed(drawing.contour, origin), kOutlineStepPx), "skin");
-  text += svg::dots(placed(drawing.platform_points, origin), 1.3, "platform");
-  text += svg::dots(placed(drawing.seen_points, origin), 1.3, "seen");
+  text += section_svg(drawing, origin, kPixelsPerMm, kSectionStyle);
   text += svg::label({middle, top - 12.0}, "side", "dorsal");
   text += svg::label({middle, base_line + 20.0}, "side", "plantar");
   text += svg::label({left + 10.0, base_line + 20.0}, "side", "medial");
