@@ -34,17 +34,4 @@ Result<Deprojector> Deprojector::create(const CameraIntrinsics& intrinsics) {
   return deprojector;
 }
 
-void Deprojector::deproject(const std::vector<float>& depth_mm,
-                            std::vector<Eigen::Vector3f>& points) const {
-  if (depth_mm.size() != x_.size()) {
-    points.clear();
-    return;
-  }
-  points.resize(depth_mm.size());
-  for (std::size_t pixel = 0; pixel < depth_mm.size(); ++pixel) {
-    const float depth = depth_mm[pixel];
-    points[pixel] = {x_[pixel] * depth, y_[pixel] * depth, depth};
-  }
-}
-
 }  // namespace instep

@@ -248,11 +248,4 @@ Result<FusedDepth> TemporalFusion::result() const {
   return fused;
 }
 
-Result<FusedDepth> fuse_frames(const std::vector<DepthFrame>& frames,
-                               const TemporalSettings& settings) {
-  TemporalFusion fusion(settings);
-  for (const auto& frame : frames) (void)fusion.add(frame);  // it counts what it rejects
-  return fusion.result();
-}
-
 }  // namespace instep

@@ -91,8 +91,4 @@ class TemporalFusion {
   double movement_mm_ = 0.0;
 };
 
-/// The same for frames that are all there.
-Result<FusedDepth> fuse_frames(const std::vector<DepthFrame>& frames,
-                               const TemporalSettings& settings = {});
-
 }  // namespace instep

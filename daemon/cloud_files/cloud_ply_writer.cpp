@@ -4,7 +4,6 @@
 
 #include "daemon/cloud_files/little_endian.h"
 #include "daemon/cloud_files/shared_error_property.h"
-#include "drivers/files/file_bytes.h"
 
 namespace instep {
 namespace {
@@ -45,21 +44,6 @@ Result<std::string> cloud_to_ply(const PointCloud& cloud) {
     }
   }
   return bytes;
-}
-
-Result<void> write_cloud_ply(const PointCloud& cloud, std::ostream& stream) {
-  const auto bytes = cloud_to_ply(cloud);
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  stream.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-  stream.flush();
-  if (!stream) return fail(ErrorCode::kIo, "the cloud could not be written", "check the disk");
-  return {};
-}
-
-Result<void> write_cloud_ply(const PointCloud& cloud, const std::filesystem::path& path) {
-  const auto bytes = cloud_to_ply(cloud);
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  return write_file_bytes(path, *bytes);
 }
 
 }  // namespace instep

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <ostream>
 #include <string>
 
 #include "core/geometry/point_cloud.h"
@@ -14,9 +12,5 @@ namespace instep {
 /// the first only if the cloud knows it. Coordinates come back bit by bit. The cloud must be
 /// consistent (kInvalidInput).
 Result<std::string> cloud_to_ply(const PointCloud& cloud);
-
-/// The same to a stream (kIo if it fails) or, whole or not at all, to a file.
-Result<void> write_cloud_ply(const PointCloud& cloud, std::ostream& stream);
-Result<void> write_cloud_ply(const PointCloud& cloud, const std::filesystem::path& path);
 
 }  // namespace instep

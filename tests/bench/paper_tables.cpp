@@ -21,6 +21,7 @@
 #include "core/surface/triharmonic_rbf.h"
 #include "daemon/cloud_files/cloud_file.h"
 #include "daemon/cloud_files/cloud_ply_writer.h"
+#include "drivers/files/file_bytes.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/places.h"
 #include "tests/support/random_numbers.h"
@@ -234,7 +235,7 @@ void table_4() {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "foot.ply";
   const auto mesh = test::read_shape(test::trial_data() / "feet" / "retail_left.stl", 1000.0).mesh;
-  if (!write_cloud_ply(test::points_on(mesh, 200000, 0.0, 1), file)) return;
+  if (!write_file_bytes(file, *cloud_to_ply(test::points_on(mesh, 200000, 0.0, 1)))) return;
   for (const auto& method : methods()) {
     for (const auto& section : test::known_sections("feet")) {
       if (section.file != "retail_left.stl") continue;

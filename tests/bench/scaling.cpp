@@ -10,6 +10,7 @@
 
 #include "daemon/cloud_files/cloud_file.h"
 #include "daemon/cloud_files/cloud_ply_writer.h"
+#include "drivers/files/file_bytes.h"
 #include "tests/bench/scaling/timed_girth.h"
 #include "tests/bench/shared/girth_methods.h"
 #include "tests/bench/shared/line_plot.h"
@@ -67,7 +68,7 @@ TapePlane plane_over(const Subject& subject, std::uint64_t seed) {
 double reading_milliseconds(const PointCloud& cloud) {
   const test::TemporaryFolder folder;
   const auto file = folder.path() / "foot.ply";
-  if (!write_cloud_ply(cloud, file)) return std::nan("");
+  if (!write_file_bytes(file, *cloud_to_ply(cloud))) return std::nan("");
   return median_milliseconds([&] { (void)read_cloud_file(file, LengthUnit::kMillimetre); });
 }
 

@@ -8,6 +8,7 @@
 #include "core/fusion/fuse_views.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/rectangle.h"
+#include "tests/support/fused_frames.h"
 #include "tests/support/places.h"
 #include "tests/support/recorded_frames.h"
 

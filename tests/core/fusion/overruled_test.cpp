@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "core/fusion/surface_points.h"
+#include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 
 namespace instep {

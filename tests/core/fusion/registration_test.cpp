@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/fusion/surface_points.h"
+#include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 
 namespace instep {

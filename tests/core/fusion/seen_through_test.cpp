@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 
 namespace instep {

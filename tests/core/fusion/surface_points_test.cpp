@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 
 namespace instep {

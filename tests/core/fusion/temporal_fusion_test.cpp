@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 
 namespace instep {
