@@ -18,8 +18,7 @@ Result<Deprojector> Deprojector::create(const CameraIntrinsics& intrinsics) {
   for (int v = 0; v < intrinsics.height; ++v) {
     Eigen::Vector2d ideal = row_start;
     for (int u = 0; u < intrinsics.width; ++u) {
-      const Eigen::Vector2d bent((u - intrinsics.cx) / intrinsics.fx,
-                                 (v - intrinsics.cy) / intrinsics.fy);
+      const Eigen::Vector2d bent = distorted_at(intrinsics, u, v);
       const auto solved = undistorted(intrinsics, bent, u + v == 0 ? bent : ideal);
       if (!solved) {
         return fail(ErrorCode::kInvalidInput, "the distortion folds the image",

@@ -23,8 +23,7 @@ bool sound_centre(double centre, int side) {
 /// Walks from the middle of the image, where a lens distorts least, to a pixel, each step starting
 /// where the last one ended: a fold on the way is met and not jumped over.
 bool unfolds(const CameraIntrinsics& intrinsics, double u, double v) {
-  const Eigen::Vector2d target((u - intrinsics.cx) / intrinsics.fx,
-                               (v - intrinsics.cy) / intrinsics.fy);
+  const Eigen::Vector2d target = distorted_at(intrinsics, u, v);
   Eigen::Vector2d ideal = Eigen::Vector2d::Zero();
   for (int step = 1; step <= kProbesOnASide; ++step) {
     const auto next = undistorted(intrinsics, target * (1.0 * step / kProbesOnASide), ideal);

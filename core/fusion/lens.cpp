@@ -37,6 +37,10 @@ Eigen::Matrix2d distortion_jacobian(const CameraIntrinsics& intrinsics,
   return jacobian;
 }
 
+Eigen::Vector2d distorted_at(const CameraIntrinsics& intrinsics, double u, double v) {
+  return {(u - intrinsics.cx) / intrinsics.fx, (v - intrinsics.cy) / intrinsics.fy};
+}
+
 std::optional<Eigen::Vector2d> undistorted(const CameraIntrinsics& intrinsics,
                                            const Eigen::Vector2d& target,
                                            const Eigen::Vector2d& start) {

@@ -15,6 +15,9 @@ Eigen::Vector2d distorted(const CameraIntrinsics& intrinsics, const Eigen::Vecto
 Eigen::Matrix2d distortion_jacobian(const CameraIntrinsics& intrinsics,
                                     const Eigen::Vector2d& ideal);
 
+/// The distorted coordinates of a pixel.
+Eigen::Vector2d distorted_at(const CameraIntrinsics& intrinsics, double u, double v);
+
 /// The ideal coordinates that are distorted to `target`, by Newton's method from `start`. Nothing
 /// if the lens folds the image on the way or no solution is found to 1e-10.
 std::optional<Eigen::Vector2d> undistorted(const CameraIntrinsics& intrinsics,
