@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/foot/foot_lengths.h"
 #include "core/foot/foot_tapes.h"
@@ -15,6 +16,10 @@ namespace {
 // floor that leans by a third of a degree has no contact there to tell it.
 constexpr double kFloorDoubtMm = 0.5;
 constexpr double kFloorDoubtAtToesMm = 0.9;
+
+constexpr const char* kExtentSquareToAxis =
+    "extent of the outline up to 25/260 of the foot's length over the floor, at right angles to "
+    "the axis, ";
 
 std::string words_of(AxisRule axis) {
   return std::string(description(axis)) + " (" + std::string(name_of(axis, kAxisRules)) + ")";
@@ -69,9 +74,8 @@ GirthDefinition instep_definition(const FootScan& foot) {
           "midfoot and the point of the medial arch that makes it shortest"};
 }
 
-}  // namespace
-
-std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
+/// Lengths and breadths, as seen from above.
+std::vector<LengthDefinition> outline_definitions(const MeasuringRules& rules) {
   return {
       {"foot_length",
        foot_length,
@@ -84,16 +88,11 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
       {"foot_breadth_horizontal",
        foot_breadth_horizontal,
        {},
-       "extent of the outline up to 25/260 of the foot's length over the floor, at right angles to "
-       "the "
-       "axis, in 0.50-0.85 of that length"},
+       std::string(kExtentSquareToAxis) + "in 0.50-0.85 of that length"},
       {"heel_breadth",
        heel_breadth,
        {},
-       std::string("extent of the outline up to 25/260 of the foot's length over the floor, at "
-                   "right angles to "
-                   "the axis, ") +
-           description(rules.heel_breadth)},
+       std::string(kExtentSquareToAxis) + description(rules.heel_breadth)},
       {"ball_length",
        ball_length,
        {"metatarsale_tibiale"},
@@ -108,6 +107,11 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
        LengthDefinition::Kind::kLength,
        0.0,
        0.3},
+  };
+}
+
+std::vector<LengthDefinition> height_definitions() {
+  return {
       {"instep_height",
        instep_height,
        {},
@@ -134,6 +138,11 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
        "height over the floor of the first toe 15/260 of the foot's length behind its tip",
        LengthDefinition::Kind::kLength,
        kFloorDoubtAtToesMm},
+  };
+}
+
+std::vector<LengthDefinition> angle_definitions() {
+  return {
       {"toe1_angle",
        toe1_angle,
        {"metatarsale_tibiale"},
@@ -147,6 +156,15 @@ std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
        "there to where a ruler touches the little toe; positive towards the other toes",
        LengthDefinition::Kind::kAngle},
   };
+}
+
+}  // namespace
+
+std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules) {
+  auto definitions = outline_definitions(rules);
+  for (auto& definition : height_definitions()) definitions.push_back(std::move(definition));
+  for (auto& definition : angle_definitions()) definitions.push_back(std::move(definition));
+  return definitions;
 }
 
 std::vector<GirthDefinition> girth_definitions(const FootScan& foot) {
