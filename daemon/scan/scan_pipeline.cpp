@@ -51,6 +51,15 @@ Result<FusedScene> fuse_scene(const Capture& capture, std::vector<FusedDepth> im
   return fuse_views(views_of(capture, std::move(images)), fusion, on_all_processors, go_on);
 }
 
+AlignmentOptions alignment_of(const FusedScene& scene, const PipelineSettings& settings) {
+  AlignmentOptions alignment;
+  alignment.side = settings.side;
+  alignment.rules = settings.measures;
+  alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene.standing_height_mm};
+  alignment.is_plane_guessed = !scene.is_standing_height_known;
+  return alignment;
+}
+
 /// The part of the truth that is about one foot: see Capture::truth. It is known by the usual
 /// definitions only.
 std::map<std::string, double> truth_of(const Capture& capture, const FootScan& foot) {
@@ -150,18 +159,13 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   if (!scene) return tl::make_unexpected(with_what_was_noticed(scene.error(), warnings));
   add_scene_quality(*scene, quality);
   warnings.insert(warnings.end(), scene->warnings.begin(), scene->warnings.end());
+  const auto noticed = [&](const Error& failure) {
+    return tl::make_unexpected(with_what_was_noticed(failure, all_noticed(*scene, warnings)));
+  };
 
   if (!clock.begin("align", 0.6)) return cancelled();
-  AlignmentOptions alignment;
-  alignment.side = settings.side;
-  alignment.rules = settings.measures;
-  alignment.standing_plane = StandingPlane{Eigen::Vector3d::UnitZ(), scene->standing_height_mm};
-  alignment.is_plane_guessed = !scene->is_standing_height_known;
-  auto feet = align_feet(scene->feet, alignment);
-  if (!feet) {
-    const auto noticed = all_noticed(*scene, warnings);
-    return tl::make_unexpected(with_what_was_noticed(of_scan(feet.error()), noticed));
-  }
+  auto feet = align_feet(scene->feet, alignment_of(*scene, settings));
+  if (!feet) return noticed(of_scan(feet.error()));
 
   std::vector<ScanRecord> records;
   for (auto& aligned : *feet) {
@@ -169,10 +173,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
     aligned.warnings.insert(aligned.warnings.begin(), own.begin(), own.end());
     if (!clock.begin("landmarks", 0.7)) return cancelled();
     auto foot = find_landmarks_by(on_all_processors, std::move(aligned));
-    if (!foot) {
-      const auto noticed = all_noticed(*scene, warnings);
-      return tl::make_unexpected(with_what_was_noticed(foot.error(), noticed));
-    }
+    if (!foot) return noticed(foot.error());
 
     if (!clock.begin("girths", 0.7)) return cancelled();
     MeasureOptions options;
