@@ -77,6 +77,30 @@ Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettin
   return tl::make_unexpected(bad_frames_only(fault));
 }
 
+/// What went wrong in one capture: the fault of one camera, and all that have one.
+class CaptureFaults {
+ public:
+  void blame(const std::string& camera, const Error& error) {
+    // One that left shakes its whole bus, and with it the others.
+    const bool explains =
+        error.code == ErrorCode::kDeviceGone && first_ && first_->code != ErrorCode::kDeviceGone;
+    if (!first_ || explains) first_ = error;
+    at_fault_ += (at_fault_.empty() ? "" : ", ") + camera;
+  }
+
+  std::optional<Error> error() const {
+    std::optional<Error> error = first_;
+    if (at_fault_.find(',') != std::string::npos) {
+      error->message += " (cameras at fault: " + at_fault_ + ")";
+    }
+    return error;
+  }
+
+ private:
+  std::optional<Error> first_;
+  std::string at_fault_;
+};
+
 }  // namespace
 
 Error silent_camera(const std::string& camera) {
@@ -143,7 +167,32 @@ struct CameraSet::Gathering {
     changed.notify_all();
   }
 
-  bool complete() const {
+  /// Until all have brought theirs, one has failed or it is late; false if `go_on` denied first.
+  bool wait_for_all(steady_clock::time_point deadline, const std::function<bool()>& go_on) {
+    bool wanted = true;
+    std::unique_lock lock(mutex);
+    while (wanted && !all_brought() && !any_failed() && steady_clock::now() < deadline) {
+      changed.wait_for(lock, milliseconds(20));
+      lock.unlock();
+      wanted = go_on();
+      lock.lock();
+    }
+    return wanted;
+  }
+
+  /// For those that were interrupted.
+  void wait_for_late() {
+    std::unique_lock lock(mutex);
+    changed.wait_for(lock, kStopGrace, [&] { return all_brought(); });
+  }
+
+  bool is_complete() {
+    const std::lock_guard lock(mutex);
+    return all_brought();
+  }
+
+ private:
+  bool all_brought() const {
     return std::all_of(brought.begin(), brought.end(), [](const auto& one) { return !!one; });
   }
   bool any_failed() const {
@@ -193,6 +242,18 @@ Result<Frames> CameraSet::capture(const CaptureSettings& settings,
 Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
                                        steady_clock::time_point deadline,
                                        const std::function<bool()>& go_on) {
+  const auto gathering = ask_all(settings);
+  const bool wanted = gathering->wait_for_all(deadline, go_on);
+  if (!gathering->is_complete()) {
+    gathering->cancelled = true;
+    interrupt();
+    gathering->wait_for_late();
+  }
+  if (!wanted) return cancelled();
+  return frames_of(*gathering);
+}
+
+std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& settings) {
   const auto gathering = std::make_shared<Gathering>();
   gathering->brought.resize(workers_.size());
   for (std::size_t i = 0; i < workers_.size(); ++i) {
@@ -207,60 +268,35 @@ Result<Frames> CameraSet::capture_once(const CaptureSettings& settings,
       gathering->bring(i, std::move(frames));
     });
   }
+  return gathering;
+}
 
-  bool wanted = true;
-  std::unique_lock lock(gathering->mutex);
-  while (wanted && !gathering->complete() && !gathering->any_failed() &&
-         steady_clock::now() < deadline) {
-    gathering->changed.wait_for(lock, milliseconds(20));
-    lock.unlock();
-    wanted = go_on();
-    lock.lock();
-  }
-  if (!gathering->complete()) {
-    gathering->cancelled = true;
-    lock.unlock();
-    interrupt();
-    lock.lock();
-    gathering->changed.wait_for(lock, kStopGrace, [&] { return gathering->complete(); });
-  }
-  if (!wanted) return cancelled();
-
-  // What a camera says for having been interrupted is not its fault; with no other fault, those
-  // that were not done by the deadline are.
-  Frames all;
-  std::optional<Error> first_fault;
-  std::string at_fault;
-  const auto blame = [&](const std::string& id, const Error& error) {
-    // One that left shakes its whole bus, and with it the others.
-    const bool explains = error.code == ErrorCode::kDeviceGone && first_fault &&
-                          first_fault->code != ErrorCode::kDeviceGone;
-    if (!first_fault || explains) first_fault = error;
-    at_fault += (at_fault.empty() ? "" : ", ") + id;
-  };
-  const bool faults = std::any_of(
-      gathering->brought.begin(), gathering->brought.end(),
+/// What a camera says for having been interrupted is not its fault; with no other fault, those that
+/// were not done by the deadline are.
+Result<Frames> CameraSet::frames_of(Gathering& gathering) const {
+  const std::lock_guard lock(gathering.mutex);
+  const bool any_fault = std::any_of(
+      gathering.brought.begin(), gathering.brought.end(),
       [](const auto& one) { return one && !*one && one->error().code != ErrorCode::kCancelled; });
+  Frames all;
+  CaptureFaults faults;
   for (std::size_t i = 0; i < workers_.size(); ++i) {
-    auto& brought = gathering->brought[i];
+    auto& brought = gathering.brought[i];
     const std::string& id = workers_[i]->id();
     if (!brought) {
-      blame(id, silent_camera(id));
+      faults.blame(id, silent_camera(id));
     } else if (brought->has_value()) {
       std::move((*brought)->begin(), (*brought)->end(), std::back_inserter(all));
     } else if (brought->error().code != ErrorCode::kCancelled) {
-      blame(id, named_after_camera(id, brought->error()));
-    } else if (!faults) {
-      blame(id, {ErrorCode::kTimeout, Remedy::kRetry,
-                 "camera " + id + " did not bring its frames in time",
-                 "scan again, or raise capture.deadline_ms"});
+      faults.blame(id, named_after_camera(id, brought->error()));
+    } else if (!any_fault) {
+      faults.blame(id, {ErrorCode::kTimeout, Remedy::kRetry,
+                        "camera " + id + " did not bring its frames in time",
+                        "scan again, or raise capture.deadline_ms"});
     }
   }
-  if (!first_fault) return all;
-  if (at_fault.find(',') != std::string::npos) {
-    first_fault->message += " (cameras at fault: " + at_fault + ")";
-  }
-  return tl::make_unexpected(*first_fault);
+  if (const auto error = faults.error()) return tl::make_unexpected(*error);
+  return all;
 }
 
 void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,

@@ -67,6 +67,8 @@ class CameraSet {
   Result<std::vector<DepthFrame>> capture_once(const CaptureSettings& settings,
                                                std::chrono::steady_clock::time_point deadline,
                                                const std::function<bool()>& go_on);
+  std::shared_ptr<Gathering> ask_all(const CaptureSettings& settings);
+  Result<std::vector<DepthFrame>> frames_of(Gathering& gathering) const;
   void interrupt() const;
 
   std::vector<std::shared_ptr<Worker>> workers_;
