@@ -240,18 +240,9 @@ std::vector<HostileCase> unmeasurable_clouds() {
       {"InfiniteCoordinate", [] { return with_coordinate(kInfinity); }},
       {"MinusInfiniteCoordinate", [] { return with_coordinate(-kInfinity); }},
       {"AbsurdCoordinate", [] { return with_coordinate(1e300); }},
-      {"NaNNormal",
-       [] {
-         return with_normal({kNan, 0.0, 1.0});
-       }},
-      {"ZeroNormal",
-       [] {
-         return with_normal({0, 0, 0});
-       }},
-      {"NaNView",
-       [] {
-         return with_view({0.0, kNan, 1.0});
-       }},
+      {"NaNNormal", [] { return with_normal(Vector3d(kNan, 0.0, 1.0)); }},
+      {"ZeroNormal", [] { return with_normal(Vector3d(0, 0, 0)); }},
+      {"NaNView", [] { return with_view(Vector3d(0.0, kNan, 1.0)); }},
       {"NaNSigma", [] { return with_sigma(kNan); }},
       {"ZeroSigma", [] { return with_sigma(0.0); }},
       {"InfiniteSigma", [] { return with_sigma(kInfinity); }},
@@ -272,34 +263,13 @@ std::vector<HostileCase> unmeasurable_clouds() {
        [] {
          return no_body(std::vector<Vector3d>(5000, {3, 4, 1.3}));
        }},
-      {"CollinearAcross",
-       [] {
-         return line({0, 0, 1}, 0.0);
-       }},
-      {"CollinearInThePlane",
-       [] {
-         return line({1, 0, 0}, 0.0);
-       }},
-      {"CollinearOblique",
-       [] {
-         return line({0.6, 0, 0.8}, 0.0);
-       }},
-      {"CollinearAlmost",
-       [] {
-         return line({0.6, 0, 0.8}, 1e-6);
-       }},
-      {"CollinearButForRounding",
-       [] {
-         return line({0, 0, 1}, 3e-11);
-       }},
-      {"CoplanarAcross",
-       [=] {
-         return scattered(3000, {50, 0, 50}, middle);
-       }},
-      {"CoplanarAlmostAcross",
-       [=] {
-         return scattered(3000, {50, 1e-6, 50}, middle);
-       }},
+      {"CollinearAcross", [] { return line(Vector3d(0, 0, 1), 0.0); }},
+      {"CollinearInThePlane", [] { return line(Vector3d(1, 0, 0), 0.0); }},
+      {"CollinearOblique", [] { return line(Vector3d(0.6, 0, 0.8), 0.0); }},
+      {"CollinearAlmost", [] { return line(Vector3d(0.6, 0, 0.8), 1e-6); }},
+      {"CollinearButForRounding", [] { return line(Vector3d(0, 0, 1), 3e-11); }},
+      {"CoplanarAcross", [=] { return scattered(3000, Vector3d(50, 0, 50), middle); }},
+      {"CoplanarAlmostAcross", [=] { return scattered(3000, Vector3d(50, 1e-6, 50), middle); }},
       {"PlaneMisses", [] { return without_ring(cylinder(4000), level_plane(80)); }},
       {"PlaneJustMisses", [] { return without_ring(cylinder(4000), level_plane(30.5)); }},
       {"PlaneTouchesTheSide", [] { return without_ring(cylinder(4000), along_the_axis(40)); }},
@@ -310,18 +280,9 @@ std::vector<HostileCase> unmeasurable_clouds() {
 std::vector<HostileCase> ringless_clouds() {
   const Vector3d middle(0, 0, 1.3);
   return {
-      {"CoplanarInThePlane",
-       [=] {
-         return scattered(3000, {50, 50, 0}, middle);
-       }},
-      {"CoplanarAlmostInThePlane",
-       [=] {
-         return scattered(3000, {50, 50, 0.01}, middle);
-       }},
-      {"FilledCube",
-       [=] {
-         return scattered(5000, {40, 40, 40}, middle);
-       }},
+      {"CoplanarInThePlane", [=] { return scattered(3000, Vector3d(50, 50, 0), middle); }},
+      {"CoplanarAlmostInThePlane", [=] { return scattered(3000, Vector3d(50, 50, 0.01), middle); }},
+      {"FilledCube", [=] { return scattered(5000, Vector3d(40, 40, 40), middle); }},
       {"PlaneGrazesTheSide", [] { return without_ring(cylinder(4000), along_the_axis(39.5)); }},
       {"PlaneAlongTheAxis", [] { return without_ring(cylinder(4000), along_the_axis(0)); }},
   };

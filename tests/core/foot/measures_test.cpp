@@ -40,59 +40,6 @@ double dense_tape(const FootScan& foot, const TapePlane& tape) {
   return perimeter(convex_hull(std::move(slice)));
 }
 
-/// Extent of the body itself, by a very dense cloud, along the axis that was found.
-double dense_length(const FootScan& foot) {
-  double rear = 1e300;
-  double front = -1e300;
-  for (const auto& point : FootBody{260.0, 0.35}.points().positions) {
-    const double x = (foot.foot_from_input * point).x();
-    rear = std::min(rear, x);
-    front = std::max(front, x);
-  }
-  return front - rear;
-}
-
-TEST(Landmarks, StandWhereTheBodyProtrudes) {
-  const auto foot = prepared(FootBody{}.points());
-  const auto at = [&](const char* name) { return foot.landmarks.at(name).position_mm; };
-  // The body's own borders are known along its own axis, some degrees from the foot's.
-  EXPECT_NEAR(at("metatarsale_tibiale").x(), 0.70 * 260.0, 8.0);
-  EXPECT_NEAR(at("metatarsale_fibulare").x(), 0.62 * 260.0, 8.0);
-  EXPECT_GT(at("metatarsale_tibiale").y(), 30.0);
-  EXPECT_LT(at("metatarsale_fibulare").y(), -30.0);
-  EXPECT_NEAR(at("instep_point").x(), dense_length(foot) / 2.0, 0.2);
-  EXPECT_NEAR(at("instep_point").z(), FootBody{}.height(130.0), 2.0);
-  for (const auto& [name, landmark] : foot.landmarks) {
-    EXPECT_GT(landmark.confidence, 0.0) << name;
-    EXPECT_LE(landmark.confidence, 1.0) << name;
-    EXPECT_FALSE(landmark.rule.empty()) << name;
-  }
-}
-
-TEST(Landmarks, FallBackToTheAverageFootWhereTheBorderIsStraight) {
-  auto cloud = FootBody{}.points();
-  const auto foot = align_foot(cloud);
-  ASSERT_TRUE(foot);
-  auto straight = *foot;
-  for (auto& point : straight.cloud.positions) {
-    if (point.x() > 100.0 && point.x() < 240.0 && point.y() < 0.0) {
-      point.y() = std::max(point.y(), -25.0);
-    }
-  }
-  const auto found = find_landmarks(straight);
-  ASSERT_TRUE(found);
-  const auto& fibulare = found->landmarks.at("metatarsale_fibulare");
-  EXPECT_LT(fibulare.confidence, 0.35);
-  EXPECT_NEAR(fibulare.position_mm.x(), 0.63 * 260.0, 2.0);
-  EXPECT_FALSE(found->warnings.empty());
-}
-
-TEST(Landmarks, AreNotSoughtOnAFootThatIsNotAligned) {
-  const auto found = find_landmarks(FootScan{});
-  ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().code, ErrorCode::kInvalidInput);
-}
-
 TEST(Measures, AgreeWithTheBody) {
   const auto foot = prepared(FootBody{}.points());
   const auto set = measure_foot(foot);

@@ -5,9 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "tests/support/random_numbers.h"
+#include "tests/support/kriging_models.h"
 
 namespace instep {
 namespace {
@@ -16,77 +15,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
-
-HeightSamples wavy_samples(Index count, std::uint64_t seed) {
-  test::RandomNumbers random(seed);
-  HeightSamples samples{Eigen::Matrix2Xd(2, count), VectorXd(count), VectorXd(count)};
-  for (Index i = 0; i < count; ++i) {
-    const Vector2d place(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7));
-    samples.places.col(i) = place;
-    samples.heights[i] = 0.3 * place.x() + 0.1 * std::sin(5.0 * place.x() + 4.0 * place.y()) +
-                         0.02 * random.normal();
-    samples.variances[i] = random.uniform(1e-4, 9e-4);
-  }
-  return samples;
-}
-
-/// The kernels with the polynomials that they are solved with.
-struct Model {
-  Index terms;
-  HeightKernel kernel = HeightKernel::kCubic;
-
-  double at(const Vector2d& a, const Vector2d& b) const {
-    const double distance = (a - b).norm();
-    if (kernel == HeightKernel::kCubic) return std::pow(distance, 3);
-    return kernel == HeightKernel::kQuintic ? -std::pow(distance, 5) : std::pow(distance, 7);
-  }
-  std::optional<HeightKriging> of(const HeightSamples& samples) const {
-    return HeightKriging::of(samples, terms, kernel);
-  }
-};
-
-constexpr Model kModels[] = {
-    {3}, {6}, {10}, {6, HeightKernel::kQuintic}, {10, HeightKernel::kSeptic}};
-
-Eigen::RowVectorXd terms_at(const Vector2d& p, Index terms) {
-  const double x = p.x();
-  const double y = p.y();
-  Eigen::RowVectorXd all(10);
-  all << 1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
-  return all.head(terms);
-}
-
-/// Covariance of the samples for a roughness of one, with a noise of `ratio` times that of the
-/// least certain one.
-MatrixXd covariance_of(const HeightSamples& samples, double ratio, const Model& model) {
-  MatrixXd covariance(samples.size(), samples.size());
-  for (Index i = 0; i < samples.size(); ++i) {
-    for (Index j = 0; j < samples.size(); ++j) {
-      covariance(i, j) = model.at(samples.places.col(i), samples.places.col(j));
-    }
-    covariance(i, i) += ratio * samples.variances[i] / samples.variances.maxCoeff();
-  }
-  return covariance;
-}
-
-MatrixXd polynomial_block(const HeightSamples& samples, Index terms) {
-  MatrixXd block(samples.size(), terms);
-  for (Index i = 0; i < samples.size(); ++i) {
-    block.row(i) = terms_at(samples.places.col(i), terms);
-  }
-  return block;
-}
-
-/// All of eq. 7.
-MatrixXd full_system(const HeightSamples& samples, double ratio, const Model& model) {
-  const Index terms = model.terms;
-  const Index count = samples.size();
-  MatrixXd system = MatrixXd::Zero(count + terms, count + terms);
-  system.topLeftCorner(count, count) = covariance_of(samples, ratio, model);
-  system.topRightCorner(count, terms) = polynomial_block(samples, terms);
-  system.bottomLeftCorner(terms, count) = polynomial_block(samples, terms).transpose();
-  return system;
-}
+using test::covariance_of;
+using test::full_system;
+using test::kModels;
+using test::polynomial_block;
+using test::terms_at;
+using test::wavy_samples;
+using Model = test::KrigingModel;
 
 /// A sum of heights at some places.
 struct Sought {
@@ -232,125 +167,6 @@ TEST(HeightKriging, InfluenceIsWhatMovingASampleDoesToTheSum) {
       }
     }
   }
-}
-
-HeightSamples without(const HeightSamples& samples, Index gone) {
-  const Index count = samples.size() - 1;
-  HeightSamples rest{Eigen::Matrix2Xd(2, count), VectorXd(count), VectorXd(count)};
-  for (Index i = 0, kept = 0; i < samples.size(); ++i) {
-    if (i == gone) continue;
-    rest.places.col(kept) = samples.places.col(i);
-    rest.heights[kept] = samples.heights[i];
-    rest.variances[kept++] = samples.variances[i];
-  }
-  return rest;
-}
-
-/// How far a sample is off what the others tell, and what is expected of that, squared.
-struct LeftOut {
-  double off;
-  double expected;
-};
-
-LeftOut left_out_by_lu(const HeightSamples& samples, Index gone, double ratio, const Model& model) {
-  const auto rest = without(samples, gone);
-  VectorXd to_rest(rest.size() + model.terms);
-  for (Index j = 0; j < rest.size(); ++j) {
-    to_rest[j] = model.at(samples.places.col(gone), rest.places.col(j));
-  }
-  to_rest.tail(model.terms) = terms_at(samples.places.col(gone), model.terms).transpose();
-  const VectorXd shares = full_system(rest, ratio, model).fullPivLu().solve(to_rest);
-  return {samples.heights[gone] - shares.head(rest.size()).dot(rest.heights),
-          ratio - shares.dot(to_rest)};
-}
-
-TEST(HeightKriging, LeftOutSamplesAreOffAsByFittingTheOthersAlone) {
-  for (const Model& model : kModels) {
-    for (const double ratio : {1e-7, 1e-3}) {
-      auto samples = wavy_samples(25, 6);
-      samples.variances.setConstant(1e-4);
-      const auto kriging = model.of(samples).value();
-      const double left_out = kriging.left_out(kriging.solve(ratio).value());
-      double mean = 0.0;
-      for (Index i = 0; i < samples.size(); ++i) {
-        const auto one = left_out_by_lu(samples, i, ratio, model);
-        mean += one.off * one.off / one.expected / static_cast<double>(samples.size());
-      }
-      EXPECT_NEAR(left_out / mean, 1.0, 1e-4) << ratio;
-    }
-  }
-}
-
-TEST(HeightKriging, MissesASampleByAsMuchAsTheOthersAloneDo) {
-  for (const Model& model : kModels) {
-    for (const double ratio : {1e-7, 1e-3}) {
-      auto samples = wavy_samples(25, 6);
-      samples.variances.head(2).setConstant(1e-3);  // the scale, whichever is left out
-      const auto kriging = model.of(samples).value();
-      const Eigen::ArrayXd missed = kriging.missed(kriging.solve(ratio).value());
-      ASSERT_EQ(missed.size(), samples.size());
-      for (Index i = 0; i < samples.size(); ++i) {
-        const double off = left_out_by_lu(samples, i, ratio, model).off;
-        EXPECT_NEAR(missed[i], off, 1e-4 * std::abs(off) + 1e-9) << i << " " << ratio;
-      }
-    }
-  }
-}
-
-/// Of twice the log likelihood of the others, with the roughness that fits them best, if each in
-/// turn is left out: what is off by that is held against as many free readings as before.
-VectorXd gains_by_fitting_the_others(const HeightSamples& samples, double ratio,
-                                     const Model& model) {
-  const auto excess_of = [&](const HeightSamples& some) {
-    return model.of(some).value().solve(ratio).value().excess;
-  };
-  const auto free = static_cast<double>(samples.size() - model.terms);
-  const double excess = excess_of(samples);
-  VectorXd gains(samples.size());
-  for (Index i = 0; i < samples.size(); ++i)
-    gains[i] = free * std::log(excess / excess_of(without(samples, i)));
-  return gains;
-}
-
-TEST(HeightKriging, OddOneIsThatWithoutWhichTheOthersAreLikeliest) {
-  for (const Model& model : kModels) {
-    for (const double ratio : {1e-6, 1e-2}) {
-      for (const Index stray : {3, 17}) {
-        auto samples = wavy_samples(30, 9);
-        samples.variances.head(2).setConstant(1e-3);  // the scale, whichever is left out
-        samples.heights[stray] += 0.3;
-        const auto kriging = model.of(samples).value();
-        const auto odd = kriging.odd_one(kriging.solve(ratio).value(), 0.0);
-        const VectorXd gains = gains_by_fitting_the_others(samples, ratio, model);
-        Index likeliest = 0;
-        const double most = gains.maxCoeff(&likeliest);
-        EXPECT_EQ(odd.sample, likeliest) << ratio;
-        EXPECT_NEAR(odd.gain, most, 1e-5 * most) << ratio;
-      }
-    }
-  }
-}
-
-TEST(HeightKriging, NoneIsOddThatIsHarmlesslyOff) {
-  auto samples = wavy_samples(30, 10);
-  samples.heights = 0.2 * samples.places.row(0).transpose();
-  const auto gain_of = [&] {
-    const auto kriging = HeightKriging::of(samples, 6).value();
-    return kriging.odd_one(kriging.solve(1e-6).value(), 0.01).gain;
-  };
-  EXPECT_EQ(gain_of(), 0.0) << "on the polynomial";
-  samples.heights[4] += 0.005;
-  EXPECT_EQ(gain_of(), 0.0);
-  samples.heights[4] += 0.05;
-  EXPECT_GT(gain_of(), 30.0);
-}
-
-/// One that is left free takes all of the excess.
-TEST(HeightKriging, NoneIsOddOfFew) {
-  auto samples = wavy_samples(7, 12);
-  samples.heights[3] += 0.5;
-  const auto kriging = HeightKriging::of(samples, 6).value();
-  EXPECT_EQ(kriging.odd_one(kriging.solve(1e-6).value(), 0.0).gain, 0.0);
 }
 
 TEST(HeightKriging, LeverageIsThatOfTheOnlyPointBesideALine) {
