@@ -130,7 +130,7 @@ TEST_F(OpenniFault, UnplugEndsAWaitAtOnce) {  // D3: the library itself only let
     EXPECT_EQ(frame.error().remedy, Remedy::kReopen);
   });
   other.join();
-  EXPECT_LT(took, 1s);
+  EXPECT_LT(took, kLong / 2);
 }
 
 TEST_F(OpenniFault, NeverBlocksLongerThanDeadline) {  // D4
@@ -225,7 +225,7 @@ TEST_F(OpenniFault, AnInterruptEndsAStart) {
     camera->interrupt();
   });
   Result<void> started;
-  EXPECT_LT(time_of([&] { started = camera->start(); }), 800ms);
+  EXPECT_LT(time_of([&] { started = camera->start(); }), OpenniChild::kChangeLimit);
   other.join();
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error().code, ErrorCode::kCancelled);
