@@ -302,6 +302,14 @@ TEST(SectionsSvg, StandsWhateverItIsGiven) {
   EXPECT_EQ(test::fault_in_xml(sections_svg(foot, set)), "");
 }
 
+TEST(SectionsSvg, DrawNoLengthWithoutBothItsEnds) {
+  auto foot = small_foot();
+  const std::string drawn = R"(class="length")";
+  EXPECT_NE(sections_svg(foot, small_set()).find(drawn), std::string::npos);
+  foot.landmarks["acropodion"].position_mm.x() = kNan;
+  EXPECT_EQ(sections_svg(foot, small_set()).find(drawn), std::string::npos);
+}
+
 TEST(SvgText, EscapesWhatXmlDoesNotTake) {
   EXPECT_EQ(svg::escaped("a<b>&\"'\x01"), "a&lt;b&gt;&amp;&quot;&apos;");
 }
