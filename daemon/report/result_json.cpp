@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
-#include <optional>
 
 #include "core/geometry/pose_rows.h"
 #include "daemon/build_facts.h"
