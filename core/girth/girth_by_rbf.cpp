@@ -19,7 +19,7 @@ namespace {
 /// By how much the section of a body may be the larger, taken apart in another way.
 constexpr double kSameBody = 1.2;
 /// The doubt of a body alone against that of all together, which is blind to what they share.
-constexpr double kAboutAsSure = 1.4;
+constexpr double kAboutAsSure = 1.2;
 
 std::string alone_warning(std::size_t own_points, std::size_t points) {
   return "the body was measured alone, by " + std::to_string(own_points) + " of the " +

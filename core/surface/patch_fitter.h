@@ -35,6 +35,7 @@ class PatchFitter {
   using Surroundings = PatchPoints::Surroundings;
   using Members = PatchPoints::Members;
 
+  double narrowest_at(const Eigen::Vector3d& place, const Surroundings& here) const;
   std::optional<SurfacePatch> fit_in_space(const Surroundings& surroundings,
                                            const Eigen::Vector3d& place) const;
   std::optional<SurfacePatch> fit_plain(const Surroundings& surroundings,

@@ -26,6 +26,11 @@ constexpr std::size_t kFacingPoints = 8;
 /// lies on the other side of a thin part.
 constexpr double kFacing = 0.5;
 constexpr double kBehind = -0.3;
+/// The same of normals that tell of no crease, and how many, and which part of all, must tell of
+/// one.
+constexpr double kHardlyBent = 0.93;
+constexpr std::ptrdiff_t kFewestBent = 6;
+constexpr double kLeastBent = 0.05;
 /// With more than this part of the points on the other side, a part is thin.
 constexpr double kThin = 0.1;
 /// Points nearer to each other than this part of the spacing are copies of one.
@@ -89,6 +94,14 @@ bool PatchPoints::are_strung(const Surroundings& surroundings) const {
 
 bool PatchPoints::are_clear(const Surroundings& surroundings) const {
   return !told_ && surroundings.quiet && !are_strung(surroundings);
+}
+
+bool PatchPoints::are_bent(const Members& members) const {
+  const auto bent = std::count_if(members.all.begin(), members.all.end(), [&](std::size_t i) {
+    return points_[i].normal.dot(members.outward) < kHardlyBent;
+  });
+  const auto least = kLeastBent * static_cast<double>(members.all.size());
+  return bent >= kFewestBent && static_cast<double>(bent) >= least;
 }
 
 const CreaseRule& PatchPoints::crease_rule(bool clear) const {

@@ -73,6 +73,9 @@ class PatchPoints {
   /// sheets of a prism. O(points in a patch times the nearest).
   bool are_clear(const Surroundings& surroundings) const;
 
+  /// Whether so many normals lean away from the middle's that they may tell of a crease.
+  bool are_bent(const Members& members) const;
+
   /// `clear`: see there.
   const CreaseRule& crease_rule(bool clear) const;
 

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "core/girth/girth.h"
 #include "core/girth/plane_band.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/cases/case_bodies.h"
 #include "tests/support/cases/point_patterns.h"
 #include "tests/support/cylinder_tape.h"
 
@@ -104,6 +107,32 @@ TEST(CrowdedGirth, OfAVerySlantedPlaneIsOneLoop) {
   ASSERT_TRUE(girth) << girth.error().line();
   EXPECT_TRUE(girth->warnings.empty()) << girth->warnings.front();
   EXPECT_NEAR(girth->stretched_mm, test::true_girth(shape, plane), 0.01);
+}
+
+/// Averages of a noisy crowd would blunt an edge between two sheets. Measured: 0.033 mm short, 14
+/// of 16 within their intervals; 0.087 mm and 2 where patches there were as wide as elsewhere.
+TEST(CrowdedGirth, KeepsAnEdgeUnderLittleNoise) {
+  int held = 0;
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const test::CaseBody body = test::creased_body(seed);
+    test::RandomNumbers random(seed);
+    PointCloud cloud = body.crowd(200000, seed);
+    body.settle(cloud);
+    cloud = test::with_noise(std::move(cloud), seed % 2 == 0 ? 0.02 : 0.05, seed);
+    cloud.normals.clear();
+    for (int i = 0; i < 4; ++i) {
+      const TapePlane plane = body.plane(random);
+      const auto truth = body.lengths(plane);
+      const auto girth = girth_by_rbf(cloud, plane);
+      ASSERT_TRUE(truth && girth);
+      const double error = girth->stretched_mm - truth->stretched_mm;
+      held += std::abs(error) <= *girth->stretched_u95_mm;
+      sum += error;
+    }
+  }
+  EXPECT_LT(std::abs(sum / 16.0), 0.06);
+  EXPECT_GE(held, 11);
 }
 
 }  // namespace
