@@ -14,6 +14,7 @@
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -21,6 +22,7 @@ namespace {
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
 constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
+constexpr double kLargeBesideShare = 0.5;
 
 std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double factor) {
   for (auto& point : points) point *= factor;
@@ -74,6 +76,25 @@ tl::unexpected<Error> too_few(std::size_t points) {
   return fail(ErrorCode::kInsufficientData,
               "the cloud has only " + std::to_string(points) + " points",
               "give at least " + std::to_string(kFewestPoints) + " points of one foot");
+}
+
+/// Where another foot or a wall touches, too much of the border is nobody's.
+Result<void> check_beside(const StandingBody& body) {
+  if (body.gap_beside_mm == 0.0 || body.is_gap_seen || body.beside_share < kLargeBesideShare) {
+    return {};
+  }
+  return fail(ErrorCode::kInvalidInput,
+              "something large touches the foot, so that the points do not tell where it ends",
+              "move them apart and scan again, or give the points of one foot alone");
+}
+
+std::string beside(const StandingBody& body) {
+  if (body.is_gap_seen) {
+    return "something stands " + in_millimetres(body.gap_beside_mm) +
+           " beside the foot and is left out; it may hide skin: take it away and scan again";
+  }
+  return "something touches the foot, or nearly does; it is left out as far as the points tell it "
+         "from skin: take it away and scan again";
 }
 
 std::vector<std::string> doubts(const FootScan& foot) {
@@ -192,6 +213,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
     return too_few(foot.cloud.size());
   }
   const StandingBody body = standing_body(foot.cloud.positions, options.is_one_foot);
+  if (auto checked = check_beside(body); !checked) return tl::unexpected(checked.error());
   foot.cloud = foot.cloud.subset(body.points);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const auto plane = standing_plane(foot.cloud, options);
@@ -209,6 +231,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
                               std::to_string(std::lround(100.0 * body.apart_share)) +
                               " % of the points are left out");
   }
+  if (found && body.gap_beside_mm > 0.0) found->warnings.push_back(beside(body));
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/foot/things_beside.h"
 #include "core/geometry/principal_frame.h"
 #include "core/geometry/voxel_grid.h"
 #include "core/median.h"
@@ -55,6 +56,29 @@ struct TurnedBox {
 
 using Piece = std::vector<Vector3d>;
 
+/// Takes away what stands near, before the skin.
+void part_from_things(StandingBody& body, const std::vector<Vector3d>& points, bool is_one_foot) {
+  std::vector<Vector3d> places;
+  places.reserve(body.points.size());
+  for (const std::size_t point : body.points) places.push_back(points[point]);
+  const ThingsBeside things = things_beside(places, is_one_foot ? kPartShare : 1.0);
+  std::vector<std::size_t> left;
+  left.reserve(body.points.size());
+  auto thing = things.points.begin();
+  for (std::size_t i = 0; i < body.points.size(); ++i) {
+    if (thing != things.points.end() && *thing == i) {
+      ++thing;
+    } else {
+      left.push_back(body.points[i]);
+    }
+  }
+  body.points = std::move(left);
+  body.next_share = std::max(body.next_share, things.share);
+  body.gap_beside_mm = things.gap_mm;
+  body.beside_share = things.share;
+  body.is_gap_seen = things.is_gap_seen;
+}
+
 }  // namespace
 
 StandingBody standing_body(const std::vector<Vector3d>& points, bool is_one_foot) {
@@ -85,6 +109,7 @@ StandingBody standing_body(const std::vector<Vector3d>& points, bool is_one_foot
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (belongs[piece_of[i]]) body.points.push_back(i);
   }
+  part_from_things(body, points, is_one_foot);
   body.apart_share =
       1.0 - static_cast<double>(body.points.size()) / static_cast<double>(points.size());
   return body;
