@@ -9,8 +9,9 @@ namespace instep {
 namespace {
 
 /// Height of the triangle over its longest side, relative to that side, below which three points
-/// are taken for a line.
-constexpr double kFlattestTriangle = 1e-5;
+/// are taken for a line: one that is off by a six-thousandth of that side, 0.01 mm of 50, turns
+/// their plane by a degree.
+constexpr double kFlattestTriangle = 0.01;
 
 }  // namespace
 
@@ -26,8 +27,10 @@ Result<TapePlane> TapePlane::through(const Eigen::Vector3d& c1, const Eigen::Vec
   const double longest = std::max({(c2 - c1).norm(), (c3 - c2).norm(), (c1 - c3).norm()});
   const Eigen::Vector3d cross = (c2 - c1).cross(c3 - c1);
   if (!(cross.norm() > kFlattestTriangle * longest * longest)) {
-    return fail(ErrorCode::kInvalidInput, "the control points of the tape plane lie on one line",
-                "give three points that span a plane");
+    return fail(ErrorCode::kInvalidInput,
+                "the control points of the tape plane lie on one line, or so nearly that they "
+                "do not tell how the plane is turned round it",
+                "give three points that span a plane, the third one well beside the line");
   }
   TapePlane plane;
   plane.control_points_ = {c1, c2, c3};

@@ -32,6 +32,16 @@ TEST(TapePlane, RefusesPointsOnALine) {
   EXPECT_EQ(plane.error().code, ErrorCode::kInvalidInput);
 }
 
+/// 0.01 mm, to which people write coordinates, turns the plane by a degree where the third point is
+/// half a millimetre beside the line.
+TEST(TapePlane, RefusesPointsNearlyOnALine) {
+  for (const double beside : {0.01, 0.1, 0.4}) {
+    EXPECT_FALSE(TapePlane::through({0, 0, 0}, {50, 0, 0}, {25, beside, 0})) << beside;
+    EXPECT_FALSE(TapePlane::through({0, 0, 0}, {25, beside, 0}, {50, 0, 0})) << beside;
+  }
+  EXPECT_TRUE(TapePlane::through({0, 0, 0}, {50, 0, 0}, {25, 1, 0}));
+}
+
 TEST(TapePlane, RefusesEqualPoints) {
   EXPECT_FALSE(TapePlane::through({1, 1, 1}, {1, 1, 1}, {1, 1, 1}));
 }
