@@ -82,6 +82,12 @@ TEST(ToldNoise, OfHardlyAnyIsBelievedOfExactPoints) {
   EXPECT_NEAR(girth->stretched_mm, test::true_girth(ellipse(), oblique_plane()), 0.002);
 }
 
+TEST(ToldNoise, ThatIsAbsurdlySmallIsToldOfAsAPersonWould) {
+  const auto girth = girth_by_rbf(noisy_ellipse(4000, 0.3, 1), oblique_plane(), {1e-9});
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_TRUE(says(*girth, "more than a hundred times the noise"));
+}
+
 /// One side is seen at a grazing angle, and said to be: what is told of it keeps its proportion.
 TEST(ToldNoise, ThatIsUnevenStaysSoWhenItIsRaised) {
   for (const double part : {0.3, 1.0}) {
