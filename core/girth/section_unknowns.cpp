@@ -71,6 +71,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
       layers_near_plane(band, surface, near),
       0.0,
       {},
+      loops_beside(band, loops),
       {},
       zigzags_of(ContourCourse(measured.contour), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
@@ -100,9 +101,11 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   };
   // Folds are waves too.
   section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +
-                        unknowns.skin.contact + std::max(unknowns.finer.contact, unknowns.folds);
+                        unknowns.skin.contact + unknowns.beside.contact +
+                        std::max(unknowns.finer.contact, unknowns.folds);
   section.stretched_u95 = with_bends(section.stretched_u95, &UnseenBends::stretched_u95) +
-                          unknowns.skin.stretched + unknowns.finer.stretched;
+                          unknowns.skin.stretched + unknowns.beside.stretched +
+                          unknowns.finer.stretched;
 }
 
 }  // namespace instep

@@ -63,6 +63,13 @@ std::string warning_of(const MissedLength& finer, double unit_mm) {
          in_millimetres(unit_mm * finer.contact) + "; " + kSeeToFinerSkin;
 }
 
+std::string near_loop_warning(double length_mm, double gap_mm) {
+  return "the plane cuts another closed loop, " + in_millimetres(length_mm) + " long and " +
+         in_millimetres(gap_mm) +
+         " beside the section, which was left out but may be part of the body: look at it, or scan "
+         "from nearer";
+}
+
 tl::unexpected<Error> too_few_or_noisy() {
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane are too few or too noisy to tell the girth",
@@ -80,7 +87,7 @@ bool is_most_of_contact(double doubt, const MeasuredSection& section) {
 /// Whether a length is more doubtful than it should be, and nothing that is named explains it.
 bool is_unexplained(const SectionUnknowns& unknowns, const MeasuredSection& section,
                     double length) {
-  if (is_most_of(unknowns.skin.stretched, section)) return false;
+  if (is_most_of(unknowns.skin.stretched + unknowns.beside.stretched, section)) return false;
   if (is_most_of(unknowns.reach, section)) return false;
   const double notable = kNotableDoubt * length;
   const bool stretched =
@@ -126,7 +133,10 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
     if (so) warnings.emplace_back(warning);
   };
   for (std::size_t i = 1; i < loops.size(); ++i) {
-    warnings.push_back(other_loop_warning(band.unit_mm * loops[i].contour.length()));
+    const double length_mm = band.unit_mm * loops[i].contour.length();
+    const auto& gap = unknowns.beside.gaps[i - 1];
+    warnings.push_back(gap ? near_loop_warning(length_mm, band.unit_mm * *gap)
+                           : other_loop_warning(length_mm));
   }
   warn_if(has_notable_gap(band, evidence), kBridgedWarning);
   if (skin.is_any()) warnings.push_back(warning_of(skin, band.unit_mm));
@@ -190,6 +200,13 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
     return fail(ErrorCode::kInsufficientData,
                 std::string("points lead away from the section at the tape plane") + kNoSkinFound,
                 "take it away, or scan from nearer");
+  }
+  if (is_most_of(unknowns.beside.stretched, section)) {
+    return fail(
+        ErrorCode::kInsufficientData,
+        "beside the section at the tape plane lies another closed loop, so near that it may "
+        "be part of the body",
+        "scan from nearer, or give the points of one body alone");
   }
   return too_few_or_noisy();
 }

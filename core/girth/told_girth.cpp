@@ -220,7 +220,8 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.is_bridged = has_notable_gap(band, evidence);
   told.has_layers = unknowns.layers && unknowns.layers->are_all_round;
-  told.has_others_beside = unknowns.skin.is_any() || unexplained > kNotableUnexplained;
+  told.has_others_beside =
+      unknowns.skin.is_any() || unknowns.beside.contact > 0.0 || unexplained > kNotableUnexplained;
   told.of_few = unexplained > kMostUnexplained;
   told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);
   if (neck) told.girth.warnings.push_back(waist_warning(band.unit_mm * neck->width));
