@@ -80,6 +80,21 @@ Result<double> extent_of(const std::vector<Eigen::Vector3d>& positions, const st
   return box.sizes().maxCoeff();
 }
 
+/// The same without the outermost hundredth at each end of each axis; of fewer than a hundred
+/// points none is.
+double extent_of_most(const std::vector<Eigen::Vector3d>& positions) {
+  const double outermost = positions.size() < 100 ? 0.0 : 0.01;
+  double longest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> places;
+    places.reserve(positions.size());
+    for (const auto& position : positions) places.push_back(position(axis));
+    const double from = quantile(places, outermost);
+    longest = std::max(longest, quantile(std::move(places), 1.0 - outermost) - from);
+  }
+  return longest;
+}
+
 /// Brings normals to unit length; drops them all, with a note, if one is none.
 void settle_normals(CloudFile& read) {
   for (auto& normal : read.cloud.normals) {
@@ -187,7 +202,10 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
         "were not read: if any are missing, export it again",
         raw->surplus_bytes, read.cloud.size()));
   }
-  if (const auto doubt = doubt_of_unit(*settled, *extent)) read.notes.push_back(*doubt);
+  if (doubt_of_unit(*settled, *extent)) {
+    const double most = extent_of_most(read.cloud.positions) / scale;
+    if (const auto doubt = doubt_of_size(*settled, *extent, most)) read.notes.push_back(*doubt);
+  }
   settle_normals(read);
   if (!read.cloud.has_normals())
     drop_shared_errors(read, "they lie along normals, which it lacks; give these too");

@@ -106,4 +106,15 @@ std::optional<std::string> doubt_of_unit(LengthUnit unit, double extent) {
                      to_string(unit), advice_on_unit(extent));
 }
 
+std::optional<std::string> doubt_of_size(LengthUnit unit, double extent, double extent_of_most) {
+  const auto doubt = doubt_of_unit(unit, extent);
+  const double scale = millimetres_in(unit);
+  const bool is_too_large = extent * scale > kLargestLikely_mm;
+  if (!doubt || !is_too_large || doubt_of_unit(unit, extent_of_most)) return doubt;
+  return fmt::format(
+      "a few points lie far from all others, which span {:.4g} mm, and make the whole span {:.4g} "
+      "mm: take them away if they are strays",
+      extent_of_most * scale, extent * scale);
+}
+
 }  // namespace instep

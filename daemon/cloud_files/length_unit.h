@@ -29,4 +29,8 @@ Result<LengthUnit> settle_unit(LengthUnit unit, double extent, const std::string
 /// Nothing where the size is likely.
 std::optional<std::string> doubt_of_unit(LengthUnit unit, double extent);
 
+/// The same of a body of which most points span only `extent_of_most`: where that is likely, a few
+/// lie far away, and the unit is not what is wrong.
+std::optional<std::string> doubt_of_size(LengthUnit unit, double extent, double extent_of_most);
+
 }  // namespace instep

@@ -193,6 +193,16 @@ TEST_F(CloudFiles, NamesTheUnitOfAFootThatIsTooSmallOrTooLarge) {
 }
 
 /// As tables are written where a comma marks the decimals; six numbers would be points of no body.
+/// The unit is right: to say it again would not help.
+TEST_F(CloudFiles, NamesStraysWhereTheyAloneAreFarAway) {
+  std::string foot;
+  for (int i = 0; i <= 250; ++i) foot += std::to_string(i) + " 0 0\n";
+  const auto strayed = read("strayed.xyz", foot + "5000 0 0\n");
+  ASSERT_TRUE(strayed && strayed->notes.size() == 1U);
+  EXPECT_NE(strayed->notes[0].find("far from all others"), std::string::npos) << strayed->notes[0];
+  EXPECT_EQ(strayed->notes[0].find("--unit"), std::string::npos) << strayed->notes[0];
+}
+
 TEST_F(CloudFiles, ReadsDecimalCommas) {
   for (const std::string text :
        {"x;y;z\n1,5;-2,25;3\n4;5;6,125\n", "1,5 -2,25 3\n4 5 6,125\n",
