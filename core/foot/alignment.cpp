@@ -6,6 +6,7 @@
 
 #include "core/foot/foot_axis.h"
 #include "core/foot/full_size.h"
+#include "core/foot/normals_of_shape.h"
 #include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/shoe_last.h"
@@ -216,6 +217,11 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   if (auto checked = check_beside(body); !checked) return tl::unexpected(checked.error());
   foot.cloud = foot.cloud.subset(body.points);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
+  const bool drops_normals = normals_contradict_shape(foot.cloud);
+  if (drops_normals) {
+    foot.cloud.normals.clear();
+    foot.cloud.shared_errors_mm.clear();  // they lie along normals
+  }
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
@@ -230,6 +236,11 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
     found->warnings.push_back("the cloud holds more than one body: the largest is measured, " +
                               std::to_string(std::lround(100.0 * body.apart_share)) +
                               " % of the points are left out");
+  }
+  if (found && drops_normals) {
+    found->warnings.emplace_back(
+        "the normals that came with the points contradict the shape or point inwards, and were not "
+        "used: have them made anew, or leave them out of the file");
   }
   if (found && body.gap_beside_mm > 0.0) found->warnings.push_back(beside(body));
   return found;

@@ -37,7 +37,8 @@ struct AlignmentOptions {
 /// find_landmarks()'s business.
 ///
 /// Strays, what stands apart and what stands beside the foot are left out; a warning tells of large
-/// parts of one foot, and of what stands near it or touches it. A sole that was not seen is closed
+/// parts of one foot, and of what stands near it or touches it. Normals that contradict the shape
+/// are dropped, with a warning. A sole that was not seen is closed
 /// on the floor (close_open_sole()), with a warning. A leg above the foot, an open sole and a cut
 /// at any height above the instep are fine. Fails with kInsufficientData under 200 points and with
 /// kInvalidInput, saying why, for what is no whole foot or is touched by something half as large. A

@@ -1,0 +1,52 @@
+#include "core/foot/normals_of_shape.h"
+
+#include <gtest/gtest.h>
+
+#include "core/foot/alignment.h"
+#include "tests/support/foot_body.h"
+#include "tests/support/random_numbers.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+PointCloud foot_with_normals() {
+  PointCloud cloud = test::FootBody{260.0, 3.0}.points();
+  cloud.normals.clear();
+  // A foot is roundish across: that is near enough to normals for this.
+  for (const auto& point : cloud.positions) {
+    const Vector3d arm(0.0, point.y(), point.z() - 25.0);
+    cloud.normals.push_back(point.z() < 1.0 ? -Vector3d::UnitZ() : arm.normalized());
+  }
+  return cloud;
+}
+
+TEST(NormalsOfShape, AreThoseThatStandOnItOutwards) {
+  EXPECT_FALSE(normals_contradict_shape(foot_with_normals()));
+  EXPECT_FALSE(normals_contradict_shape(test::FootBody{260.0, 3.0}.points()));
+  EXPECT_FALSE(normals_contradict_shape({}));
+}
+
+TEST(NormalsOfShape, AreNotInvertedOnes) {
+  PointCloud cloud = foot_with_normals();
+  for (auto& normal : cloud.normals) normal = -normal;
+  EXPECT_TRUE(normals_contradict_shape(cloud));
+  const auto foot = align_foot(cloud);
+  ASSERT_TRUE(foot) << foot.error().line();
+  EXPECT_FALSE(foot->cloud.has_normals());
+  ASSERT_FALSE(foot->warnings.empty());
+  EXPECT_NE(foot->warnings.back().find("contradict the shape"), std::string::npos);
+}
+
+TEST(NormalsOfShape, AreNotRandomOnes) {
+  PointCloud cloud = foot_with_normals();
+  test::RandomNumbers random(5);
+  for (auto& normal : cloud.normals) {
+    normal = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+  }
+  EXPECT_TRUE(normals_contradict_shape(cloud));
+}
+
+}  // namespace
+}  // namespace instep
