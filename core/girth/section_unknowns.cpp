@@ -73,6 +73,7 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
       {},
       loops_beside(band, loops),
       {},
+      {},
       zigzags_of(ContourCourse(measured.contour), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
       doubt_of_edge(band, section.index)};
@@ -81,6 +82,9 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
   const bool is_layered = unknowns.layers && unknowns.layers->are_all_round;
   if (is_layered) return unknowns;
   unknowns.skin = unfollowed_skin(band, loops);
+  if (!unknowns.skin.is_any() && loops.size() == 1) {
+    unknowns.narrow = narrow_part_beside(band, section);
+  }
   unknowns.finer = missed_of_finer_skin(band, cloud, surface, section, measured);
   return unknowns;
 }
@@ -101,11 +105,11 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   };
   // Folds are waves too.
   section.contact_u95 = with_bends(section.contact_u95, &UnseenBends::contact_u95) +
-                        unknowns.skin.contact + unknowns.beside.contact +
+                        unknowns.skin.contact + unknowns.beside.contact + unknowns.narrow.contact +
                         std::max(unknowns.finer.contact, unknowns.folds);
   section.stretched_u95 = with_bends(section.stretched_u95, &UnseenBends::stretched_u95) +
                           unknowns.skin.stretched + unknowns.beside.stretched +
-                          unknowns.finer.stretched;
+                          unknowns.narrow.stretched + unknowns.finer.stretched;
 }
 
 }  // namespace instep

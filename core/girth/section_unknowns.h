@@ -6,6 +6,7 @@
 #include "core/girth/contour_zigzags.h"
 #include "core/girth/finer_skin.h"
 #include "core/girth/loops_beside.h"
+#include "core/girth/narrow_parts.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/section_evidence.h"
 #include "core/girth/section_loops.h"
@@ -27,6 +28,7 @@ struct SectionUnknowns {
   double reach = 0.0;  ///< of either length, to layers or to what scatters in a part
   UnfollowedSkin skin;
   LoopsBeside beside;
+  NarrowPart narrow;   ///< where no other skin is told of
   MissedLength finer;  ///< skin that the measured line does not follow
   /// The skin's, or made by strays beside it. They do not widen intervals here: which of the two it
   /// is a section without some points tells.

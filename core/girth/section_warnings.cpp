@@ -70,6 +70,13 @@ std::string near_loop_warning(double length_mm, double gap_mm) {
          "from nearer";
 }
 
+std::string warning_of(const NarrowPart& narrow, double unit_mm) {
+  return "points lie up to " + in_millimetres(unit_mm * narrow.off) +
+         " off one place of the section, as of a slot or a rib too narrow for a surface through "
+         "them: the contact length may be " +
+         in_millimetres(unit_mm * narrow.contact) + " longer; scan from nearer";
+}
+
 tl::unexpected<Error> too_few_or_noisy() {
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane are too few or too noisy to tell the girth",
@@ -87,14 +94,17 @@ bool is_most_of_contact(double doubt, const MeasuredSection& section) {
 /// Whether a length is more doubtful than it should be, and nothing that is named explains it.
 bool is_unexplained(const SectionUnknowns& unknowns, const MeasuredSection& section,
                     double length) {
-  if (is_most_of(unknowns.skin.stretched + unknowns.beside.stretched, section)) return false;
+  if (is_most_of(unknowns.skin.stretched + unknowns.beside.stretched + unknowns.narrow.stretched,
+                 section))
+    return false;
   if (is_most_of(unknowns.reach, section)) return false;
   const double notable = kNotableDoubt * length;
   const bool stretched =
       section.stretched_u95 > notable && !is_most_of(unknowns.finer.stretched, section);
   // Of a folded one the contact length was warned of.
   const bool contact = section.contact_u95 > notable && !(unknowns.folds > 0.0) &&
-                       !is_most_of_contact(unknowns.finer.contact, section);
+                       !is_most_of_contact(unknowns.finer.contact, section) &&
+                       !is_most_of_contact(unknowns.narrow.contact, section);
   return stretched || contact;
 }
 
@@ -140,6 +150,7 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
   }
   warn_if(has_notable_gap(band, evidence), kBridgedWarning);
   if (skin.is_any()) warnings.push_back(warning_of(skin, band.unit_mm));
+  if (unknowns.narrow.is_any()) warnings.push_back(warning_of(unknowns.narrow, band.unit_mm));
   warn_if(!skin.is_any() && unexplained > kNotableUnexplained,
           "points beside the section lie on no skin that closes: strays, a second layer or another "
           "body");
