@@ -55,18 +55,24 @@ std::vector<PointOff> points_off(const PlaneBand& band, const SectionLoop& secti
 
 /// Those beside the stretch that has the most; a stretch may go over the start of the section.
 std::vector<PointOff> crowd_of(const std::vector<PointOff>& off, double stretch, double length) {
-  std::vector<PointOff> most;
-  for (std::size_t first = 0; first < off.size(); ++first) {
-    std::vector<PointOff> crowd;
-    for (std::size_t k = 0; k < off.size(); ++k) {
-      const PointOff& point = off[(first + k) % off.size()];
-      const double way = point.way - off[first].way;
-      if ((way < 0.0 ? way + length : way) > stretch) break;
-      crowd.push_back(point);
+  const std::size_t count = off.size();
+  std::size_t best = 0;
+  std::size_t most = 0;
+  std::size_t last = 0;  // the first point beyond the stretch, counted on over the start
+  for (std::size_t first = 0; first < count; ++first) {
+    const auto way_to = [&](std::size_t i) {
+      return off[i % count].way + (i < count ? 0.0 : length) - off[first].way;
+    };
+    last = std::max(last, first);
+    while (last < first + count && way_to(last) <= stretch) ++last;
+    if (last - first > most) {
+      most = last - first;
+      best = first;
     }
-    if (crowd.size() > most.size()) most = std::move(crowd);
   }
-  return most;
+  std::vector<PointOff> crowd;
+  for (std::size_t i = best; i < best + most; ++i) crowd.push_back(off[i % count]);
+  return crowd;
 }
 
 }  // namespace
