@@ -162,7 +162,7 @@ std::vector<CaseClass> foot_classes(std::uint64_t draws) {
         foot_class(fmt::format(", {} points, 0.5 mm all round", count), Bar{},
                    {.count = count, .sigma_mm = 0.5, .noise = Noise::kAllRound, .draws = draws}));
   }
-  for (const double sigma : {0.0, 0.3}) {
+  for (const double sigma : {0.0, 0.1, 0.3}) {
     classes.push_back(
         foot_class(fmt::format(", 200000 random points, {:.1f} mm", sigma), Bar{},
                    {.count = 200000, .sigma_mm = sigma, .noise = Noise::kAlongNormals, .draws = 1},
