@@ -23,7 +23,7 @@ constexpr double kNearInGrains = 1.0;
 constexpr double kAsideBeyondEdge = 0.5;
 /// Skin that leans more, against upright, does not tell where it meets the plane.
 constexpr double kTooLeaning = 1.5;
-/// Of 29 slots and fins that were told wrongly without a word 24 have as many; even skin has one.
+/// Of 22 slots and fins that were told wrongly without a word 13 have as many; even skin has one.
 constexpr std::size_t kFewest = 4;
 
 bool is_leaning(const OrientedPoint& point) {
