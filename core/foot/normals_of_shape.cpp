@@ -6,7 +6,8 @@
 
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
-#include "core/stride.h"
+#include "core/picked.h"
+#include "core/some_of.h"
 
 namespace instep {
 namespace {
@@ -17,6 +18,8 @@ constexpr std::size_t kMostPlaces = 4000;
 constexpr std::size_t kFewestPlaces = 100;
 constexpr std::size_t kNeighbours = 12;
 constexpr double kFlat = 0.15;  ///< squared spread across a skin, of that along it
+/// The same across a line: of a sample that takes lines of a file it tells no skin.
+constexpr double kOnALine = 0.15;
 /// Within 60 degrees of the skin's own, of directions at random half are.
 constexpr double kStands = 0.5;
 constexpr double kLeastStanding = 0.65;
@@ -26,14 +29,10 @@ constexpr double kLeastOutwards = 0.35;
 
 bool normals_contradict_shape(const PointCloud& cloud) {
   if (!cloud.has_normals()) return false;
-  const std::size_t stride = stride_to_at_most(kMostPlaces, cloud.size());
-  std::vector<Vector3d> places;
+  const auto numbers = some_of(cloud.size(), kMostPlaces);
+  const std::vector<Vector3d> places = picked(cloud.positions, numbers);
   Vector3d middle = Vector3d::Zero();
-  for (std::size_t i = 0; i < cloud.size(); i += stride) {
-    places.push_back(cloud.positions[i]);
-    middle += cloud.positions[i];
-  }
-  middle /= static_cast<double>(places.size());
+  for (const auto& place : places) middle += place / static_cast<double>(places.size());
   const PointIndex index(places);
   double flat = 0.0;
   double standing = 0.0;
@@ -44,8 +43,8 @@ bool normals_contradict_shape(const PointCloud& cloud) {
       moments.add(places[other.index] - places[i]);
     }
     const SpreadAxes axes = moments.axes();
-    if (!are_flat(axes, kFlat)) continue;
-    const Vector3d& told = cloud.normals[i * stride];
+    if (!are_flat(axes, kFlat) || are_on_a_line(axes, kOnALine)) continue;
+    const Vector3d& told = cloud.normals[numbers[i]];
     flat += 1.0;
     if (std::abs(told.dot(axes.eigenvectors().col(0))) > kStands) standing += 1.0;
     if (told.dot(places[i] - middle) > 0.0) outwards += 1.0;

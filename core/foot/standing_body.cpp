@@ -73,7 +73,6 @@ void part_from_things(StandingBody& body, const std::vector<Vector3d>& points, b
     }
   }
   body.points = std::move(left);
-  body.next_share = std::max(body.next_share, things.share);
   body.gap_beside_mm = things.gap_mm;
   body.beside_share = things.share;
   body.is_gap_seen = things.is_gap_seen;

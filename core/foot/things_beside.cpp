@@ -11,7 +11,8 @@
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
-#include "core/stride.h"
+#include "core/picked.h"
+#include "core/some_of.h"
 
 namespace instep {
 namespace {
@@ -30,22 +31,14 @@ constexpr double kFacingShare = 0.6;
 constexpr double kUpright = 0.7;  ///< cosine of the way to a place with the skin's normal
 constexpr double kSkinMm = 5.0;   ///< round a place, that tells how the skin lies there
 constexpr double kSkinSpacings = 3.0;
-constexpr double kBulkMm = 40.0;  ///< round a place, that tells on which side the body is
+constexpr std::size_t kSkinPoints = 64;  ///< there at most
+constexpr double kBulkMm = 40.0;         ///< round a place, that tells on which side the body is
 constexpr std::size_t kBulkPoints = 3000;
 constexpr double kWidestOpening = 2.0 * std::numbers::pi / 3.0;  ///< round a place within the skin
 constexpr double kSeenGapSpacings = 1.4;
 
-Points every(const Points& points, std::size_t stride) {
-  Points some;
-  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
-  return some;
-}
-
 Points places_of(const Points& points, const Piece& piece, std::size_t most) {
-  const std::size_t stride = stride_to_at_most(most, piece.size());
-  Points places;
-  for (std::size_t i = 0; i < piece.size(); i += stride) places.push_back(points[piece[i]]);
-  return places;
+  return picked(points, picked(piece, some_of(piece.size(), most)));
 }
 
 /// The skin of a body, and on which side of it the body is.
@@ -53,7 +46,7 @@ class Skin {
  public:
   explicit Skin(Points points) : index_(std::move(points)) {
     const auto& all = index_.points();
-    bulk_ = every(all, stride_to_at_most(kBulkPoints, all.size()));
+    bulk_ = picked(all, some_of(all.size(), kBulkPoints));
     for (const auto& point : bulk_) middle_ += point / static_cast<double>(bulk_.size());
   }
 
@@ -69,7 +62,8 @@ class Skin {
     const double reach = std::max(kSkinMm, kSkinSpacings * own_spacing(index_, start));
     Points around;
     Moments moments;
-    for (const auto& other : index_.around(start, reach)) {
+    for (const auto& other : index_.nearest(start, kSkinPoints)) {
+      if (other.squared_distance > reach * reach) break;
       around.push_back(index_.points()[other.index] - start);
       moments.add(around.back());
     }
@@ -219,7 +213,7 @@ void hand_out(ThingsBeside& things, const Points& points, const Points& told,
 ThingsBeside things_beside(const Points& points, double most_share) {
   ThingsBeside things;
   if (points.size() < kFewPoints) return things;
-  const Points some = every(points, stride_to_at_most(kMostPoints, points.size()));
+  const Points some = picked(points, some_of(points.size(), kMostPoints));
   const SkinPieces parted(some);
   Telling telling(some, most_share);
   telling.look_at(parted.within_reach());

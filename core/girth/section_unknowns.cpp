@@ -80,7 +80,10 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
   unknowns.reach = reach_of_layers(band, unknowns.layers);
   // What lies off the one layer is the other one, which counts already.
   const bool is_layered = unknowns.layers && unknowns.layers->are_all_round;
-  if (is_layered) return unknowns;
+  if (is_layered) {
+    unknowns.beside.contact = unknowns.beside.stretched = 0.0;
+    return unknowns;
+  }
   unknowns.skin = unfollowed_skin(band, loops);
   if (!unknowns.skin.is_any() && loops.size() == 1) {
     unknowns.narrow = narrow_part_beside(band, section);

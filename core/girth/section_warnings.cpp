@@ -77,6 +77,21 @@ std::string warning_of(const NarrowPart& narrow, double unit_mm) {
          in_millimetres(unit_mm * narrow.contact) + " longer; scan from nearer";
 }
 
+tl::unexpected<Error> may_be_one_body() {
+  return fail(ErrorCode::kInsufficientData,
+              "beside the section at the tape plane lies another closed loop, so near that it may "
+              "be part of the body",
+              "scan from nearer, or give the points of one body alone");
+}
+
+tl::unexpected<Error> too_narrow() {
+  return fail(
+      ErrorCode::kInsufficientData,
+      "points lie off one place of the section at the tape plane, as of a slot or a rib too "
+      "narrow for a surface through them",
+      "scan from nearer");
+}
+
 tl::unexpected<Error> too_few_or_noisy() {
   return fail(ErrorCode::kInsufficientData,
               "the points near the tape plane are too few or too noisy to tell the girth",
@@ -102,9 +117,10 @@ bool is_unexplained(const SectionUnknowns& unknowns, const MeasuredSection& sect
   const bool stretched =
       section.stretched_u95 > notable && !is_most_of(unknowns.finer.stretched, section);
   // Of a folded one the contact length was warned of.
-  const bool contact = section.contact_u95 > notable && !(unknowns.folds > 0.0) &&
-                       !is_most_of_contact(unknowns.finer.contact, section) &&
-                       !is_most_of_contact(unknowns.narrow.contact, section);
+  const bool contact =
+      section.contact_u95 > notable && !(unknowns.folds > 0.0) &&
+      !is_most_of_contact(unknowns.finer.contact, section) &&
+      !is_most_of_contact(unknowns.beside.contact + unknowns.narrow.contact, section);
   return stretched || contact;
 }
 
@@ -212,19 +228,18 @@ tl::unexpected<Error> too_doubtful(const SectionUnknowns& unknowns,
                 std::string("points lead away from the section at the tape plane") + kNoSkinFound,
                 "take it away, or scan from nearer");
   }
-  if (is_most_of(unknowns.beside.stretched, section)) {
-    return fail(
-        ErrorCode::kInsufficientData,
-        "beside the section at the tape plane lies another closed loop, so near that it may "
-        "be part of the body",
-        "scan from nearer, or give the points of one body alone");
-  }
+  if (is_most_of(unknowns.beside.stretched, section)) return may_be_one_body();
+  if (is_most_of(unknowns.narrow.stretched, section)) return too_narrow();
   return too_few_or_noisy();
 }
 
 tl::unexpected<Error> too_folded(const SectionUnknowns& unknowns, const MeasuredSection& section) {
-  if (!is_most_of_contact(unknowns.finer.contact, section)) return too_few_or_noisy();
-  return fail(ErrorCode::kInsufficientData, kFinerSkin, kSeeToFinerSkin);
+  if (is_most_of_contact(unknowns.finer.contact, section)) {
+    return fail(ErrorCode::kInsufficientData, kFinerSkin, kSeeToFinerSkin);
+  }
+  if (is_most_of_contact(unknowns.beside.contact, section)) return may_be_one_body();
+  if (is_most_of_contact(unknowns.narrow.contact, section)) return too_narrow();
+  return too_few_or_noisy();
 }
 
 }  // namespace instep

@@ -160,8 +160,12 @@ void note_unsure_parts(const PlaneBand& band, const SectionUnknowns& unknowns, T
   told.zigzags = {band.unit_mm * unknowns.zigzags.way,
                   band.unit_mm * std::max(unknowns.zigzags.contact - unknowns.folds, 0.0),
                   band.unit_mm * unknowns.zigzags.stretched};
-  told.skin = {unknowns.skin.points, band.unit_mm * unknowns.skin.off,
-               band.unit_mm * unknowns.skin.contact, band.unit_mm * unknowns.skin.stretched};
+  const auto& skin = unknowns.skin;
+  const auto& beside = unknowns.beside;
+  const auto& narrow = unknowns.narrow;
+  told.skin = {skin.points, band.unit_mm * skin.off,
+               band.unit_mm * (skin.contact + beside.contact + narrow.contact),
+               band.unit_mm * (skin.stretched + beside.stretched + narrow.stretched)};
 }
 
 Result<void> check_whole(const std::vector<SectionLoop>& loops, const SectionEvidence& evidence) {

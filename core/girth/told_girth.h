@@ -19,7 +19,7 @@ struct ToldGirth {
   bool of_few = false;            ///< most of the points near the plane lie on no loop
   bool strays_near_skin = false;  ///< many of its patches left some out
   Zigzags zigzags;                ///< mm; of the contact length without what folds add
-  UnfollowedSkin skin;            ///< mm
+  UnfollowedSkin skin;            ///< mm; the lengths with those of near loops and narrow parts
   bool is_bridged = false;        ///< over a stretch without seen points
   bool has_layers = false;        ///< of skin, or of skin and sock
   /// Of the points near the plane more than a fiftieth lies on no loop, or leads away from one.

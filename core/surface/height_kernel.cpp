@@ -1,6 +1,5 @@
 #include "core/surface/height_kernel.h"
 
-
 namespace instep {
 namespace {
 

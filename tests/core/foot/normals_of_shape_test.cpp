@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "core/foot/alignment.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/random_numbers.h"
@@ -45,6 +48,24 @@ TEST(NormalsOfShape, AreNotRandomOnes) {
   for (auto& normal : cloud.normals) {
     normal = Vector3d(random.normal(), random.normal(), random.normal()).normalized();
   }
+  EXPECT_TRUE(normals_contradict_shape(cloud));
+}
+
+/// Of 200 sections of 90 points, one written after the other: every fifth lie in columns, which
+/// tell no skin.
+TEST(NormalsOfShape, AreThoseOfAFileThatIsWrittenSectionBySection) {
+  PointCloud cloud;
+  for (int section = 0; section < 200; ++section) {
+    for (int i = 0; i < 90; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / 90.0;
+      const Vector3d outward(std::cos(turn), 0.0, std::sin(turn));
+      cloud.positions.push_back((40.0 + 0.1 * section) * outward +
+                                1.3 * section * Vector3d::UnitY());
+      cloud.normals.push_back(outward);
+    }
+  }
+  EXPECT_FALSE(normals_contradict_shape(cloud));
+  for (auto& normal : cloud.normals) normal = -normal;
   EXPECT_TRUE(normals_contradict_shape(cloud));
 }
 
