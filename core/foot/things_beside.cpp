@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 using Piece = std::vector<std::size_t>;
 
-constexpr std::size_t kMostPoints = 10000;
+constexpr std::size_t kMostPoints = 20000;
 constexpr double kBodyShare = 0.4;
 constexpr double kFewPointsShare = 0.005;  ///< a piece smaller than this is a handful of strays
 constexpr std::size_t kFewPoints = 12;

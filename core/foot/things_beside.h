@@ -22,7 +22,7 @@ struct ThingsBeside {
 /// both stay, and so do pieces of more than `most_share` of the largest one, and what is smaller
 /// than 0.5 %. Where two touch, each point goes with the nearer of what was told apart.
 ///
-/// Of more than 10,000 points as many tell the pieces. O(n log n).
+/// Of more than 20,000 points as many tell the pieces. O(n log n).
 ThingsBeside things_beside(const std::vector<Eigen::Vector3d>& points, double most_share);
 
 }  // namespace instep
