@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kSureSide = 0.8;
-constexpr double kLargePieceShare = 0.1;  ///< a piece apart that is worth a word
-constexpr double kLargeBesideShare = 0.5;
+constexpr double kLargePieceShare = 0.1;   ///< a piece apart that is worth a word
+constexpr double kLargeBesideShare = 0.5;  ///< of the foot, that touches it
 
 std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double factor) {
   for (auto& point : points) point *= factor;

@@ -17,8 +17,8 @@ struct NarrowPart {
 };
 
 /// The one with the most points. Those off by no more than noise, the lean of the skin or an edge
-/// explains do not count, nor those far off, which may be another body's or strays. O(points of the
-/// band).
+/// explains do not count, nor those far off, which may be another body's or strays. O(n log n) for
+/// the points of the band.
 NarrowPart narrow_part_beside(const PlaneBand& band, const SectionLoop& section);
 
 }  // namespace instep

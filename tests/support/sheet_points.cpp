@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
 
 namespace instep::test {
@@ -33,6 +34,10 @@ std::vector<OrientedPoint> cylinder_columns(double radius, int columns, double p
     }
   }
   return points;
+}
+
+PatchFitter fitter_of(const std::vector<OrientedPoint>& points) {
+  return {points, PointIndex(positions_of(points)), {{Vector3d::Zero(), 0.01}}};
 }
 
 }  // namespace instep::test

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/surface/oriented_point.h"
+#include "core/surface/patch_fitter.h"
 
 namespace instep::test {
 
@@ -14,5 +15,8 @@ std::vector<OrientedPoint> plane_points(double sigma);
 
 /// Columns of points round a cylinder about z, further from each other than their points.
 std::vector<OrientedPoint> cylinder_columns(double radius, int columns, double pitch);
+
+/// With the same likely roughness everywhere.
+PatchFitter fitter_of(const std::vector<OrientedPoint>& points);
 
 }  // namespace instep::test

@@ -114,7 +114,7 @@ TEST_F(GirthByRbfOfTrialData, KeepsTheCornersOfScannedFeet) {
   EXPECT_GE(crowded.held, 4) << "of " << crowded.count;
 }
 
-// Measured: 0.11 mm, 34 of 36 within their intervals. Where no more waves were expected than
+// Measured: 0.10 mm, 34 of 36 within their intervals. Where no more waves were expected than
 // neighbours tell of, 0.17 mm, and 18.
 TEST_F(GirthByRbfOfTrialData, ExpectsWhatNoiseHidesOfScannedFeet) {
   Outcomes all;

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "core/surface/patch_fitter.h"
-#include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/sheet_points.h"
 
@@ -15,12 +14,9 @@ namespace {
 using Eigen::Vector3d;
 using OrientedPoints = std::vector<OrientedPoint>;
 using test::cylinder_columns;
+using test::fitter_of;
 using test::kSpacing;
 using test::plane_points;
-
-PatchFitter fitter_of(const OrientedPoints& points) {
-  return {points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}};
-}
 
 TEST(PatchFitter, LeavesOutStraysHighOverTheSheet) {
   auto points = plane_points(0.0);

@@ -17,12 +17,9 @@ namespace {
 using Eigen::Vector3d;
 using OrientedPoints = std::vector<OrientedPoint>;
 using test::cylinder_columns;
+using test::fitter_of;
 using test::kSpacing;
 using test::plane_points;
-
-PatchFitter fitter_of(const OrientedPoints& points) {
-  return {points, PointIndex(test::positions_of(points)), {{Vector3d::Zero(), 0.01}}};
-}
 
 /// Of a hexagonal prism along z, each wall `width` wide; walls begin at edges at whole sixths of a
 /// turn.
