@@ -218,10 +218,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   foot.cloud = foot.cloud.subset(body.points);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const bool drops_normals = normals_contradict_shape(foot.cloud);
-  if (drops_normals) {
-    foot.cloud.normals.clear();
-    foot.cloud.shared_errors_mm.clear();  // they lie along normals
-  }
+  if (drops_normals) foot.cloud.drop_normals();
   const auto plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));

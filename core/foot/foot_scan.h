@@ -52,6 +52,9 @@ struct Parting {
 struct Redraws {
   Parting parting;
   std::vector<RedrawnLandmarks> landmarks;
+  /// The same once more, with the local errors of the points drawn anew; none where the cloud knows
+  /// of none.
+  std::vector<RedrawnLandmarks> erring;
 };
 
 /// One foot in its own frame, ready to be measured.

@@ -76,17 +76,24 @@ std::optional<double> taken_here(const Definition& definition, const FootScan& f
   return taken_by(definition, foot, {foot.landmarks, RigidTransform::Identity()});
 }
 
+template <typename Definition>
+std::vector<std::optional<double>> taken_by_each(const Definition& definition, const FootScan& foot,
+                                                 const std::vector<RedrawnLandmarks>& redraws) {
+  std::vector<std::optional<double>> values;
+  for (const auto& redrawn : redraws) values.push_back(taken_by(definition, foot, redrawn));
+  return values;
+}
+
 /// From what the landmarks as found and each redraw of them give, those left out that give nothing;
 /// nothing where the landmarks as found do, or too few redraws are left.
 template <typename Definition>
 std::optional<double> u95_of(const Definition& definition, const FootScan& foot) {
   const auto told = taken_here(definition, foot);
   if (!told) return std::nullopt;
-  std::vector<std::optional<double>> values;
-  for (const auto& redrawn : foot.redraws.landmarks) {
-    values.push_back(taken_by(definition, foot, redrawn));
-  }
-  return u95_by_redraws(*told, values, foot.redraws.parting);
+  const auto values = taken_by_each(definition, foot, foot.redraws.landmarks);
+  const auto own = u95_by_redraws(*told, values, foot.redraws.parting);
+  const auto erring = u95_of_erring(values, taken_by_each(definition, foot, foot.redraws.erring));
+  return own && erring ? std::optional(std::hypot(*own, *erring)) : std::nullopt;
 }
 
 /// How far a measure moves from the landmarks as found to others, each for itself; nothing where

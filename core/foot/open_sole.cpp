@@ -93,7 +93,7 @@ void close_open_sole(FootScan& foot) {
     if (factor * foot.cloud.positions[i].z() < wall_height) low.push_back(i);
   }
   PointCloud walls = foot.cloud.subset(low);
-  walls.shared_errors_mm.clear();  // what is added has none
+  walls.drop_errors_along_normals();  // what is added has none
   for (auto& place : walls.positions) place *= factor;
   if (walls.size() < kNeighbours) return;
   if (!walls.has_normals()) walls.normals = wall_normals(walls.positions);

@@ -8,6 +8,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
 #include "core/fusion/wall_foot.h"
+#include "core/geometry/drawn_local_errors.h"
 #include "core/girth/length_doubt.h"
 
 namespace instep {
@@ -42,13 +43,24 @@ std::uint64_t hash_of(const Vector3d& point) {
   return hash;
 }
 
-/// None where the axis is not found again.
-RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices) {
+/// Moves the points by local errors as they may be.
+void err_anew(std::uint64_t draw, PointCloud& cloud) {
+  const auto errors = drawn_local_errors(cloud, draw);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    cloud.positions[i] += errors[i] * cloud.normals[i];
+  }
+}
+
+/// On some of the points, moved by such a draw of local errors; none where the axis is not found
+/// again.
+RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices,
+                            std::optional<std::uint64_t> draw) {
   FootScan part;
   part.side = foot.side;
   part.is_floor_known = foot.is_floor_known;
   part.rules = foot.rules;
   part.cloud = foot.cloud.subset(indices);
+  if (draw) err_anew(*draw, part.cloud);
   part.landmarks = foot.landmarks;
   // Along another axis its landmarks would be those of another foot.
   if (!realign(part)) return {};
@@ -99,6 +111,20 @@ double variance_share(const Parting& parting) {
   return parting.is_part_left_out ? (parts - 1.0) * (parts - 1.0) / parts : 1.0 / parts;
 }
 
+/// Where each redraw puts a landmark, along an axis of the foot.
+std::vector<std::optional<double>> redrawn_coordinates(const std::vector<RedrawnLandmarks>& redraws,
+                                                       const std::string& name, int axis) {
+  std::vector<std::optional<double>> values;
+  for (const auto& redrawn : redraws) {
+    const auto found = redrawn.landmarks.find(name);
+    values.push_back(
+        found == redrawn.landmarks.end()
+            ? std::nullopt
+            : std::optional((redrawn.foot_from_redrawn * found->second.position_mm)(axis)));
+  }
+  return values;
+}
+
 }  // namespace
 
 Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
@@ -109,10 +135,17 @@ Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
   std::vector<std::uint64_t> hashes;
   hashes.reserve(foot.cloud.size());
   for (const auto& point : foot.cloud.positions) hashes.push_back(hash_of(point));
-  redraws.landmarks.resize(partings * parts);
-  workers(redraws.landmarks.size(), [&](std::size_t redraw) {
+  const std::size_t count = partings * parts;
+  redraws.landmarks.resize(count);
+  redraws.erring.resize(foot.cloud.local_errors.empty() ? 0 : count);
+  workers(count + redraws.erring.size(), [&](std::size_t job) {
+    const std::size_t redraw = job % count;
     const auto taken = points_of(foot.cloud, hashes, redraws.parting, redraw);
-    redraws.landmarks[redraw] = redrawn_on(foot, taken);
+    if (job < count) {
+      redraws.landmarks[redraw] = redrawn_on(foot, taken, std::nullopt);
+    } else {
+      redraws.erring[redraw] = redrawn_on(foot, taken, redraw);
+    }
   });
   return redraws;
 }
@@ -142,6 +175,21 @@ std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& v
   return kStudent[std::min(degrees, kStudent.size()) - 1] * std::sqrt(variance);
 }
 
+std::optional<double> u95_of_erring(const std::vector<std::optional<double>>& values,
+                                    const std::vector<std::optional<double>>& erring) {
+  if (erring.empty()) return 0.0;
+  double squares = 0.0;
+  std::size_t degrees = 0;
+  for (std::size_t i = 0; i < erring.size(); ++i) {
+    if (!values[i] || !erring[i]) continue;
+    squares += std::pow(*erring[i] - *values[i], 2);
+    ++degrees;
+  }
+  if (degrees < kFewestDegrees) return std::nullopt;
+  return kStudent[std::min(degrees, kStudent.size()) - 1] *
+         std::sqrt(squares / static_cast<double>(degrees));
+}
+
 std::optional<double> u95_by_redraws(double told, const std::vector<std::optional<double>>& values,
                                      const Parting& parting) {
   const auto u95 = u95_of_redraws(values, parting);
@@ -157,21 +205,16 @@ std::optional<double> u95_by_redraws(double told, const std::vector<std::optiona
 }
 
 void set_radii(FootScan& foot) {
+  const auto& redraws = foot.redraws;
   for (auto& [name, landmark] : foot.landmarks) {
     double squared = 0.0;
     bool is_known = true;
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<std::optional<double>> values;
-      for (const auto& redrawn : foot.redraws.landmarks) {
-        const auto found = redrawn.landmarks.find(name);
-        values.push_back(
-            found == redrawn.landmarks.end()
-                ? std::nullopt
-                : std::optional((redrawn.foot_from_redrawn * found->second.position_mm)(axis)));
-      }
-      const auto own = u95_by_redraws(landmark.position_mm(axis), values, foot.redraws.parting);
-      is_known = is_known && own.has_value();
-      squared += std::pow(own.value_or(0.0), 2);
+      const auto values = redrawn_coordinates(redraws.landmarks, name, axis);
+      const auto own = u95_by_redraws(landmark.position_mm(axis), values, redraws.parting);
+      const auto erring = u95_of_erring(values, redrawn_coordinates(redraws.erring, name, axis));
+      is_known = is_known && own && erring;
+      squared += std::pow(own.value_or(0.0), 2) + std::pow(erring.value_or(0.0), 2);
     }
     if (is_known) {
       double shared = 0.0;

@@ -192,6 +192,12 @@ std::vector<ViewErrors> errors_of(const std::vector<WorkingView>& views) {
   return errors;
 }
 
+std::vector<Eigen::Vector3d> cameras_of(const std::vector<WorkingView>& views) {
+  std::vector<Eigen::Vector3d> cameras;
+  for (const auto& view : views) cameras.push_back(view.station_from_camera.translation());
+  return cameras;
+}
+
 void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& views,
                  const FusionSettings& settings, FusedScene& scene) {
   ThinSettings thinning;
@@ -199,6 +205,7 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   thinning.view_sigma_mm = scene.diagnostics.unexplained_mm / std::numbers::sqrt2;  // of each view
   auto [foot, shares] = thin(points, views.size(), thinning);
   foot.shared_errors_mm = shared_errors_of(foot, shares, errors_of(views));
+  foot.local_errors = local_errors_of(foot, shares, cameras_of(views), scene.diagnostics.bent);
   std::vector<std::string> warnings;
   const double coverage = coverage_of(foot);
   scene.diagnostics.points.push_back(foot.size());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fusion/bent_depths.h"
 #include "core/fusion/close_sole.h"
 #include "core/fusion/deprojector.h"
 #include "core/fusion/depth_frame.h"
@@ -74,6 +75,7 @@ struct FusionDiagnostics {
   double registration_after_mm = 0.0;   ///< the same by those that were used
   /// Of the distances between the views, what the noise of the points does not explain, one sigma.
   double unexplained_mm = 0.0;
+  BentDepths bent;            ///< the part of that in which neighbours are alike
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
   /// Of the view that was stretched most, by what share; nothing where lenses are trusted.
   std::optional<double> lenses_off;

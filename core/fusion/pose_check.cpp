@@ -182,6 +182,7 @@ Result<void> check_poses(const FusionSettings& settings, const Workers& workers,
   figures.registration_before_mm = registration->residual_before_mm;
   figures.registration_after_mm =
       are_refined ? registration->residual_after_mm : registration->residual_before_mm;
+  figures.bent = registration->bent;
   figures.unexplained_mm =
       are_refined ? registration->unexplained_after_mm : registration->unexplained_before_mm;
   return are_refined ? move_to_fit(*registration, workers, views) : Result<void>{};

@@ -284,6 +284,7 @@ Result<Registration> register_views(const std::vector<PosedCloud>& views,
     }
     const auto worst = worst_of(registration, moving, settings);
     if (!worst) {
+      registration.bent = bent_depths(moving, matches);
       tell_errors(moving, matches, settings, registration);
       break;
     }

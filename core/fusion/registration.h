@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/fusion/bent_depths.h"
 #include "core/fusion/shared_errors.h"
 #include "core/fusion/view_equations.h"
 #include "core/fusion/view_matches.h"
@@ -74,6 +75,7 @@ struct Registration {
   /// poses, lenses and depths before, bent depths and the like after.
   double unexplained_before_mm = 0.0;
   double unexplained_after_mm = 0.0;
+  BentDepths bent;  ///< as they show where they fit each other
 };
 
 /// Moves and stretches views against each other until their surfaces agree: all at once, each

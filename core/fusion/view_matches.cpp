@@ -53,7 +53,7 @@ void match_pair(const std::vector<MovingView>& views, std::size_t view, std::siz
     const double variance = std::pow(source.queries.sigma_mm[i], 2) +
                             std::pow(target.targets.sigma_mm[found[0].index], 2) +
                             kLeastSigmaMm * kLeastSigmaMm;
-    matches.push_back({view, other, i, station_from_other * point,
+    matches.push_back({view, other, i, found[0].index, station_from_other * point,
                        station_from_other.linear() * middle, middle.dot(point - partner),
                        variance});
   }

@@ -46,6 +46,7 @@ struct ViewMatch {
   std::size_t view;
   std::size_t other;
   std::size_t query;      ///< of `view`
+  std::size_t target;     ///< of `other`
   Eigen::Vector3d point;  ///< of `view`, corrected
   Eigen::Vector3d normal;
   double distance;  ///< along the normal, mm

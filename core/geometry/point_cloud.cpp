@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/picked.h"
@@ -53,6 +54,37 @@ tl::unexpected<Error> bad_point(std::size_t index, const std::string& what) {
               "repair or export the cloud again");
 }
 
+/// The first below `least`, beyond what an error may be, or no number.
+std::optional<std::size_t> first_wild_error(const std::vector<double>& errors, double least) {
+  const auto wild = std::find_if_not(errors.begin(), errors.end(), [least](double error_mm) {
+    return error_mm >= least && error_mm <= kLargestSigmaMm;
+  });
+  if (wild == errors.end()) return std::nullopt;
+  return static_cast<std::size_t>(wild - errors.begin());
+}
+
+Result<void> check_errors_along_normals(const PointCloud& cloud) {
+  const auto& [sigma, reach] = cloud.local_errors;
+  if (!cloud.has_normals() && !(cloud.shared_errors_mm.empty() && sigma.empty())) {
+    return fail(ErrorCode::kInvalidInput, "the points share errors along normals that they lack",
+                "give the normals too, or leave the errors out");
+  }
+  for (const auto& error : cloud.shared_errors_mm) {
+    if (const auto wild = first_wild_error(error, -kLargestSigmaMm)) {
+      return bad_point(*wild, "has a shared error that is no number, or beyond 100 mm");
+    }
+  }
+  if (sigma.empty()) return {};
+  if (!(reach > 0.0 && reach <= kLargestCoordinateMm)) {
+    return fail(ErrorCode::kInvalidInput, "the local errors of the points reach no distance",
+                "give their reach, above 0 mm, or leave the errors out");
+  }
+  if (const auto wild = first_wild_error(sigma, 0.0)) {
+    return bad_point(*wild, "has a local error that is no number, below 0 or beyond 100 mm");
+  }
+  return {};
+}
+
 }  // namespace
 
 bool PointCloud::stands_on_platform() const {
@@ -64,7 +96,8 @@ bool PointCloud::is_consistent() const {
       std::all_of(shared_errors_mm.begin(), shared_errors_mm.end(),
                   [this](const auto& error) { return error.size() == size(); });
   return are_errors_sized && empty_or_sized(normals, size()) && empty_or_sized(sigma_mm, size()) &&
-         empty_or_sized(view_directions, size()) && empty_or_sized(origins, size());
+         empty_or_sized(view_directions, size()) && empty_or_sized(origins, size()) &&
+         empty_or_sized(local_errors.sigma_mm, size());
 }
 
 void PointCloud::append(const PointCloud& other) {
@@ -81,11 +114,29 @@ void PointCloud::append(const PointCloud& other) {
     shared_errors_mm.emplace_back(size(), 0.0);
     shared_errors_mm.back().insert(shared_errors_mm.back().end(), error.begin(), error.end());
   }
+  if (!local_errors.empty() || !other.local_errors.empty()) {
+    auto& sigma = local_errors.sigma_mm;
+    sigma.resize(size());
+    sigma.insert(sigma.end(), other.local_errors.sigma_mm.begin(),
+                 other.local_errors.sigma_mm.end());
+    sigma.resize(size() + other.size());
+    local_errors.reach_mm = std::max(local_errors.reach_mm, other.local_errors.reach_mm);
+  }
   append_list(normals, other.normals, was_empty);
   append_list(sigma_mm, other.sigma_mm, was_empty);
   append_list(view_directions, other.view_directions, was_empty);
   positions.insert(positions.end(), other.positions.begin(), other.positions.end());
-  if (normals.empty()) shared_errors_mm.clear();
+  if (normals.empty()) drop_errors_along_normals();
+}
+
+void PointCloud::drop_normals() {
+  normals.clear();
+  drop_errors_along_normals();
+}
+
+void PointCloud::drop_errors_along_normals() {
+  shared_errors_mm.clear();
+  local_errors = {};
 }
 
 PointCloud PointCloud::subset(const std::vector<std::size_t>& indices) const {
@@ -98,6 +149,7 @@ PointCloud PointCloud::subset(const std::vector<std::size_t>& indices) const {
   for (const auto& error : shared_errors_mm) {
     part.shared_errors_mm.push_back(picked(error, indices));
   }
+  part.local_errors = {picked(local_errors.sigma_mm, indices), local_errors.reach_mm};
   return part;
 }
 
@@ -117,19 +169,7 @@ Result<void> check_cloud(const PointCloud& cloud) {
     return bad_point(i, cloud.positions[i].allFinite() ? "lies more than 100 m from the origin"
                                                        : "has a coordinate that is no number");
   }
-  if (!cloud.has_normals() && !cloud.shared_errors_mm.empty()) {
-    return fail(ErrorCode::kInvalidInput, "the points share errors along normals that they lack",
-                "give the normals too, or leave the errors out");
-  }
-  for (const auto& error : cloud.shared_errors_mm) {
-    const auto bad = std::find_if_not(error.begin(), error.end(), [](double error_mm) {
-      return std::abs(error_mm) <= kLargestSigmaMm;
-    });
-    if (bad != error.end()) {
-      return bad_point(static_cast<std::size_t>(bad - error.begin()),
-                       "has a shared error that is no number, or beyond 100 mm");
-    }
-  }
+  if (auto sound = check_errors_along_normals(cloud); !sound) return sound;
   if (!cloud.has_normals() && cloud.view_directions.empty() && !cloud.has_sigma()) return {};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.has_normals() && !(std::abs(cloud.normals[i].norm() - 1.0) < 1e-3)) {

@@ -17,6 +17,16 @@ enum class PointOrigin : std::uint8_t {
   kPlatform,  ///< put under a foot where no camera saw it: on the platform, or close above it
 };
 
+/// Errors that each point shares with its neighbours, such as those of a camera whose depths are
+/// bent: along the normals, and of two points that face alike and lie `d` apart correlated by
+/// exp(-(d / reach_mm)^2). Independent of what is else known of the points' errors.
+struct LocalErrors {
+  std::vector<double> sigma_mm;  ///< one standard deviation, 0 to kLargestSigmaMm; one a point
+  double reach_mm = 0.0;         ///< above 0 if there are any
+
+  bool empty() const { return sigma_mm.empty(); }
+};
+
 /// Points on a surface, in millimetres. Every list but `positions` is either empty (not known) or
 /// as long as `positions`; is_consistent() checks it.
 ///
@@ -42,6 +52,9 @@ struct PointCloud {
   /// other and of the noise that sigma_mm tells of. Only clouds with normals have any.
   std::vector<std::vector<double>> shared_errors_mm;
 
+  /// Empty where none are known. Only clouds with normals have any.
+  LocalErrors local_errors;
+
   std::size_t size() const { return positions.size(); }
   bool empty() const { return positions.empty(); }
   bool has_normals() const { return !normals.empty(); }
@@ -55,8 +68,13 @@ struct PointCloud {
   bool is_consistent() const;
 
   /// Adds the points of `other`. A list that only one of the two knows is dropped, but not
-  /// `origins`, whose absence has a meaning, nor shared errors, which are those of one cloud alone.
+  /// `origins`, whose absence has a meaning, nor shared and local errors: points that none are
+  /// known of have none. Local ones then reach as far as those of the two that reach further.
   void append(const PointCloud& other);
+
+  /// Without normals there is nothing that shared and local errors lie along.
+  void drop_normals();
+  void drop_errors_along_normals();
 
   /// The points at `indices`, in that order, with all that is known of them.
   PointCloud subset(const std::vector<std::size_t>& indices) const;
@@ -74,8 +92,8 @@ inline constexpr double kLargestSigmaMm = 100.0;
 
 /// The gate through which every cloud from outside passes: consistent lists, finite numbers,
 /// coordinates within kLargestCoordinateMm, unit normals, sigma above 0 and up to kLargestSigmaMm,
-/// shared errors within it. The first fault is reported with the index of its point. Cost: one
-/// pass.
+/// shared and local errors within it. The first fault is reported with the index of its point.
+/// Cost: one pass.
 Result<void> check_cloud(const PointCloud& cloud);
 
 }  // namespace instep

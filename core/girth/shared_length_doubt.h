@@ -8,8 +8,8 @@
 
 namespace instep {
 
-/// What the errors that many points share (PointCloud::shared_errors_mm) leave open of the lengths
-/// of a closed line: half-widths of 95 % intervals, mm.
+/// What the errors that points share, many of them (PointCloud::shared_errors_mm) or neighbours
+/// (LocalErrors), leave open of the lengths of a closed line: half-widths of 95 % intervals, mm.
 struct SharedLengthDoubt {
   double contact_u95 = 0.0;    ///< of the line itself
   double stretched_u95 = 0.0;  ///< of a tape round it
@@ -17,7 +17,8 @@ struct SharedLengthDoubt {
 
 /// Of a line round a body, in the plane's own coordinates; none for a cloud that knows of no such
 /// errors. To first order: a line gains what the skin moves outwards at each corner times what it
-/// turns there. Skin that was not seen errs as the seen skin beside it, from which it goes on.
+/// turns there. Local errors are waves that it follows, too, and is the longer for, by half their
+/// mean square slope (to second order; S. O. Rice). Skin that was not seen errs as the seen skin beside it, from which it goes on.
 /// The cloud passed check_cloud(). O(n log n), and O(log n + errors) a corner.
 SharedLengthDoubt shared_doubt_of(const std::vector<Eigen::Vector2d>& line, const TapePlane& plane,
                                   const PointCloud& cloud);

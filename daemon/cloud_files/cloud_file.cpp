@@ -109,8 +109,8 @@ void settle_normals(CloudFile& read) {
 }
 
 void drop_shared_errors(CloudFile& read, const std::string& why) {
-  if (read.cloud.shared_errors_mm.empty()) return;
-  read.cloud.shared_errors_mm.clear();
+  if (read.cloud.shared_errors_mm.empty() && read.cloud.local_errors.empty()) return;
+  read.cloud.drop_errors_along_normals();
   read.notes.push_back("the errors that the file's points share are not in the intervals: " + why);
 }
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "daemon/cloud_files/error_properties.h"
 #include "daemon/cloud_files/little_endian.h"
-#include "daemon/cloud_files/shared_error_property.h"
 
 namespace instep {
 namespace {
@@ -20,6 +20,10 @@ std::string header_of(const PointCloud& cloud) {
   for (std::size_t e = 0; e < cloud.shared_errors_mm.size(); ++e) {
     header += "property float " + shared_error_property(e) + "\n";
   }
+  if (!cloud.local_errors.empty()) {
+    header += std::string("property float ") + kLocalErrorProperty + "\n";
+    header += std::string("property float ") + kLocalErrorReachProperty + "\n";
+  }
   return header + "end_header\n";
 }
 
@@ -30,7 +34,7 @@ Result<std::string> cloud_to_ply(const PointCloud& cloud) {
     return fail(ErrorCode::kInvalidInput, "the lists of a cloud differ in length", "report this");
   }
   std::string bytes = header_of(cloud);
-  bytes.reserve(bytes.size() + cloud.size() * (41 + 4 * cloud.shared_errors_mm.size()));
+  bytes.reserve(bytes.size() + cloud.size() * (49 + 4 * cloud.shared_errors_mm.size()));
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) append_little_endian(bytes, cloud.positions[i][axis]);
     for (int axis = 0; axis < 3 && cloud.has_normals(); ++axis) {
@@ -41,6 +45,10 @@ Result<std::string> cloud_to_ply(const PointCloud& cloud) {
       append_little_endian(bytes, static_cast<std::uint8_t>(cloud.was_seen(i) ? 0 : 1));
     for (const auto& error : cloud.shared_errors_mm) {
       append_little_endian(bytes, static_cast<float>(error[i]));
+    }
+    if (!cloud.local_errors.empty()) {
+      append_little_endian(bytes, static_cast<float>(cloud.local_errors.sigma_mm[i]));
+      append_little_endian(bytes, static_cast<float>(cloud.local_errors.reach_mm));
     }
   }
   return bytes;

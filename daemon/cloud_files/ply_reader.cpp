@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "core/fusion/shared_errors.h"
+#include "daemon/cloud_files/error_properties.h"
 #include "daemon/cloud_files/ply_body.h"
 #include "daemon/cloud_files/ply_header.h"
-#include "daemon/cloud_files/shared_error_property.h"
 
 namespace instep {
 namespace {
@@ -66,6 +66,17 @@ Result<void> want_shared_errors(const PlyElement& element, const std::string& fi
   return {};
 }
 
+/// The columns of the errors that neighbours share, and of how far these reach: of no use without
+/// each other.
+Result<void> want_local_errors(const PlyElement& element, const std::string& file,
+                               std::vector<double>& errors, std::vector<double>& reaches,
+                               std::vector<PlyColumn>& columns) {
+  const bool has_errors = want_numbers(element, kLocalErrorProperty, errors, columns);
+  if (want_numbers(element, kLocalErrorReachProperty, reaches, columns) == has_errors) return {};
+  return damaged_file(file, fmt::format("of {} and {} one is missing, or no number a point",
+                                        kLocalErrorProperty, kLocalErrorReachProperty));
+}
+
 Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::string& file,
                            PointCloud& cloud) {
   std::vector<PlyColumn> columns;
@@ -78,9 +89,18 @@ Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::
   want_numbers(element, "origin", origins, columns);
   const auto wanted = want_shared_errors(element, file, cloud.shared_errors_mm, columns);
   if (!wanted) return wanted;
+  std::vector<double> reaches;
+  auto& local = cloud.local_errors;
+  if (auto told = want_local_errors(element, file, local.sigma_mm, reaches, columns); !told)
+    return told;
   if (auto good = body.read(element, columns, nullptr); !good) return good;
   for (const double origin : origins) {
     cloud.origins.push_back(origin == 1.0 ? PointOrigin::kPlatform : PointOrigin::kSeen);
+  }
+  // Of files put together from several, the longest: what reaches further leaves more open.
+  for (const double reach : reaches) {
+    if (!(reach > 0.0)) return damaged_file(file, "its local errors reach no distance");
+    local.reach_mm = std::max(local.reach_mm, reach);
   }
   return {};
 }

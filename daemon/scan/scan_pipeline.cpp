@@ -128,6 +128,7 @@ void add_scene_quality(const FusedScene& scene, std::map<std::string, double>& q
   quality["registration_before_mm"] = figures.registration_before_mm;
   quality["registration_after_mm"] = figures.registration_after_mm;
   quality["unexplained_mm"] = figures.unexplained_mm;
+  quality["depths_bent_mm"] = figures.bent.sigma_mm;
   quality["poses_off_mm"] = figures.poses_off_mm;
   if (figures.lenses_off) quality["lenses_off_percent"] = 100.0 * *figures.lenses_off;
 }

@@ -81,6 +81,32 @@ TEST(PointCloud, KeepsTheSharedErrorsOfEachPartApart) {
   EXPECT_FALSE(cloud.is_consistent());
 }
 
+TEST(PointCloud, KeepsLocalErrors) {
+  PointCloud cloud = two_points();
+  cloud.append(two_points());
+  EXPECT_TRUE(cloud.local_errors.empty());
+  PointCloud other = two_points();
+  other.local_errors = {{0.5, 0.6}, 7.0};
+  cloud.append(other);
+  cloud.append(two_points());
+  EXPECT_EQ(cloud.local_errors.sigma_mm, (std::vector<double>{0, 0, 0, 0, 0.5, 0.6, 0, 0}));
+  EXPECT_EQ(cloud.local_errors.reach_mm, 7.0);
+  other.local_errors.reach_mm = 5.0;
+  cloud.append(other);
+  EXPECT_EQ(cloud.local_errors.reach_mm, 7.0) << "the longer one";
+  ASSERT_TRUE(cloud.is_consistent());
+  const PointCloud part = cloud.subset({1, 5});
+  EXPECT_EQ(part.local_errors.sigma_mm, (std::vector<double>{0, 0.6}));
+  EXPECT_EQ(part.local_errors.reach_mm, 7.0);
+  PointCloud bare;
+  bare.positions = {{7, 8, 9}};
+  cloud.append(bare);
+  EXPECT_TRUE(cloud.local_errors.empty()) << "along what normals?";
+  cloud = two_points();
+  cloud.local_errors = {{0.5}, 7.0};
+  EXPECT_FALSE(cloud.is_consistent());
+}
+
 TEST(PointCloud, TurnsNormalsButDoesNotShiftThem) {
   RigidTransform target_from_source = RigidTransform::Identity();
   target_from_source.translate(Vector3d(10, 0, 0));
@@ -120,6 +146,25 @@ TEST(CheckCloud, RefusesWhatNoFootHolds) {
   EXPECT_TRUE(check_cloud(astray));
   astray.normals.clear();
   EXPECT_FALSE(check_cloud(astray)) << "along what normals?";
+  PointCloud bent = two_points();
+  bent.local_errors = {{0.5, 0.0}, 7.0};
+  EXPECT_TRUE(check_cloud(bent));
+  bent.local_errors.sigma_mm[1] = -0.1;
+  EXPECT_FALSE(check_cloud(bent));
+  bent.local_errors = {{0.5, std::nan("")}, 7.0};
+  EXPECT_FALSE(check_cloud(bent));
+  for (const double reach : {0.0, -1.0, std::nan(""), 1e30}) {
+    bent.local_errors = {{0.5, 0.5}, reach};
+    EXPECT_FALSE(check_cloud(bent)) << reach;
+  }
+  bent.local_errors.reach_mm = 7.0;
+  bent.normals.clear();
+  EXPECT_FALSE(check_cloud(bent)) << "along what normals?";
+  bent = two_points();
+  bent.local_errors = {{0.5, 0.5}, 7.0};
+  bent.shared_errors_mm = {{0.5, 0.5}};
+  bent.drop_normals();
+  EXPECT_TRUE(check_cloud(bent));
   PointCloud all_noise = two_points();
   all_noise.sigma_mm[1] = 1e30;
   EXPECT_FALSE(check_cloud(all_noise));

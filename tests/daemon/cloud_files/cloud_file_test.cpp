@@ -27,6 +27,7 @@ TEST_F(CloudFiles, WrittenCloudComesBackBitByBit) {
     cloud.origins.push_back(i % 3 == 0 ? PointOrigin::kPlatform : PointOrigin::kSeen);
   }
   cloud.shared_errors_mm = {std::vector<double>(1000, -0.375), cloud.sigma_mm};
+  cloud.local_errors = {cloud.sigma_mm, 7.5};
   const auto bytes = cloud_to_ply(cloud);
   ASSERT_TRUE(bytes) << bytes.error().line();
   const auto file = read("cloud.ply", *bytes);
@@ -35,6 +36,8 @@ TEST_F(CloudFiles, WrittenCloudComesBackBitByBit) {
   EXPECT_EQ(file->cloud.sigma_mm, cloud.sigma_mm);
   EXPECT_EQ(file->cloud.origins, cloud.origins);
   EXPECT_EQ(file->cloud.shared_errors_mm, cloud.shared_errors_mm);
+  EXPECT_EQ(file->cloud.local_errors.sigma_mm, cloud.local_errors.sigma_mm);
+  EXPECT_EQ(file->cloud.local_errors.reach_mm, 7.5);
   ASSERT_TRUE(file->cloud.has_normals());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     EXPECT_LT((file->cloud.normals[i] - cloud.normals[i]).norm(), 1e-6);
@@ -56,7 +59,7 @@ TEST_F(CloudFiles, ReadsAsciiPlyWithPropertiesOfAnyKindAndOrder) {
   EXPECT_EQ(file->cloud.sigma_mm, (std::vector<double>{0.1, 0.2, 0.30000000000000004}));
 }
 
-TEST_F(CloudFiles, SaysWhenSharedErrorsAreOfNoUse) {
+TEST_F(CloudFiles, SaysWhenErrorsAlongNormalsAreOfNoUse) {
   const std::string start =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty int x\n"
       "property int y\nproperty int z\nproperty float shared_error_1_mm\n";
@@ -65,6 +68,14 @@ TEST_F(CloudFiles, SaysWhenSharedErrorsAreOfNoUse) {
   EXPECT_TRUE(bare->cloud.shared_errors_mm.empty());
   ASSERT_EQ(bare->notes.size(), 1U);
   EXPECT_NE(bare->notes[0].find("along normals"), std::string::npos);
+  const auto local = read("local.ply",
+                          "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\n"
+                          "property int y\nproperty int z\nproperty int local_error_mm\n"
+                          "property int local_error_reach_mm\nend_header\n"
+                          "0 0 0 1 9\n90 0 0 1 9\n");
+  ASSERT_TRUE(local) << local.error().line();
+  EXPECT_TRUE(local->cloud.local_errors.empty());
+  EXPECT_EQ(local->notes, bare->notes);
   const auto mesh = read("mesh.ply", start +
                                          "property int nx\nproperty int ny\nproperty int nz\n"
                                          "element face 1\nproperty list uchar int vertex_index\n"
@@ -95,6 +106,32 @@ TEST_F(CloudFiles, ReadsSharedErrors) {
     ASSERT_FALSE(broken) << other;
     EXPECT_EQ(broken.error().code, ErrorCode::kCorruptData) << broken.error().line();
   }
+}
+
+/// One without the other says nothing; of several reaches the longest counts.
+TEST_F(CloudFiles, ReadsLocalErrorsWithTheirReach) {
+  const auto file_with = [this](const std::string& properties, const std::string& second) {
+    return read("local.ply",
+                "ply\nformat ascii 1.0\nelement vertex 2\nproperty int x\nproperty int y\n"
+                "property int z\nproperty int nx\nproperty int ny\nproperty int nz\n" +
+                    properties + "end_header\n1 2 3 0 0 1 8 0.5\n9 9 9 0 0 2 " + second + "\n");
+  };
+  const std::string reach = "property float local_error_reach_mm\n";
+  const std::string both = reach + "property double local_error_mm\n";
+  const auto file = file_with(both, "9 0");
+  ASSERT_TRUE(file) << file.error().line();
+  EXPECT_EQ(file->cloud.local_errors.sigma_mm, (std::vector<double>{0.5, 0.0}));
+  EXPECT_EQ(file->cloud.local_errors.reach_mm, 9.0);
+  const std::string without_reach = "property int a\nproperty double local_error_mm\n";
+  for (const auto& broken : {file_with(reach + "property double a\n", "9 0"),
+                             file_with(without_reach, "9 0"), file_with(both, "-1 0")}) {
+    ASSERT_FALSE(broken);
+    EXPECT_EQ(broken.error().code, ErrorCode::kCorruptData) << broken.error().line();
+  }
+  const auto wild = file_with(both, "9 -0.5");
+  ASSERT_FALSE(wild);
+  EXPECT_NE(wild.error().message.find("point 1 has a local error"), std::string::npos)
+      << wild.error().line();
 }
 
 TEST_F(CloudFiles, ReadsBinaryPlyOfBothByteOrders) {

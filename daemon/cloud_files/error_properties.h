@@ -10,4 +10,9 @@ inline std::string shared_error_property(std::size_t index) {
   return "shared_error_" + std::to_string(index + 1) + "_mm";
 }
 
+/// The properties of PointCloud::local_errors: of each point its own, and the reach, which is the
+/// same of all.
+inline constexpr const char* kLocalErrorProperty = "local_error_mm";
+inline constexpr const char* kLocalErrorReachProperty = "local_error_reach_mm";
+
 }  // namespace instep
