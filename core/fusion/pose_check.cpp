@@ -157,13 +157,13 @@ void warn_of_wrong_lenses(const Registration& registration, const std::vector<Wo
                            "calibrate its lens and its depth");
 }
 
-/// What no pose and no lens explains: the intervals take it for noise.
+/// What no pose and no lens explains: the intervals count it in.
 void warn_of_the_unexplained(const Registration& registration, FusedScene& scene) {
   if (registration.unexplained_after_mm < kWorthSayingMm) return;
   scene.warnings.push_back("what two cameras see of the same skin lies " +
                            in_millimetres(registration.unexplained_after_mm) +
-                           " apart, however they are fitted to each other, and the intervals take "
-                           "that for noise: calibrate their depths, ask the customer to stand "
+                           " apart, however they are fitted to each other, and the intervals are "
+                           "the wider for it: calibrate their depths, ask the customer to stand "
                            "still, or take more frames");
 }
 
