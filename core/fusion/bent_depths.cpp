@@ -14,8 +14,8 @@
 namespace instep {
 namespace {
 
-/// Of each pair of views so many matches are asked.
-constexpr std::size_t kMostOfPair = 800;
+/// As many products of two matches are asked of all pairs of views together: 12 ms of work.
+constexpr double kMostProducts = 2e6;
 /// Further off than so many standard deviations they are no measure of how others err.
 constexpr double kMostOff = 3.0;
 /// Skin that faces so much aside is another side of the body.
@@ -23,6 +23,8 @@ constexpr double kLeastAlike = 0.7;
 /// Ends of the classes of distances between two matches, mm.
 constexpr std::array<double, 11> kClasses = {2, 3, 4.5, 6, 9, 12, 18, 24, 36, 48, 72};
 constexpr std::size_t kFewestInClass = 50;
+/// So many times as much covariance as chance shows of independent matches.
+constexpr double kLeastSure = 3.0;
 /// Reaches that are tried.
 constexpr double kShortestReach = 2.0;
 constexpr double kLongestReach = 80.0;
@@ -50,7 +52,9 @@ std::map<PairOfViews, std::vector<DepthMatch>> depth_matches(
                                                 match.distance / seen,
                                                 match.variance / (seen * seen)});
   }
-  for (auto& [views_of, own] : pairs) own = picked(own, some_of(own.size(), kMostOfPair));
+  const auto most = static_cast<std::size_t>(
+      std::sqrt(2.0 * kMostProducts / static_cast<double>(std::max<std::size_t>(1, pairs.size()))));
+  for (auto& [views_of, own] : pairs) own = picked(own, some_of(own.size(), most));
   return pairs;
 }
 
@@ -84,20 +88,24 @@ void add_products(const std::vector<DepthMatch>& matches, double most, Covariogr
   }
 }
 
-/// Variance at no distance and reach of the bell that fits best.
-BentDepths bell_through(const Covariogram& covariogram) {
+/// The bell that fits best; none where it is no higher than chance may make it. `variance`: of a
+/// match.
+BentDepths bell_through(const Covariogram& covariogram, double variance) {
   BentDepths best;
-  double least = 0.0;  // of the squares that are left, against those of none
+  double least = 0.0;  // of the squares that are left, against those of no bell
   for (double reach = kShortestReach; reach <= kLongestReach; reach *= kReachStep) {
     double products = 0.0;
     double squares = 0.0;
+    double chance = 0.0;
     for (const auto& own : covariogram) {
       if (own.count < kFewestInClass) continue;
       const double alike = std::exp(-std::pow(own.distance() / reach, 2));
       products += alike * own.covariance();
       squares += alike * alike;
+      chance += alike * alike / static_cast<double>(own.count);
     }
-    if (!(products > 0.0) || !(-products * products / squares < least)) continue;
+    if (!(products > kLeastSure * variance * std::sqrt(chance))) continue;
+    if (!(-products * products / squares < least)) continue;
     least = -products * products / squares;
     best = {std::sqrt(products / squares), reach};
   }
@@ -123,10 +131,10 @@ BentDepths bent_depths(const std::vector<MovingView>& views,
   const double spread = kSigmaInMedians * median(std::move(in_sigmas));
   const double beyond_noise = (spread * spread - 1.0) * median(std::move(variances));
   if (!(beyond_noise > 0.0)) return {};
-  const double most = kMostOff * kSigmaInMedians * median(std::move(sizes));
+  const double sigma = kSigmaInMedians * median(std::move(sizes));
   Covariogram covariogram;
-  for (const auto& [views_of, own] : pairs) add_products(own, most, covariogram);
-  BentDepths bent = bell_through(covariogram);
+  for (const auto& [views_of, own] : pairs) add_products(own, kMostOff * sigma, covariogram);
+  BentDepths bent = bell_through(covariogram, sigma * sigma);
   bent.sigma_mm = std::min(bent.sigma_mm, std::sqrt(beyond_noise));
   return bent;
 }
