@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "core/geometry/polygon.h"
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
+#include "tests/support/smooth_field.h"
 
 namespace instep {
 namespace {
@@ -166,6 +168,160 @@ TEST(SharedLengthDoubt, IsInTheIntervalOfAGirth) {
   const double shared = kIn95 * 2.0 * std::numbers::pi * kErrorMm;
   EXPECT_NEAR(*girth->stretched_u95_mm, std::hypot(*alone->stretched_u95_mm, shared), 0.01);
   EXPECT_NEAR(*girth->contact_u95_mm, std::hypot(*alone->contact_u95_mm, shared), 0.01);
+}
+
+/// Errors that all points of a cloud share with their neighbours.
+PointCloud erring(PointCloud cloud, double sigma_mm, double reach_mm) {
+  cloud.local_errors = {std::vector<double>(cloud.size(), sigma_mm), reach_mm};
+  return cloud;
+}
+
+using Line = std::vector<Eigen::Vector2d>;
+
+std::vector<Eigen::Vector2d> outwards(const Line& line) {
+  std::vector<Eigen::Vector2d> normals;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto& before = line[(i + line.size() - 1) % line.size()];
+    const Eigen::Vector2d along = (line[(i + 1) % line.size()] - before).normalized();
+    normals.emplace_back(along.y(), -along.x());
+  }
+  return normals;
+}
+
+/// Two corners err the less alike the further apart they lie and face.
+Eigen::MatrixXd correlation(const Line& line, double reach_mm) {
+  const auto normals = outwards(line);
+  const auto count = static_cast<Eigen::Index>(line.size());
+  Eigen::MatrixXd alike(count, count);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    for (std::size_t j = 0; j < line.size(); ++j) {
+      const double apart = (line[i] - line[j]).norm() / reach_mm;
+      alike(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          std::exp(-apart * apart) * 0.5 * (1.0 + normals[i].dot(normals[j]));
+    }
+  }
+  return alike;
+}
+
+struct Longer {
+  double mean = 0.0;
+  double deviation = 0.0;
+
+  explicit Longer(const Eigen::VectorXd& by)
+      : mean(by.mean()), deviation(std::sqrt((by.array() - by.mean()).square().mean())) {}
+};
+
+/// By how much lines are longer whose corners lie off by errors at random.
+struct ErringLines {
+  Longer contact;
+  Longer stretched;
+};
+
+ErringLines erring_lines(const Line& line, double sigma_mm, double reach_mm) {
+  constexpr Eigen::Index kDraws = 2000;
+  const auto normals = outwards(line);
+  const Eigen::MatrixXd errors =
+      sigma_mm * test::correlated_draws(correlation(line, reach_mm), kDraws, 1);
+  Eigen::VectorXd contact(kDraws);
+  Eigen::VectorXd stretched(kDraws);
+  for (Eigen::Index draw = 0; draw < kDraws; ++draw) {
+    Line moved = line;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      moved[i] += errors(static_cast<Eigen::Index>(i), draw) * normals[i];
+    }
+    contact(draw) = perimeter(moved) - perimeter(line);
+    stretched(draw) = perimeter(convex_hull(moved)) - perimeter(line);
+  }
+  return {Longer(contact), Longer(stretched)};
+}
+
+/// So small against their reach that lines are longer by where they lie, not by waves.
+TEST(SharedLengthDoubt, OfLocalErrorsIsHowFarTheyScatterLengths) {
+  constexpr int kCorners = 360;
+  for (const auto& shape : {post(), test::elliptic_cylinder(60, 35)}) {
+    const auto section = test::true_section(shape, leaning(0.0), kCorners);
+    for (const double reach : {5.0, 15.0, 60.0}) {
+      const double sigma = 0.002 * reach;
+      const auto doubt =
+          shared_doubt_of(section, leaning(0.0), erring(points_on(shape), sigma, reach));
+      const auto truth = erring_lines(section, sigma, reach);
+      const double contact = kIn95 * truth.contact.deviation;
+      const double stretched = kIn95 * truth.stretched.deviation;
+      EXPECT_NEAR(doubt.contact_u95, contact, 0.1 * contact) << reach;
+      EXPECT_NEAR(doubt.stretched_u95, stretched, 0.1 * stretched) << reach;
+    }
+  }
+}
+
+/// Leaning planes cut skin aslant and go further by its errors. Of a common growth half the
+/// variance is left: on average over all pairs of places round a body two normals have nothing in
+/// common.
+TEST(SharedLengthDoubt, OfLocalErrorsIsOfTheSkinAsThePlaneCutsIt) {
+  const auto plane = leaning(40.0);
+  const double longer = test::true_girth(post(kErrorMm), plane) - test::true_girth(post(), plane);
+  const auto doubt = doubt_of_post(plane, erring(points_on(post()), kErrorMm, 300.0));
+  EXPECT_NEAR(doubt.contact_u95, kIn95 * longer / std::sqrt(2.0), 0.02 * kIn95 * longer);
+}
+
+/// The two ends of a plate, round each of which a tape turns by half a turn, are too far apart to
+/// err alike; of one end, where normals turn from one side to the other, (pi^2 + 4) / 2 is left of
+/// the variance, and not pi^2, as if its two sides erred alike.
+TEST(SharedLengthDoubt, KnowsThatTheSidesOfAThinPartErrApart) {
+  constexpr double kHalfWidth = 60.0;
+  constexpr double kHalfThickness = 8.0;
+  const auto plate = test::elliptic_cylinder(kHalfWidth, kHalfThickness);
+  const auto plane = *TapePlane::through({0, 0, 0}, {50, 0, 0}, {0, 50, 0});
+  Line section;  // as many corners as it turns, which rays from its middle would not give
+  for (int i = 0; i < kRays; ++i) {
+    const double facing = 2.0 * std::numbers::pi * i / kRays;
+    const Eigen::Vector2d arm(kHalfWidth * std::cos(facing), kHalfThickness * std::sin(facing));
+    section.emplace_back(Eigen::Vector2d(kHalfWidth, kHalfThickness).cwiseProduct(arm) /
+                         arm.norm());
+  }
+  const PointCloud cloud = erring(test::points_by_area(plate, 20000, -5, 5, 1), 0.01, 40.0);
+  const double truth = kIn95 * 0.01 * std::sqrt(std::pow(std::numbers::pi, 2) + 4.0);
+  EXPECT_NEAR(shared_doubt_of(section, plane, cloud).stretched_u95, truth, 0.06 * truth);
+}
+
+/// What is added to the half-width by waves, which grow with the square of the errors.
+double by_waves(const Line& section, double sigma_mm, double reach_mm) {
+  constexpr double kSmaller = 1e-3;
+  const auto doubt_of = [&](double sigma) {
+    return shared_doubt_of(section, leaning(0.0), erring(points_on(post()), sigma, reach_mm))
+        .contact_u95;
+  };
+  const double by_place = doubt_of(kSmaller * sigma_mm) / kSmaller;
+  return std::sqrt(std::pow(doubt_of(sigma_mm), 2) - by_place * by_place);
+}
+
+TEST(SharedLengthDoubt, CountsTheWavesThatALineFollows) {
+  const auto section = test::true_section(post(), leaning(0.0), 400);
+  for (const double sigma : {0.4, 0.8}) {
+    const auto truth = erring_lines(section, sigma, 8.0);
+    EXPECT_NEAR(by_waves(section, sigma, 8.0), truth.contact.mean, 0.1 * truth.contact.mean);
+  }
+}
+
+TEST(SharedLengthDoubt, AddsLocalErrorsToSharedOnesAsSquares) {
+  PointCloud cloud = erring(points_on(post()), kErrorMm, 60.0);
+  const double local = doubt_of_post(leaning(0.0), cloud).stretched_u95;
+  add_error(cloud, growth);
+  const double shared = kIn95 * 2.0 * std::numbers::pi * kErrorMm;
+  EXPECT_NEAR(doubt_of_post(leaning(0.0), cloud).stretched_u95, std::hypot(local, shared),
+              0.01 * shared);
+}
+
+TEST(SharedLengthDoubt, TakesUnseenSkinForAsLocallyWrongAsTheSeenBesideIt) {
+  PointCloud cloud = points_on(post());
+  PointCloud sole = cloud;
+  cloud = erring(std::move(cloud), kErrorMm, 15.0);
+  const auto all_seen = doubt_of_post(leaning(0.0), cloud);
+  sole.origins.assign(sole.size(), PointOrigin::kPlatform);
+  cloud.append(sole);
+  const auto doubt = doubt_of_post(leaning(0.0), cloud);
+  EXPECT_GT(doubt.contact_u95, kErrorMm);
+  EXPECT_NEAR(doubt.stretched_u95, all_seen.stretched_u95, 1e-9);
+  EXPECT_NEAR(doubt.contact_u95, all_seen.contact_u95, 1e-9);
 }
 
 }  // namespace
