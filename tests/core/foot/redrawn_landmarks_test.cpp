@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/foot/alignment.h"
@@ -12,6 +13,7 @@
 namespace instep {
 namespace {
 
+using Eigen::Vector3d;
 using Values = std::vector<std::optional<double>>;
 
 TEST(Redraws, GiveStudentsIntervalOfTheWhole) {
@@ -100,6 +102,100 @@ TEST(Redraws, AreTheSameByWhateverWorkers) {
   for (const auto& [name, landmark] : in_turn.landmarks) {
     EXPECT_EQ(other.landmarks.at(name).position_mm, landmark.position_mm) << name;
     EXPECT_EQ(other.landmarks.at(name).radius_mm, landmark.radius_mm) << name;
+  }
+}
+
+TEST(Redraws, TellByPairsWhatErringLeavesOpen) {
+  const Values values{5.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+  const Values erring{7.0, 1.0, 2.0, 1.0, 6.0, 5.0, 6.0, 5.0};
+  // A root mean square of 1.414, and 2.306 of it for eight degrees of freedom.
+  EXPECT_NEAR(u95_of_erring(values, erring).value(), 2.306 * std::sqrt(2.0), 0.01);
+}
+
+/// What is off by as much in all pairs leaves as much open: it is no error of their mean.
+TEST(Redraws, TakeWhatAllPairsAreOffForErring) {
+  const Values values{1.0, 2.0, 3.0, 4.0};
+  const Values erring{1.5, 2.5, 3.5, 4.5};
+  EXPECT_NEAR(u95_of_erring(values, erring).value(), 2.776 * 0.5, 0.01);
+}
+
+TEST(Redraws, TellErringByPairsThatAreWhole) {
+  const Values values{1.0, std::nullopt, 3.0, 4.0};
+  const Values erring{2.0, 9.0, std::nullopt, 3.0};
+  EXPECT_NEAR(u95_of_erring(values, erring).value(), 4.303, 0.01);
+  EXPECT_FALSE(u95_of_erring(values, Values{2.0, 9.0, std::nullopt, std::nullopt}));
+  EXPECT_EQ(u95_of_erring(values, {}), 0.0);
+}
+
+TEST(Redraws, HoldWhatErrsInNineteenOfTwentyCases) {
+  test::RandomNumbers random(7);
+  constexpr int kCases = 4000;
+  int held = 0;
+  for (int i = 0; i < kCases; ++i) {
+    Values values;
+    Values erring;
+    for (int k = 0; k < 8; ++k) {
+      values.emplace_back(random.normal());
+      erring.emplace_back(*values.back() + 0.3 * random.normal());
+    }
+    if (std::abs(0.3 * random.normal()) <= u95_of_erring(values, erring).value()) ++held;
+  }
+  EXPECT_NEAR(static_cast<double>(held) / kCases, 0.95, 0.012);
+}
+
+/// With normals that are near enough: a foot is roundish across, and at its ends along, too.
+PointCloud foot_with_normals() {
+  const test::FootBody body{260.0, 3.0};
+  PointCloud cloud = body.points();
+  for (const auto& point : cloud.positions) {
+    const double end = std::clamp(point.x(), 30.0, body.length_mm - 15.0);
+    const Vector3d arm(point.x() - end, point.y(), point.z() - 12.0);
+    cloud.normals.push_back(point.z() < 1.0 ? -Vector3d::UnitZ() : arm.normalized());
+  }
+  return cloud;
+}
+
+PointCloud erring(PointCloud cloud, double sigma_mm, double reach_mm) {
+  cloud.local_errors = {std::vector<double>(cloud.size(), sigma_mm), reach_mm};
+  return cloud;
+}
+
+FootScan marked(const PointCloud& cloud) {
+  return align_foot(cloud).and_then(find_landmarks).value();
+}
+
+/// From the heel, where the frame of a foot begins.
+double length_of(const RedrawnLandmarks& redrawn) {
+  return redrawn.landmarks.at("acropodion").position_mm.x();
+}
+
+TEST(Redraws, DoNotErrWhereTheCloudKnowsOfNone) {
+  const auto foot = marked(foot_with_normals());
+  EXPECT_FALSE(foot.redraws.landmarks.empty());
+  EXPECT_TRUE(foot.redraws.erring.empty());
+}
+
+/// Errors that reach further than a foot is long move all of its skin outwards alike: each of its
+/// ends by as much, and nothing is averaged out.
+TEST(Redraws, ErrByAsMuchAsTheSkin) {
+  constexpr double kSigmaMm = 0.5;
+  const auto exact = marked(foot_with_normals());
+  const auto foot = marked(erring(foot_with_normals(), kSigmaMm, 1000.0));
+  const auto& own = foot.redraws.landmarks;
+  const auto& erring = foot.redraws.erring;
+  ASSERT_EQ(erring.size(), own.size());
+  double squares = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    squares += std::pow(length_of(erring[i]) - length_of(own[i]), 2);
+  }
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(own.size())), 2.0 * kSigmaMm, 0.4);
+  for (const auto& [name, landmark] : foot.landmarks) {
+    EXPECT_GT(landmark.radius_mm.value(), exact.landmarks.at(name).radius_mm.value()) << name;
+  }
+  for (const auto* name : {"acropodion", "toe1_tip"}) {
+    const double wider = std::pow(*foot.landmarks.at(name).radius_mm, 2) -
+                         std::pow(*exact.landmarks.at(name).radius_mm, 2);
+    EXPECT_NEAR(std::sqrt(wider), 2.306 * kSigmaMm, 0.45) << name;
   }
 }
 
