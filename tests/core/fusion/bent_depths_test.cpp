@@ -190,6 +190,13 @@ TEST(BentDepths, AreNotWhiteNoise) {
   }
 }
 
+TEST(BentDepths, AreNotWhiteNoiseThatIsMoreThanTold) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto overlap = overlap_of(kThreeCameras, {0.0, 8.0, 0.3, 0.1}, seed);
+    EXPECT_LT(bent_depths(overlap.views, overlap.matches).sigma_mm, 0.1) << seed;
+  }
+}
+
 /// Few targets: many queries share one, and its noise with it, which is more than told.
 TEST(BentDepths, AreNotTheNoiseOfSharedPartners) {
   const auto told = told_on_average(kThreeCameras, {0.3, 20.0, 0.5, 0.3}, {3000, 500});

@@ -204,11 +204,14 @@ Eigen::MatrixXd correlation(const Line& line, double reach_mm) {
 }
 
 struct Longer {
-  double mean = 0.0;
-  double deviation = 0.0;
+  Eigen::VectorXd by;
+  double mean = by.mean();
+  double deviation = std::sqrt((by.array() - by.mean()).square().mean());
 
-  explicit Longer(const Eigen::VectorXd& by)
-      : mean(by.mean()), deviation(std::sqrt((by.array() - by.mean()).square().mean())) {}
+  double held_by(double half_width) const {
+    return static_cast<double>((by.array().abs() <= half_width).count()) /
+           static_cast<double>(by.size());
+  }
 };
 
 /// By how much lines are longer whose corners lie off by errors at random.
@@ -232,7 +235,7 @@ ErringLines erring_lines(const Line& line, double sigma_mm, double reach_mm) {
     contact(draw) = perimeter(moved) - perimeter(line);
     stretched(draw) = perimeter(convex_hull(moved)) - perimeter(line);
   }
-  return {Longer(contact), Longer(stretched)};
+  return {{contact}, {stretched}};
 }
 
 /// So small against their reach that lines are longer by where they lie, not by waves.
@@ -250,6 +253,19 @@ TEST(SharedLengthDoubt, OfLocalErrorsIsHowFarTheyScatterLengths) {
       EXPECT_NEAR(doubt.contact_u95, contact, 0.1 * contact) << reach;
       EXPECT_NEAR(doubt.stretched_u95, stretched, 0.1 * stretched) << reach;
     }
+  }
+}
+
+/// On average over all pairs of places round a convex body two normals have nothing in common, so
+/// that half the variance of a common growth is left.
+TEST(SharedLengthDoubt, OfLocalErrorsOfAllSkinIsThatOfHalfAGrowth) {
+  const double growth_u95 = kIn95 * 2.0 * std::numbers::pi * kErrorMm;
+  for (const auto& shape : {post(), test::elliptic_cylinder(60, 35)}) {
+    const auto section = test::true_section(shape, leaning(0.0), kRays);
+    const auto doubt =
+        shared_doubt_of(section, leaning(0.0), erring(points_on(shape), kErrorMm, 1e4));
+    EXPECT_NEAR(doubt.contact_u95, growth_u95 / std::sqrt(2.0), 0.02 * growth_u95);
+    EXPECT_NEAR(doubt.stretched_u95, growth_u95 / std::sqrt(2.0), 0.02 * growth_u95);
   }
 }
 
@@ -299,6 +315,18 @@ TEST(SharedLengthDoubt, CountsTheWavesThatALineFollows) {
   for (const double sigma : {0.4, 0.8}) {
     const auto truth = erring_lines(section, sigma, 8.0);
     EXPECT_NEAR(by_waves(section, sigma, 8.0), truth.contact.mean, 0.1 * truth.contact.mean);
+  }
+}
+
+/// Whichever it follows, the tape or each wave.
+TEST(SharedLengthDoubt, HoldsNineteenOfTwentyLinesThatErrLocally) {
+  const auto section = test::true_section(post(), leaning(0.0), 400);
+  for (const double sigma : {0.1, 0.2, 0.4, 0.8}) {
+    const auto doubt =
+        shared_doubt_of(section, leaning(0.0), erring(points_on(post()), sigma, 8.0));
+    const auto truth = erring_lines(section, sigma, 8.0);
+    EXPECT_GT(truth.contact.held_by(doubt.contact_u95), 0.935) << sigma;
+    EXPECT_GT(truth.stretched.held_by(doubt.stretched_u95), 0.935) << sigma;
   }
 }
 
