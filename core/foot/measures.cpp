@@ -84,16 +84,13 @@ std::vector<std::optional<double>> taken_by_each(const Definition& definition, c
   return values;
 }
 
-/// From what the landmarks as found and each redraw of them give, those left out that give nothing;
-/// nothing where the landmarks as found do, or too few redraws are left.
+/// From what the landmarks as found and each redraw of them give (`redrawn`), those left out that
+/// give nothing; nothing where the landmarks as found do, or too few redraws are left.
 template <typename Definition>
-std::optional<double> u95_of(const Definition& definition, const FootScan& foot) {
+std::optional<double> u95_of(const Definition& definition, const FootScan& foot,
+                             const std::vector<std::optional<double>>& redrawn) {
   const auto told = taken_here(definition, foot);
-  if (!told) return std::nullopt;
-  const auto values = taken_by_each(definition, foot, foot.redraws.landmarks);
-  const auto own = u95_by_redraws(*told, values, foot.redraws.parting);
-  const auto erring = u95_of_erring(values, taken_by_each(definition, foot, foot.redraws.erring));
-  return own && erring ? std::optional(std::hypot(*own, *erring)) : std::nullopt;
+  return told ? u95_by_redraws(*told, redrawn, foot.redraws.parting) : std::nullopt;
 }
 
 /// How far a measure moves from the landmarks as found to others, each for itself; nothing where
@@ -156,8 +153,18 @@ Result<std::optional<double>> u95_by_landmarks(const Definition& definition, con
                 "an end of the foot was not seen, and of a longer foot it could not be taken here",
                 "scan again, with all of the foot in view");
   }
-  const auto u95 = together({u95_of(definition, foot), u95_of_shared(definition, foot), of_ends,
-                             definition.own_doubt_mm});
+  const auto redrawn = taken_by_each(definition, foot, foot.redraws.landmarks);
+  const auto own = u95_of(definition, foot, redrawn);
+  const auto of_local =
+      u95_of_erring(redrawn, taken_by_each(definition, foot, foot.redraws.erring));
+  if (own && !of_local) {
+    return fail(ErrorCode::kInsufficientData,
+                "the errors that neighbouring points share, as of a camera whose depths are bent, "
+                "leave its landmarks open",
+                "calibrate the depths of the cameras");
+  }
+  const auto u95 =
+      together({own, of_local, u95_of_shared(definition, foot), of_ends, definition.own_doubt_mm});
   if (u95 || foot.redraws.landmarks.empty()) return u95;
   return fail(ErrorCode::kInsufficientData, "the points do not tell how sure its landmarks are",
               "scan again, with the foot in full view of all cameras");

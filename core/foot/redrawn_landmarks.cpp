@@ -68,6 +68,13 @@ RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>
   return {std::move(part.landmarks), part.foot_from_input.inverse()};
 }
 
+/// Even; by what does not depend on the processor. Were the draws of all feet the same, all would
+/// share their luck.
+std::uint64_t first_draw_of(const PointCloud& cloud) {
+  const auto reach = static_cast<std::uint64_t>(std::llround(10.0 * cloud.local_errors.reach_mm));
+  return mixed(mixed(cloud.size()) + reach) & ~std::uint64_t{1};
+}
+
 /// Of the skin that was put where nobody saw it: an upright piece tells where a landmark may lie,
 /// but as all redraws share it, not how surely.
 bool is_guessed_wall(const PointCloud& cloud, std::size_t index) {
@@ -138,13 +145,14 @@ Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
   const std::size_t count = partings * parts;
   redraws.landmarks.resize(count);
   redraws.erring.resize(foot.cloud.local_errors.empty() ? 0 : count);
+  const std::uint64_t first_draw = first_draw_of(foot.cloud);
   workers(count + redraws.erring.size(), [&](std::size_t job) {
     const std::size_t redraw = job % count;
     const auto taken = points_of(foot.cloud, hashes, redraws.parting, redraw);
     if (job < count) {
       redraws.landmarks[redraw] = redrawn_on(foot, taken, std::nullopt);
     } else {
-      redraws.erring[redraw] = redrawn_on(foot, taken, redraw);
+      redraws.erring[redraw] = redrawn_on(foot, taken, first_draw + redraw);
     }
   });
   return redraws;

@@ -25,10 +25,11 @@ namespace instep {
 /// A part that does not show the foot's axis gives no landmarks. Upright skin that was put where
 /// nobody saw a wall (close_sole()) is in no part.
 ///
-/// What all parts share, such as a hole, a fault of the calibration or a rule that is not what was
-/// meant, does not show; of an edge or a border that no point shows Landmark::deviations_off_mm
-/// tells. `foot` has its landmarks. One to four times the cost of landmarks, shared by the workers;
-/// six times where parts are left out; twice that where local errors are known.
+/// What all parts share, such as a hole, what bent depths do to the floor, a fault of the
+/// calibration or a rule that is not what was meant, does not show; of an edge or a border that no
+/// point shows Landmark::deviations_off_mm tells. `foot` has its landmarks. One to four times the
+/// cost of landmarks, shared by the workers; six times where parts are left out; twice that where
+/// local errors are known.
 Redraws redraw_landmarks(const FootScan& foot, const Workers& workers = one_after_the_other);
 
 /// Half-width of the 95 % interval of a value from what the redraws gave for it, in their order
@@ -37,8 +38,8 @@ Redraws redraw_landmarks(const FootScan& foot, const Workers& workers = one_afte
 std::optional<double> u95_of_redraws(const std::vector<std::optional<double>>& values,
                                      const Parting& parting);
 
-/// The same by what local errors leave open, from what the redraws gave without them and with them;
-/// 0 where there is none with them, nothing where too few gave a value.
+/// The same by what local errors leave open, from what the redraws gave without them and with them,
+/// as many in the same order; 0 where there is none with them, nothing where too few gave a value.
 std::optional<double> u95_of_erring(const std::vector<std::optional<double>>& values,
                                     const std::vector<std::optional<double>>& erring);
 

@@ -23,10 +23,12 @@ constexpr double kLeastAlike = 0.7;
 /// Ends of the classes of distances between two matches, mm.
 constexpr std::array<double, 11> kClasses = {2, 3, 4.5, 6, 9, 12, 18, 24, 36, 48, 72};
 constexpr std::size_t kFewestInClass = 50;
-/// So many times as much covariance as chance shows of independent matches.
-constexpr double kLeastSure = 3.0;
-/// Reaches that are tried.
-constexpr double kShortestReach = 2.0;
+/// Chance alone makes independent matches explain more in one case of a thousand (chi square of
+/// one degree).
+constexpr double kLeastSure = 12.0;
+/// Reaches that are tried: none shorter than distances that are asked of, or what chance made of
+/// the nearest would be drawn out to much more. Of pessimistic noise alone it was 0.3 mm.
+constexpr double kShortestReach = 4.0;
 constexpr double kLongestReach = 80.0;
 constexpr double kReachStep = 1.15;
 
@@ -36,7 +38,6 @@ struct DepthMatch {
   Eigen::Vector3d point;
   Eigen::Vector3d normal;
   double off = 0.0;
-  double variance = 0.0;  ///< by the noise of the points
 };
 
 using PairOfViews = std::pair<std::size_t, std::size_t>;
@@ -48,9 +49,8 @@ std::map<PairOfViews, std::vector<DepthMatch>> depth_matches(
     const double seen = std::hypot(match.normal.dot(views[match.view].towards_camera),
                                    match.normal.dot(views[match.other].towards_camera));
     if (!(seen > 0.0)) continue;
-    pairs[{match.view, match.other}].push_back({match.target, match.point, match.normal,
-                                                match.distance / seen,
-                                                match.variance / (seen * seen)});
+    pairs[{match.view, match.other}].push_back(
+        {match.target, match.point, match.normal, match.distance / seen});
   }
   const auto most = static_cast<std::size_t>(
       std::sqrt(2.0 * kMostProducts / static_cast<double>(std::max<std::size_t>(1, pairs.size()))));
@@ -64,7 +64,6 @@ struct Class {
   double distances = 0.0;
   std::size_t count = 0;
 
-  double covariance() const { return products / static_cast<double>(count); }
   double distance() const { return distances / static_cast<double>(count); }
 };
 using Covariogram = std::array<Class, kClasses.size() - 1>;
@@ -88,25 +87,22 @@ void add_products(const std::vector<DepthMatch>& matches, double most, Covariogr
   }
 }
 
-/// The bell that fits best; none where it is no higher than chance may make it. `variance`: of a
-/// match.
+/// The bell that fits best, each class by how surely it is known; none where chance may make it.
+/// `variance`: of a match.
 BentDepths bell_through(const Covariogram& covariogram, double variance) {
   BentDepths best;
-  double least = 0.0;  // of the squares that are left, against those of no bell
+  double most = kLeastSure * variance * variance;  // of the squares that a bell takes away
   for (double reach = kShortestReach; reach <= kLongestReach; reach *= kReachStep) {
     double products = 0.0;
     double squares = 0.0;
-    double chance = 0.0;
     for (const auto& own : covariogram) {
       if (own.count < kFewestInClass) continue;
       const double alike = std::exp(-std::pow(own.distance() / reach, 2));
-      products += alike * own.covariance();
-      squares += alike * alike;
-      chance += alike * alike / static_cast<double>(own.count);
+      products += alike * own.products;
+      squares += alike * alike * static_cast<double>(own.count);
     }
-    if (!(products > kLeastSure * variance * std::sqrt(chance))) continue;
-    if (!(-products * products / squares < least)) continue;
-    least = -products * products / squares;
+    if (!(products > 0.0) || !(products * products / squares > most)) continue;
+    most = products * products / squares;
     best = {std::sqrt(products / squares), reach};
   }
   return best;
@@ -118,25 +114,13 @@ BentDepths bent_depths(const std::vector<MovingView>& views,
                        const std::vector<ViewMatch>& matches) {
   const auto pairs = depth_matches(views, matches);
   std::vector<double> sizes;
-  std::vector<double> in_sigmas;
-  std::vector<double> variances;
   for (const auto& [views_of, own] : pairs) {
-    for (const auto& match : own) {
-      sizes.push_back(std::abs(match.off));
-      in_sigmas.push_back(std::abs(match.off) / std::sqrt(match.variance));
-      variances.push_back(match.variance);
-    }
+    for (const auto& match : own) sizes.push_back(std::abs(match.off));
   }
-  if (sizes.empty()) return {};
-  const double spread = kSigmaInMedians * median(std::move(in_sigmas));
-  const double beyond_noise = (spread * spread - 1.0) * median(std::move(variances));
-  if (!(beyond_noise > 0.0)) return {};
   const double sigma = kSigmaInMedians * median(std::move(sizes));
   Covariogram covariogram;
   for (const auto& [views_of, own] : pairs) add_products(own, kMostOff * sigma, covariogram);
-  BentDepths bent = bell_through(covariogram, sigma * sigma);
-  bent.sigma_mm = std::min(bent.sigma_mm, std::sqrt(beyond_noise));
-  return bent;
+  return bell_through(covariogram, sigma * sigma);
 }
 
 LocalErrors local_errors_of(const PointCloud& cloud, const Eigen::MatrixXd& shares,

@@ -75,7 +75,7 @@ struct FusionDiagnostics {
   double registration_after_mm = 0.0;   ///< the same by those that were used
   /// Of the distances between the views, what the noise of the points does not explain, one sigma.
   double unexplained_mm = 0.0;
-  BentDepths bent;            ///< the part of that in which neighbours are alike
+  BentDepths bent;            ///< in which neighbours are alike
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
   /// Of the view that was stretched most, by what share; nothing where lenses are trusted.
   std::optional<double> lenses_off;
@@ -97,8 +97,9 @@ struct FusedScene {
 };
 
 /// From one depth image a camera to the clouds of the feet, each with normals, sigma, view
-/// directions, origins and, where the views were refined, the errors that are left of their poses
-/// and lenses (PointCloud::shared_errors_mm). Pure computation; the same views give the same bytes.
+/// directions, origins, where overlaps show that depths are bent the errors that neighbours share
+/// (LocalErrors) and, where the views were refined, those that are left of their poses and lenses
+/// (PointCloud::shared_errors_mm). Pure computation; the same views give the same bytes.
 /// What concerns one view alone is a job of its own for `workers`, the rest runs on the calling
 /// thread. `go_on` hears of each view, each iteration of the registration, and each stage.
 ///

@@ -97,6 +97,9 @@ struct Registration {
 /// What is left unknown is told with each view: the covariance of the step, in which neighbouring
 /// matches count as far fewer independent ones, turned into independent errors of all views.
 ///
+/// What is left of the distances after that, as far as neighbours are alike in it, tells how bent
+/// the depths are (bent_depths()).
+///
 /// Clouds are given in the station frame and need normals, sigma and view directions; one without
 /// is kAlone. Deterministic. Costs some 100 ms for 4 views of good poses; each iteration is a piece
 /// of the work for `go_on`. Fails with kCancelled alone.

@@ -35,11 +35,12 @@ class Draws {
 };
 
 std::array<Wave, kWaves> drawn_waves(double reach_mm, std::uint64_t draw) {
-  Draws draws(draw);
+  Draws draws(draw / 2);
+  const double quarter = draw % 2 == 0 ? 0.0 : 0.5 * std::numbers::pi;
   std::array<Wave, kWaves> waves;
   for (auto& wave : waves) {
     for (double& part : wave.number) part = std::numbers::sqrt2 / reach_mm * draws.normal();
-    wave.phase = 2.0 * std::numbers::pi * draws.uniform();
+    wave.phase = 2.0 * std::numbers::pi * draws.uniform() + quarter;
   }
   return waves;
 }

@@ -75,9 +75,10 @@ Result<void> check_errors_along_normals(const PointCloud& cloud) {
     }
   }
   if (sigma.empty()) return {};
-  if (!(reach > 0.0 && reach <= kLargestCoordinateMm)) {
-    return fail(ErrorCode::kInvalidInput, "the local errors of the points reach no distance",
-                "give their reach, above 0 mm, or leave the errors out");
+  if (!(reach >= kLeastReachMm && reach <= kLargestCoordinateMm)) {
+    return fail(ErrorCode::kInvalidInput,
+                "the local errors of the points reach less than 0.1 mm, or further than 100 m",
+                "give their reach in millimetres, or leave the errors out");
   }
   if (const auto wild = first_wild_error(sigma, 0.0)) {
     return bad_point(*wild, "has a local error that is no number, below 0 or beyond 100 mm");

@@ -18,11 +18,13 @@ enum class PointOrigin : std::uint8_t {
 };
 
 /// Errors that each point shares with its neighbours, such as those of a camera whose depths are
-/// bent: along the normals, and of two points that face alike and lie `d` apart correlated by
-/// exp(-(d / reach_mm)^2). Independent of what is else known of the points' errors.
+/// bent: along the normals, and of two points that lie `d` apart and whose normals make an angle
+/// `a` correlated by exp(-(d / reach_mm)^2) (1 + cos a) / 2, for other cameras see the other side
+/// of a thin part. Independent of the shared errors; sigma_mm of fused clouds holds them once more,
+/// so that a surface through the points is smoothed for them too.
 struct LocalErrors {
   std::vector<double> sigma_mm;  ///< one standard deviation, 0 to kLargestSigmaMm; one a point
-  double reach_mm = 0.0;         ///< above 0 if there are any
+  double reach_mm = 0.0;         ///< kLeastReachMm to kLargestCoordinateMm if there are any
 
   bool empty() const { return sigma_mm.empty(); }
 };
@@ -89,6 +91,9 @@ inline constexpr double kLargestCoordinateMm = 1e5;
 
 /// The largest standard deviation, in millimetres, that a point may have: as large as a foot.
 inline constexpr double kLargestSigmaMm = 100.0;
+
+/// The shortest reach, in millimetres, of local errors: what reaches less far is noise.
+inline constexpr double kLeastReachMm = 0.1;
 
 /// The gate through which every cloud from outside passes: consistent lists, finite numbers,
 /// coordinates within kLargestCoordinateMm, unit normals, sigma above 0 and up to kLargestSigmaMm,

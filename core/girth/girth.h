@@ -92,7 +92,7 @@ struct Girth {
 /// surface through far more points, laid along that contour (smooth_section()), unless the two
 /// contradict each other; elsewhere, and where a hole is reported, the intervals are LengthDoubt's.
 /// They take the noise of points to be independent: what is common to neighbours, such as a bent
-/// depth map, is not in them, but for the shared errors that the cloud tells of
+/// depth map, is not in them, but for the shared and local errors that the cloud tells of
 /// (shared_doubt_of()).
 ///
 /// Points in two layers (core/girth/skin_layers.h), all round as of a skin and a sock or over a

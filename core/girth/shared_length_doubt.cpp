@@ -17,11 +17,16 @@ using Eigen::Vector3d;
 /// Skin that hardly meets the plane crosswise moves along it by its error over so much at most.
 constexpr double kLeastCrosswise = 0.3;
 
-/// Corners of a line closer together than this part of the reach of local errors move as one.
+/// Corners of a line closer together than this part of the reach of local errors, on skin that
+/// faces alike, move as one.
 constexpr double kMovesAsOne = 0.25;
+constexpr double kFacesAlike = 0.9;
+/// Their pairs are counted: as many of them at most, about, however short the reach.
+constexpr double kMostStretches = 2000.0;
 
-/// Shorter waves (mm) count as noise and are smoothed away: of simulated stations with bent depths
-/// girths are 0.2 mm too long by errors that reach 7 mm, and none by those of single pixels.
+/// Shorter waves (mm) are smoothed away, as sigma_mm of fused clouds tells of them too: of
+/// simulated feet whose depths are bent by 0.36 mm girths are 0.2 mm too long where the errors
+/// reach 7 mm, and not at all where they are those of single pixels (tests/bench/poses).
 constexpr double kShortestWaves = 6.0;
 
 /// Where a line may be longer by what the skin errs.
@@ -42,7 +47,7 @@ class ErringSkin {
     const auto corners = corners_of(line);
     const double deviations =
         kDeviations * std::sqrt(shared_variance(corners) + local_variance(corners));
-    return std::hypot(deviations, waves_along(corners));
+    return deviations + waves_along(corners);  // which make it longer, never shorter
   }
 
  private:
@@ -85,12 +90,21 @@ class ErringSkin {
   }
 
   std::vector<Stretch> stretches_of(const std::vector<Corner>& corners) const {
-    const double longest = kMovesAsOne * cloud_.local_errors.reach_mm;
+    double all = 0.0;
+    for (const auto& corner : corners) all += corner.way;
+    const double shortest = all / kMostStretches;
+    const double longest = std::max(shortest, kMovesAsOne * cloud_.local_errors.reach_mm);
+    const auto goes_on = [&](const Stretch& stretch, const Vector3d& place,
+                             const Vector3d& normal) {
+      const double far = (stretch.place - place).norm();
+      return far <= shortest || (far <= longest && stretch.normal.dot(normal) >= kFacesAlike);
+    };
     std::vector<Stretch> stretches;
     for (const auto& [skin, a_millimetre, way] : corners) {
       const Vector3d& place = cloud_.positions[skin];
-      if (stretches.empty() || (stretches.back().place - place).norm() > longest) {
-        stretches.push_back({place, cloud_.normals[skin], 0.0});
+      const Vector3d& normal = cloud_.normals[skin];
+      if (stretches.empty() || !goes_on(stretches.back(), place, normal)) {
+        stretches.push_back({place, normal, 0.0});
       }
       stretches.back().growth += cloud_.local_errors.sigma_mm[skin] * a_millimetre;
     }

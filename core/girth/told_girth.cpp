@@ -134,7 +134,7 @@ ToldGirth refused(const PlaneBand& band, const Contour& contour, tl::unexpected<
 /// For normals that let no section close, as those of which one stretch points inwards.
 Result<ToldGirth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
                                         const GirthOptions& options) {
-  cloud.normals.clear();
+  cloud.drop_normals();
   auto told = girth_of_all(cloud, plane, options);
   if (told) {
     told->zigzags = {};  // that was looked at

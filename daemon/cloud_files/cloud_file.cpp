@@ -108,7 +108,7 @@ void settle_normals(CloudFile& read) {
   }
 }
 
-void drop_shared_errors(CloudFile& read, const std::string& why) {
+void drop_errors_along_normals(CloudFile& read, const std::string& why) {
   if (read.cloud.shared_errors_mm.empty() && read.cloud.local_errors.empty()) return;
   read.cloud.drop_errors_along_normals();
   read.notes.push_back("the errors that the file's points share are not in the intervals: " + why);
@@ -145,7 +145,8 @@ void cover_faces(CloudFile& read) {
       extra.sigma_mm.assign(extra.size(), median(cloud.sigma_mm));
     }
     if (extra.empty() || cloud.has_normals() != extra.has_normals()) return;
-    drop_shared_errors(read, "points between them were added on its faces; leave the faces out");
+    drop_errors_along_normals(read,
+                              "points between them were added on its faces; leave the faces out");
     cloud.append(extra);
     return;
   }
@@ -208,7 +209,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   }
   settle_normals(read);
   if (!read.cloud.has_normals())
-    drop_shared_errors(read, "they lie along normals, which it lacks; give these too");
+    drop_errors_along_normals(read, "they lie along normals, which it lacks; give these too");
   if (!raw->triangles.empty()) {
     read.mesh = {read.cloud.positions, std::move(raw->triangles)};
     cover_faces(read);

@@ -97,7 +97,8 @@ Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::
   for (const double origin : origins) {
     cloud.origins.push_back(origin == 1.0 ? PointOrigin::kPlatform : PointOrigin::kSeen);
   }
-  // Of files put together from several, the longest: what reaches further leaves more open.
+  // Of files put together from several, the longest: what reaches further leaves more of a girth
+  // open.
   for (const double reach : reaches) {
     if (!(reach > 0.0)) return damaged_file(file, "its local errors reach no distance");
     local.reach_mm = std::max(local.reach_mm, reach);

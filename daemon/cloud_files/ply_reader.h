@@ -10,8 +10,8 @@ namespace instep {
 
 /// Reads the bytes of a PLY file: ASCII or binary of either byte order, properties of any type in
 /// any order, unknown properties and elements passed over, polygons cut into fans of triangles.
-/// Takes x y z, nx ny nz, sigma_mm, origin (0 seen, 1 platform) and the shared errors
-/// (error_properties.h) of `vertex`, and vertex_indices or vertex_index of `face`.
+/// Takes x y z, nx ny nz, sigma_mm, origin (0 seen, 1 platform) and the shared and local
+/// errors (error_properties.h) of `vertex`, and vertex_indices or vertex_index of `face`.
 ///
 /// Fails with kCorruptData on a header that lies, data that end early or indices out of range, and
 /// with kUnsupported beyond kMostFilePoints or kMostSharedErrors. Cost: about that of copying the

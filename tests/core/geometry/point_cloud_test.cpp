@@ -153,7 +153,7 @@ TEST(CheckCloud, RefusesWhatNoFootHolds) {
   EXPECT_FALSE(check_cloud(bent));
   bent.local_errors = {{0.5, std::nan("")}, 7.0};
   EXPECT_FALSE(check_cloud(bent));
-  for (const double reach : {0.0, -1.0, std::nan(""), 1e30}) {
+  for (const double reach : {0.0, -1.0, 1e-310, 1e-160, std::nan(""), 1e30}) {
     bent.local_errors = {{0.5, 0.5}, reach};
     EXPECT_FALSE(check_cloud(bent)) << reach;
   }

@@ -307,7 +307,7 @@ double by_waves(const Line& section, double sigma_mm, double reach_mm) {
         .contact_u95;
   };
   const double by_place = doubt_of(kSmaller * sigma_mm) / kSmaller;
-  return std::sqrt(std::pow(doubt_of(sigma_mm), 2) - by_place * by_place);
+  return doubt_of(sigma_mm) - by_place;
 }
 
 TEST(SharedLengthDoubt, CountsTheWavesThatALineFollows) {
