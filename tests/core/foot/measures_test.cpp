@@ -280,6 +280,21 @@ TEST(Measures, WithholdWhatNoDecisionCouldRestOn) {
   EXPECT_EQ(useless->measures.size() + 1, useful->measures.size());
 }
 
+/// As where no redraw on points moved by them still shows a foot.
+TEST(Measures, SayWhereLocalErrorsHideTheLandmarks) {
+  MeasureOptions options;
+  options.girth = no_girth;
+  FootScan foot = prepared(FootBody{}.points());
+  foot.redraws.erring.resize(foot.redraws.landmarks.size());
+  const auto set = measure_foot(foot, options);
+  ASSERT_TRUE(set) << set.error().line();
+  EXPECT_TRUE(set->measures.empty());
+  for (const auto& one : set->withheld) {
+    if (one.id != "foot_length") continue;
+    EXPECT_NE(one.reason.find("calibrate the depths"), std::string::npos) << one.reason;
+  }
+}
+
 /// As where the cloud has one side of the heel alone.
 TEST(Measures, WithholdTheBreadthOfASliverOfAHeel) {
   MeasureOptions options;

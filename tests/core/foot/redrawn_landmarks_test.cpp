@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
@@ -197,6 +199,29 @@ TEST(Redraws, ErrByAsMuchAsTheSkin) {
                          std::pow(*exact.landmarks.at(name).radius_mm, 2);
     EXPECT_NEAR(std::sqrt(wider), 2.306 * kSigmaMm, 0.45) << name;
   }
+}
+
+/// How far each redraw's foot is longer for its errors.
+std::vector<double> growths_of(const FootScan& foot) {
+  std::vector<double> growths;
+  for (std::size_t i = 0; i < foot.redraws.erring.size(); ++i) {
+    growths.push_back(length_of(foot.redraws.erring[i]) - length_of(foot.redraws.landmarks[i]));
+  }
+  return growths;
+}
+
+/// Else the luck of some few draws would be that of all feet. The same foot draws the same.
+TEST(Redraws, DrawOtherErrorsOfAnotherFoot) {
+  const PointCloud cloud = erring(foot_with_normals(), 0.5, 1000.0);
+  std::vector<std::size_t> but_one(cloud.size() - 1);
+  std::iota(but_one.begin(), but_one.end(), std::size_t{0});
+  const auto growths = growths_of(marked(cloud));
+  EXPECT_EQ(growths_of(marked(cloud)), growths);
+  const auto others = growths_of(marked(cloud.subset(but_one)));
+  ASSERT_EQ(others.size(), growths.size());
+  double apart = 0.0;
+  for (std::size_t i = 0; i < growths.size(); ++i) apart += std::abs(others[i] - growths[i]);
+  EXPECT_GT(apart / static_cast<double>(growths.size()), 0.3);
 }
 
 }  // namespace
