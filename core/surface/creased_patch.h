@@ -50,7 +50,9 @@ class CreasedPatch {
   /// the sheet that comes less near it. A crease far from all points is a guess.
   double gap() const { return gap_; }
 
-  /// Comparable with that of one HeightPatch over the same points.
+  /// Comparable with that of one HeightPatch over the same points if they are too few to be
+  /// averaged (kMostHeightSamples); the averages of more are told easier than the points
+  /// themselves.
   double misfit() const { return first_.patch.misfit() + second_.patch.misfit(); }
 
  private:
