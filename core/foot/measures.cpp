@@ -158,10 +158,12 @@ Result<std::optional<double>> u95_by_landmarks(const Definition& definition, con
   const auto of_local =
       u95_of_erring(redrawn, taken_by_each(definition, foot, foot.redraws.erring));
   if (own && !of_local) {
-    return fail(ErrorCode::kInsufficientData,
-                "the errors that neighbouring points share, as of a camera whose depths are bent, "
-                "leave its landmarks open",
-                "calibrate the depths of the cameras");
+    return fail(
+        ErrorCode::kInsufficientData,
+        "the errors that neighbouring points share, as of a camera whose depths are bent, "
+        "leave its landmarks open",
+        "calibrate the depths of the cameras with their maker's tool, or let more cameras see "
+        "the foot");
   }
   const auto u95 =
       together({own, of_local, u95_of_shared(definition, foot), of_ends, definition.own_doubt_mm});
