@@ -14,7 +14,7 @@
 namespace instep {
 namespace {
 
-/// As many products of two matches are asked of all pairs of views together: 12 ms of work.
+/// As many products of two matches are asked of all pairs of views together: some 15 ms of work.
 constexpr double kMostProducts = 2e6;
 /// Further off than so many standard deviations they are no measure of how others err.
 constexpr double kMostOff = 3.0;

@@ -19,9 +19,9 @@ struct BentDepths {
   bool is_any() const { return sigma_mm > 0.0; }
 };
 
-/// By what two cameras see of the same skin, fitted to each other as well as can be: what lies
-/// apart there more than the noise of the points tells, as far as neighbours do alike (the products
-/// of the distances of two matches over how far these lie apart, as a variogram has them: Cressie,
+/// By how far apart two cameras, fitted to each other as well as can be, see the same skin: as far
+/// as neighbours do alike, which noise does not, however much of it there is (the products of the
+/// distances of two matches over how far these lie apart, as a variogram has them: Cressie,
 /// Statistics for Spatial Data, 1993, 2.4). None where that is no more than chance may make it.
 /// What all cameras have in common does not show. Some 15 ms, of however many views.
 BentDepths bent_depths(const std::vector<MovingView>& views, const std::vector<ViewMatch>& matches);
