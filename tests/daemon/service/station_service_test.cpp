@@ -87,9 +87,11 @@ class MeasuringService : public testing::Test {
     sigset_t signals;
     sigemptyset(&signals);
     for (const int signal : {SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals, signal);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    pthread_sigmask(SIG_BLOCK, &signals, &signals_before_);
   }
   ~MeasuringService() override {
+    // Other tests of this program raise them.
+    pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
     ::unsetenv("NOTIFY_SOCKET");
     ::unsetenv("WATCHDOG_USEC");
   }
@@ -98,6 +100,7 @@ class MeasuringService : public testing::Test {
   void begin(MeasureCapture measure) {
     const auto settings = small_station(folder_.path());
     running_ = std::async(std::launch::async, [this, settings, measure] {
+      service_thread_ = ::pthread_self();
       auto service = StationService::create(
           settings, [settings] { return Result<Settings>(settings); },
           [this, measure](const Capture& capture, const PipelineSettings& pipeline,
@@ -116,7 +119,8 @@ class MeasuringService : public testing::Test {
 
   /// What run() gave, within a second of SIGTERM; nothing if it was not over by then.
   std::optional<bool> end() {
-    ::kill(::getpid(), SIGTERM);
+    // Its own thread, for one that another test has left behind may not have blocked the signal.
+    ::pthread_kill(service_thread_, SIGTERM);
     auto future = ended_.get_future();
     if (future.wait_for(1000ms) != std::future_status::ready) return std::nullopt;
     const auto ended = future.get();
@@ -137,6 +141,8 @@ class MeasuringService : public testing::Test {
  private:
   std::promise<void> measuring_;
   std::promise<Result<bool>> ended_;
+  sigset_t signals_before_{};
+  pthread_t service_thread_{};
   std::future<void> running_;  ///< last, since its thread uses the others
 };
 
