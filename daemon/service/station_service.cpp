@@ -14,10 +14,16 @@
 namespace instep {
 namespace {
 
-/// A scan that is not over by then is left behind: a second is what SIGTERM promises.
+/// What SIGTERM promises.
+constexpr std::chrono::milliseconds kPromisedEnd{1000};
+/// A scan that is not over by then is left behind.
 constexpr std::chrono::milliseconds kShutdownLimit{700};
 /// What its threads have beyond that, all together.
 constexpr std::chrono::milliseconds kThreadsLimit{150};
+/// No limit is met to the millisecond.
+constexpr std::chrono::milliseconds kToSpare{100};
+static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment) + kToSpare <=
+              kPromisedEnd);
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
 
 }  // namespace

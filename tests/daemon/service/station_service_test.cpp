@@ -26,6 +26,10 @@ using std::chrono::steady_clock;
 
 constexpr auto kLong = 30000ms;
 constexpr auto kWatchdog = 400ms;
+/// A second is promised, and of that work that hangs alone takes 850 ms: what is more is for a busy
+/// machine. That the limits of the service add up to less than a second is checked where they
+/// stand; without one of them the work would be waited for without end, or for a second more.
+constexpr auto kEnd = 1600ms;
 
 /// The socket on which systemd would hear the service.
 class Notifications {
@@ -117,12 +121,12 @@ class MeasuringService : public testing::Test {
     ASSERT_EQ(measuring_.get_future().wait_for(kLong), std::future_status::ready);
   }
 
-  /// What run() gave, within a second of SIGTERM; nothing if it was not over by then.
+  /// What run() gave after SIGTERM; nothing if it was not over by kEnd.
   std::optional<bool> end() {
     // Its own thread, for one that another test has left behind may not have blocked the signal.
     ::pthread_kill(service_thread_, SIGTERM);
     auto future = ended_.get_future();
-    if (future.wait_for(1000ms) != std::future_status::ready) return std::nullopt;
+    if (future.wait_for(kEnd) != std::future_status::ready) return std::nullopt;
     const auto ended = future.get();
     return ended && *ended;
   }
