@@ -85,8 +85,7 @@ class MeasuringService : public testing::Test {
  protected:
   MeasuringService() : notifications_(folder_.path() / "notify.sock") {
     ::setenv("NOTIFY_SOCKET", (folder_.path() / "notify.sock").c_str(), 1);
-    ::setenv("WATCHDOG_USEC", std::to_string(std::chrono::microseconds(kWatchdog).count()).c_str(),
-             1);
+    set_watchdog(kWatchdog);
     ::unsetenv("WATCHDOG_PID");
     sigset_t signals;
     sigemptyset(&signals);
@@ -98,6 +97,11 @@ class MeasuringService : public testing::Test {
     pthread_sigmask(SIG_SETMASK, &signals_before_, nullptr);
     ::unsetenv("NOTIFY_SOCKET");
     ::unsetenv("WATCHDOG_USEC");
+  }
+
+  /// For a service that is yet to begin.
+  static void set_watchdog(std::chrono::microseconds limit) {
+    ::setenv("WATCHDOG_USEC", std::to_string(limit.count()).c_str(), 1);
   }
 
   /// Runs the service and begins a scan; returns once it measures.
@@ -165,12 +169,15 @@ TEST_F(MeasuringService, EndsCleanlyWithinASecondWhenItMeasuresForLong) {
 }
 
 TEST_F(MeasuringService, FeedsTheWatchdogThroughLongWorkThatMovesOn) {
+  // It is fed four times as often: what is left of each turn is for a busy machine.
+  constexpr auto kPatient = 2000ms;
+  set_watchdog(kPatient);
   begin([](const Capture&, const PipelineSettings&,
            const ScanProgress& progress) -> Result<std::vector<ScanRecord>> {
     while (progress("girths", 0.5)) ::poll(nullptr, 0, 20);
     return given_up();
   });
-  for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kWatchdog));
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient));
   EXPECT_EQ(end(), true);
 }
 
