@@ -119,29 +119,38 @@ TEST(CameraTurns, SequentialCaptureMode) {
 // D20: a camera that is still being looked at is lit as well.
 TEST(CameraTurns, BeginWhenNoCameraIsLookedAtAnyMore) {
   const auto light = std::make_shared<LitCamera::Light>();
+  auto silent = std::make_unique<ScriptedCamera>("right", std::deque{Step::kTimeout});
+  ScriptedCamera& right = *silent;
   std::vector<std::unique_ptr<DepthCamera>> all;
-  for (const auto& [id, script] :
-       {std::pair("left", std::deque<Step>()), std::pair("right", std::deque{Step::kTimeout})}) {
-    all.push_back(std::make_unique<LitCamera>(std::make_unique<ScriptedCamera>(id, script), light));
-  }
+  all.push_back(std::make_unique<LitCamera>(
+      std::make_unique<ScriptedCamera>("left", std::deque<Step>()), light));
+  all.push_back(std::make_unique<LitCamera>(std::move(silent), light));
   CameraSet set(std::move(all));
   light->counting = false;
   const auto left_done = std::make_shared<std::promise<void>>();
-  auto looking = settings(true);
-  looking.frame_limit = 300ms;
-  set.check(looking, CameraSet::ZeroFrames::kAreFaulty,
+  auto patient = settings(true);
+  patient.frame_limit = 60s;
+  patient.deadline = 60s;
+  set.check(patient, CameraSet::ZeroFrames::kAreFaulty,
             [left_done](std::size_t camera, const Result<void>&) {
               if (camera == 0) left_done->set_value();
             });
   left_done->get_future().wait();
+  right.wait_until_asked();
   {
-    std::unique_lock lock(light->mutex);
-    ASSERT_TRUE(light->changed.wait_for(lock, 5s, [&] { return light->lit == 1; }))
-        << "the right one, for as long as it is silent";
+    const std::lock_guard lock(light->mutex);
+    ASSERT_EQ(light->lit, 1) << "the right one, for as long as it is silent";
     light->counting = true;
     light->most = 0;
   }
-  const auto frames = set.capture(settings(true), go_on);
+  // The look ends only when the scan has been under way for a while: a left camera that did not
+  // wait for that would be lit beside the right one.
+  int asked = 0;
+  const auto frames = set.capture(patient, [&] {
+    constexpr int kWhileItWaits = 5;
+    if (++asked == kWhileItWaits) right.interrupt();
+    return true;
+  });
   ASSERT_TRUE(frames) << frames.error().line();
   EXPECT_EQ(frames->size(), 10U);
   EXPECT_EQ(light->most, 1);
