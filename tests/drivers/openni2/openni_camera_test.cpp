@@ -171,15 +171,23 @@ TEST(OpenniCamera, LetsOldFramesGoWhileNobodyAsks) {
   bus.plug_in({});
   const auto camera = bus.camera();
   ASSERT_TRUE(camera->start());
-  const auto first = camera->next_frame(kLong);
-  ASSERT_TRUE(first);
-  std::this_thread::sleep_for(700ms);
-  const auto asked = std::chrono::steady_clock::now();
-  const auto second = camera->next_frame(kLong);
-  ASSERT_TRUE(second);
-  EXPECT_GT(second->sequence, first->sequence + 5);
-  // The oldest that is kept is that of FrameRing::kPlaces frames ago; some time for a busy machine.
-  EXPECT_LT(asked - second->host_time, 500ms);
+  auto last = camera->next_frame(kLong);
+  ASSERT_TRUE(last);
+  // The oldest that is kept is that of FrameRing::kPlaces frames ago, 267 ms, and would be that of
+  // 700 ms ago if all were kept. A busy machine may send fewer and come late for them, not always.
+  bool lets_go = false;
+  for (int tries = 0; tries < 5 && !lets_go; ++tries) {
+    std::this_thread::sleep_for(700ms);
+    const auto asked = std::chrono::steady_clock::now();
+    auto next = camera->next_frame(kLong);
+    ASSERT_TRUE(next);
+    lets_go = next->sequence > last->sequence + 5 && asked - next->host_time < 500ms;
+    while (next) {  // those that are at hand
+      last = std::move(next);
+      next = camera->next_frame(0ms);
+    }
+  }
+  EXPECT_TRUE(lets_go);
 }
 
 TEST(OpenniDevices, AreListedWithTheirModes) {
