@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <atomic>
 #include <functional>
 #include <thread>
 
@@ -54,11 +55,15 @@ Result<DepthFrame> frame_at_last(DepthCamera& camera) {
   return frame;
 }
 
-/// A camera may start before it learns that it is gone.
+/// A camera may start before it learns that it is gone, and on a busy machine the search for it may
+/// go on after a start has given up.
 Result<void> failure_at_last(DepthCamera& camera) {
+  const auto says_nothing = [](const Result<void>& started) {
+    return started || started.error().code == ErrorCode::kTimeout;
+  };
   Result<void> started = camera.start();
   const auto deadline = steady_clock::now() + kLong;
-  while (started && steady_clock::now() < deadline) {
+  while (says_nothing(started) && steady_clock::now() < deadline) {
     camera.stop();
     started = camera.start();
   }
@@ -70,7 +75,7 @@ class OpenniFault : public testing::Test {
   std::unique_ptr<OpenniCamera> streaming_camera() {
     bus_.plug_in({});
     auto camera = bus_.camera();
-    EXPECT_TRUE(camera->start());
+    EXPECT_TRUE(start_at_last(*camera));
     EXPECT_TRUE(camera->next_frame(kLong));
     return camera;
   }
@@ -124,10 +129,10 @@ TEST_F(OpenniFault, UnplugEndsAWaitAtOnce) {  // D3: the library itself only let
     bus_.unplug("A1");
   });
   const auto took = time_of([&] {
-    const auto frame = camera->next_frame(kLong);
-    ASSERT_FALSE(frame);
-    EXPECT_EQ(frame.error().code, ErrorCode::kDeviceGone);
-    EXPECT_EQ(frame.error().remedy, Remedy::kReopen);
+    // On a busy machine a frame that was late may come before it stalls.
+    const Error error = next_failure(*camera);
+    EXPECT_EQ(error.code, ErrorCode::kDeviceGone);
+    EXPECT_EQ(error.remedy, Remedy::kReopen);
   });
   other.join();
   EXPECT_LT(took, kLong / 2);
@@ -220,12 +225,17 @@ TEST_F(OpenniFault, HungStartIsATimeoutAndThenANewProcess) {
 TEST_F(OpenniFault, AnInterruptEndsAStart) {
   bus_.plug_in({.faults = {"hang-start"}});
   const auto camera = bus_.camera();
+  // A start forgets what came before it, which on a busy machine is more than the first.
+  std::atomic<bool> over = false;
   std::thread other([&] {
-    std::this_thread::sleep_for(100ms);
-    camera->interrupt();
+    while (!over) {
+      std::this_thread::sleep_for(100ms);
+      camera->interrupt();
+    }
   });
   Result<void> started;
   EXPECT_LT(time_of([&] { started = camera->start(); }), OpenniChild::kChangeLimit);
+  over = true;
   other.join();
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error().code, ErrorCode::kCancelled);
