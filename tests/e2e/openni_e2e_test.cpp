@@ -128,8 +128,11 @@ TEST(OpenniStation, TakesTheSetOnceMoreWhenAProcessDiesInMidScan) {
   OpenniBus bus;
   const OpenniStation sensors(bus, small_station(), 3);
   StationProcess station;
+  // The capture takes two seconds, of which a busy machine may lose one before the process is
+  // ended.
   station.write_settings(sensors.camera_tables() +
-                         "[capture]\nframes_per_camera = 30\nwarmup_frames = 0\n");
+                         "[capture]\nframes_per_camera = 60\nwarmup_frames = 0\n"
+                         "deadline_ms = 20000\n");
   station.start();
   ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0) << station.log();
   ASSERT_TRUE(station.wait_for("STATUS=ready", kLong));
