@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +13,7 @@
 #include "sim/simulated_station.h"
 #include "tests/support/bent_capture.h"
 #include "tests/support/random_numbers.h"
-#include "tests/support/simulated_capture.h"
+#include "tests/support/simulated_scan.h"
 
 namespace {
 
@@ -37,12 +36,7 @@ struct Fault {
   test::BentCamera bent{};
 };
 
-struct Scan {
-  Capture capture;
-  std::vector<SubjectTruth> truth;  ///< of each foot
-};
-
-std::optional<Scan> scan_of(int seed, const Wishes& wishes) {
+Result<test::SimulatedScan> scan_of(int seed, const Wishes& wishes) {
   SimulationSettings settings;
   settings.seed = static_cast<std::uint64_t>(seed);
   settings.side = seed % 2 == 0 ? Side::kLeft : Side::kRight;
@@ -50,15 +44,8 @@ std::optional<Scan> scan_of(int seed, const Wishes& wishes) {
   settings.cameras = wishes.cameras;
   settings.width_px = 320;
   settings.height_px = 240;
-  settings.pacing = Pacing::kAsFastAsPossible;
   if (wishes.bad_sensor) settings.noise = NoiseLaw::kPessimistic;
-  auto station = build_station(settings);
-  if (!station) return std::nullopt;
-  auto truth = station->truth();
-  if (!truth) return std::nullopt;
-  auto capture = test::capture_of(*station);
-  if (!capture) return std::nullopt;
-  return Scan{*std::move(capture), *std::move(truth)};
+  return test::scan_of(settings);
 }
 
 void spoil(const Fault& fault, int seed, Capture& capture) {
@@ -98,7 +85,7 @@ struct Tally {
   int girths = 0;
   double squares = 0.0;  ///< of the errors of the ball girth
 
-  void add(const Result<std::vector<ScanRecord>>& records, const Scan& scan) {
+  void add(const Result<std::vector<ScanRecord>>& records, const test::SimulatedScan& scan) {
     if (!records || records->size() != scan.truth.size()) {
       ++refused;
       return;
@@ -109,16 +96,12 @@ struct Tally {
   }
 
   void add(const MeasureSet& set, const std::map<std::string, double>& truth) {
-    for (const auto& measure : set.measures) {
-      const auto known = truth.find(measure.id);
-      if (known == truth.end() || !measure.u95()) continue;
-      const double error = measure.value() - known->second;
-      ++measures;
-      held += std::abs(error) <= *measure.u95() ? 1 : 0;
-      if (measure.id != "ball_girth") continue;
-      ++girths;
-      squares += error * error;
-    }
+    measures += test::number_known(set, truth);
+    held += test::number_held(set, truth);
+    const Measure* girth = set.find("ball_girth");
+    if (girth == nullptr || !girth->u95()) return;
+    ++girths;
+    squares += std::pow(girth->value() - truth.at("ball_girth"), 2);
   }
 
   std::string line() const {
@@ -128,10 +111,10 @@ struct Tally {
   }
 };
 
-void report(const Fault& fault, const std::vector<Scan>& scans) {
+void report(const Fault& fault, const std::vector<test::SimulatedScan>& scans) {
   Tally tallies[2];
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    Scan scan = scans[i];
+    test::SimulatedScan scan = scans[i];
     spoil(fault, static_cast<int>(i), scan.capture);
     for (const bool refine : {false, true}) {
       PipelineSettings settings;
@@ -156,7 +139,7 @@ int main(int count, char** words) {
   app.add_flag("--two-feet", wishes.two_feet, "Both feet of each person at once");
   app.add_flag("--bad-sensor", wishes.bad_sensor, "With 1.2 mm of noise in place of 0.4");
   CLI11_PARSE(app, count, words);
-  std::vector<Scan> scans;
+  std::vector<test::SimulatedScan> scans;
   for (int seed = 1; seed <= wishes.feet; ++seed) {
     if (auto scan = scan_of(seed, wishes)) scans.push_back(std::move(*scan));
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
@@ -13,27 +12,14 @@
 #include "daemon/scan/scan_pipeline.h"
 #include "sim/simulated_station.h"
 #include "tests/support/bent_capture.h"
-#include "tests/support/simulated_capture.h"
+#include "tests/support/simulated_scan.h"
 
 namespace instep {
 namespace {
 
-/// What one press of the pedal brings, and what is true of it.
-struct Scan {
-  Capture capture;
-  std::vector<SubjectTruth> truth;
-};
-
-std::optional<Scan> scan_of(SimulationSettings settings) {
-  settings.pacing = Pacing::kAsFastAsPossible;
-  auto station = build_station(settings);
-  if (!station) return std::nullopt;
-  auto truth = station->truth();
-  if (!truth) return std::nullopt;
-  auto capture = test::capture_of(*station);
-  if (!capture) return std::nullopt;
-  return Scan{*std::move(capture), *std::move(truth)};
-}
+using test::number_held;
+using test::number_known;
+using test::scan_of;
 
 struct Person {
   std::uint64_t seed;
@@ -53,22 +39,6 @@ void expect_true_measures(const MeasureSet& measures, const std::map<std::string
     // Where the scan leaves a landmark in doubt by more, the measure says so.
     EXPECT_NEAR(measure->value(), value, std::max(guessed_mm, measure->u95().value_or(0.0))) << id;
   }
-}
-
-int number_known(const MeasureSet& measures, const std::map<std::string, double>& truth) {
-  return static_cast<int>(std::count_if(
-      measures.measures.begin(), measures.measures.end(),
-      [&truth](const Measure& measure) { return measure.u95() && truth.contains(measure.id); }));
-}
-
-/// Measures within their intervals.
-int number_held(const MeasureSet& measures, const std::map<std::string, double>& truth) {
-  return static_cast<int>(std::count_if(
-      measures.measures.begin(), measures.measures.end(), [&truth](const Measure& measure) {
-        const auto known = truth.find(measure.id);
-        return measure.u95() && known != truth.end() &&
-               std::abs(measure.value() - known->second) <= *measure.u95();
-      }));
 }
 
 bool is_said(const std::string& words, const std::vector<std::string>& warnings) {
@@ -138,7 +108,7 @@ void spoil_lenses(Capture& capture) {
   }
 }
 
-std::optional<Scan> scan_by_spoilt_lenses() {
+Result<test::SimulatedScan> scan_by_spoilt_lenses() {
   SimulationSettings settings;
   settings.seed = 5;
   auto scan = scan_of(settings);
@@ -261,21 +231,6 @@ TEST(SimulatedFoot, ThatMovedIsSpokenOfOnce) {
     return warning.find(" moved ") != std::string::npos;
   });
   EXPECT_EQ(spoken, 1);
-}
-
-/// Nobody sees a stretch of its sides: it comes in two parts, and is one foot all the same.
-TEST(SimulatedFoot, IsMeasuredWholeByACameraBeforeAndOneBehindIt) {
-  SimulationSettings settings;
-  settings.seed = 2;
-  settings.cameras = 2;
-  auto scan = scan_of(settings);
-  ASSERT_TRUE(scan);
-  const auto records = measure_capture(scan->capture, {}, {});
-  ASSERT_TRUE(records) << records.error().line();
-  const Measure* length = records->front().measures.find("foot_length");
-  ASSERT_NE(length, nullptr);
-  EXPECT_NEAR(length->value_mm, scan->truth.front().measures.at("foot_length"), 1.0);
-  EXPECT_TRUE(is_said("comes in 2 parts", records->front().foot.warnings));
 }
 
 /// One camera alone sees a side of it: that it is no foot is not all that helps.

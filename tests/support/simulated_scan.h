@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/foot/measure_set.h"
+#include "daemon/scan/scan_pipeline.h"
+#include "sim/simulated_station.h"
+
+namespace instep::test {
+
+/// What one press of the pedal brings at a simulated station, and what is true of it.
+struct SimulatedScan {
+  Capture capture;
+  std::vector<SubjectTruth> truth;  ///< of each foot
+};
+
+/// At the pace of the processor. Fails as building the station and its cameras do.
+Result<SimulatedScan> scan_of(SimulationSettings settings);
+
+/// Measures that have an interval and a truth.
+int number_known(const MeasureSet& measures, const std::map<std::string, double>& truth);
+
+/// Of these, those whose interval holds the truth.
+int number_held(const MeasureSet& measures, const std::map<std::string, double>& truth);
+
+}  // namespace instep::test
