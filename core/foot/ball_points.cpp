@@ -7,6 +7,7 @@
 
 #include "core/foot/border_crest.h"
 #include "core/foot/hidden_crest.h"
+#include "core/girth/length_doubt.h"
 
 namespace instep {
 namespace {
@@ -158,11 +159,33 @@ std::optional<Eigen::Vector3d> top_over(const FootOutline& outline, const Eigen:
   return top ? std::optional(section.position(*top)) : std::nullopt;
 }
 
-std::optional<Landmark> broadest(const SkinBorder& border, double length) {
+/// What a hidden point that lies so much less far out leaves open of the furthest one, as one
+/// standard deviation: by how much it may be further out than that after all.
+std::vector<Eigen::Vector3d> may_be_further(const Landmark& hidden, double less_mm,
+                                            const Eigen::Vector3d& outwards) {
+  double squares = 0.0;
+  for (const auto& off : hidden.deviations_off_mm) squares += std::pow(outwards.dot(off), 2);
+  const double further = std::sqrt(squares) - less_mm / kDeviations;
+  if (!(further > 0.0)) return {};
+  return {further * outwards};
+}
+
+/// `metatarsal`: the point of the ball on that border.
+std::optional<Landmark> broadest(const SkinBorder& border, double length,
+                                 const std::optional<Landmark>& metatarsal) {
   const auto peak = border.furthest(0.50 * length, 0.85 * length);
   if (!peak) return std::nullopt;
-  return Landmark{border.position(*peak), 0.9,
-                  "furthest point of the outline in 0.50-0.85 of the foot's length"};
+  Landmark furthest{border.position(*peak), 0.9,
+                    "furthest point of the outline in 0.50-0.85 of the foot's length"};
+  if (!metatarsal || metatarsal->deviations_off_mm.empty()) return furthest;
+  const Eigen::Vector3d& outwards = border.view().outwards;
+  const double less = outwards.dot(furthest.position_mm - metatarsal->position_mm);
+  if (less < 0.0) {
+    furthest = *metatarsal;
+    furthest.rule = "as the point of the ball, where the outline was not seen";
+  }
+  furthest.deviations_off_mm = may_be_further(*metatarsal, std::max(0.0, less), outwards);
+  return furthest;
 }
 
 }  // namespace
@@ -188,12 +211,14 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
        "nearness to 0.63"});
 }
 
-std::optional<Landmark> find_ball_medial(const FootOutline& outline) {
-  return broadest(outline.medial(), outline.length_mm());
+std::optional<Landmark> find_ball_medial(const FootOutline& outline,
+                                         const std::optional<Landmark>& tibiale) {
+  return broadest(outline.medial(), outline.length_mm(), tibiale);
 }
 
-std::optional<Landmark> find_ball_lateral(const FootOutline& outline) {
-  return broadest(outline.lateral(), outline.length_mm());
+std::optional<Landmark> find_ball_lateral(const FootOutline& outline,
+                                          const std::optional<Landmark>& fibulare) {
+  return broadest(outline.lateral(), outline.length_mm(), fibulare);
 }
 
 std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,

@@ -87,7 +87,7 @@ std::vector<LengthDefinition> outline_definitions(const MeasuringRules& rules) {
        "from metatarsale tibiale to metatarsale fibulare, in floor projection"},
       {"foot_breadth_horizontal",
        foot_breadth_horizontal,
-       {},
+       {"ball_medial", "ball_lateral"},
        std::string(kExtentSquareToAxis) + "in 0.50-0.85 of that length"},
       {"heel_breadth",
        heel_breadth,
