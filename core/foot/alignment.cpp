@@ -21,7 +21,6 @@ namespace instep {
 namespace {
 
 constexpr std::size_t kFewestPoints = 200;
-constexpr double kSureSide = 0.8;
 constexpr double kLargePieceShare = 0.1;   ///< a piece apart that is worth a word
 constexpr double kLargeBesideShare = 0.5;  ///< of the foot, that touches it
 
@@ -100,7 +99,7 @@ std::string beside(const StandingBody& body) {
 
 std::vector<std::string> doubts(const FootScan& foot) {
   std::vector<std::string> warnings;
-  if (foot.side_confidence < kSureSide) {
+  if (!foot.is_side_sure()) {
     warnings.emplace_back("the shape hardly tells left from right: check the side");
   }
   if (!foot.landmarks.contains("toe2_tip")) {

@@ -19,7 +19,7 @@ struct Landmark {
   double confidence = 0.0;                                ///< 0 to 1; by proportion under 0.35
   std::string rule;                                       ///< how it was found, in a few words
   /// Within this of the true place with 95 % probability, as far as the points and
-  /// `deviations_off_mm` tell.
+  /// `deviations_off_mm` tell; with the way to that of the other foot where the side is not sure.
   std::optional<double> radius_mm = std::nullopt;
   /// Where it lies instead, as seen from there, if something that redraws share, and so do not
   /// show, is one standard deviation off; each for itself: of `heel_point` the edge of a standing
@@ -55,6 +55,8 @@ struct Redraws {
   /// The same once more, with the local errors of the points drawn anew; none where the cloud knows
   /// of none.
   std::vector<RedrawnLandmarks> erring;
+  /// Of all points, as those of the other foot; none where the side is sure.
+  std::optional<RedrawnLandmarks> of_other_side;
 };
 
 /// One foot in its own frame, ready to be measured.
@@ -74,6 +76,9 @@ struct FootScan {
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;
+
+  /// Whether left was told from right, by the shape, the other foot or whoever knew it.
+  bool is_side_sure() const { return side_confidence >= kSureSide; }
 
   /// Whether the second toe was told from its neighbours, which aligning a foot finds out.
   bool has_seen_toes() const {

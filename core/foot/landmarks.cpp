@@ -10,6 +10,7 @@
 #include "core/foot/foot_outline.h"
 #include "core/foot/heel_points.h"
 #include "core/foot/midfoot_points.h"
+#include "core/foot/other_side.h"
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/toe_points.h"
@@ -111,6 +112,7 @@ Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot) {
   }
   mark(foot);
   foot.redraws = redraw_landmarks(foot, workers);
+  foot.redraws.of_other_side = landmarks_of_other_side(foot);
   set_radii(foot);
   if (foot.rules != MeasuringRules{}) {
     foot.warnings.push_back("measured by definitions of one's own choice: " + in_words(foot.rules));

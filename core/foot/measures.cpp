@@ -172,6 +172,43 @@ Result<std::optional<double>> u95_by_landmarks(const Definition& definition, con
               "scan again, with the foot in full view of all cameras");
 }
 
+Result<Girth> girth_in(const TapePlane& plane, const FootScan& foot,
+                       const MeasureOptions& options) {
+  auto girth = options.girth(foot.cloud, plane, options.girth_options);
+  if (!girth || !foot.cloud.stands_on_platform()) return girth;
+  return standing_girth(*std::move(girth), plane);
+}
+
+tl::unexpected<Error> not_of_other_foot() {
+  return fail(ErrorCode::kInsufficientData,
+              "the shape hardly tells left from right, and of the other foot it could not be taken "
+              "here",
+              "say which foot it is (--side), or scan again, with both its sides in view");
+}
+
+/// How far a measure is from that of the other foot, the interval of which has to be in its own; 0
+/// where the side is sure.
+Result<double> distance_to_other_foot(const LengthDefinition& definition, double length,
+                                      const FootScan& foot) {
+  const auto& other = foot.redraws.of_other_side;
+  if (!other) return 0.0;
+  const auto of_other = definition.length(other->landmarks);
+  if (!of_other) return not_of_other_foot();
+  return std::abs(*of_other - length);
+}
+
+/// By a tape of its own: rough ones are alike for planes near each other only.
+Result<double> distance_to_other_foot(const GirthDefinition& definition, double girth_mm,
+                                      const FootScan& foot, const MeasureOptions& options) {
+  const auto& other = foot.redraws.of_other_side;
+  if (!other) return 0.0;
+  const auto tape = definition.tape(other->landmarks);
+  if (!tape) return not_of_other_foot();
+  const auto girth = girth_in(tape->transformed(other->foot_from_redrawn), foot, options);
+  if (!girth) return not_of_other_foot();
+  return std::abs(girth->stretched_mm - girth_mm);
+}
+
 std::vector<std::string> doubts(const FootScan& foot, const std::vector<const char*>& landmarks) {
   std::vector<std::string> warnings;
   for (const char* name : landmarks) {
@@ -215,11 +252,13 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   measure.id = definition.id;
   const auto by_landmarks = u95_by_landmarks(definition, foot, about);
   if (!by_landmarks) return tl::unexpected(by_landmarks.error());
+  const auto to_other = distance_to_other_foot(definition, *length, foot);
+  if (!to_other) return tl::unexpected(to_other.error());
   std::optional<double> u95 = *by_landmarks;
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
   if (u95) {
-    measure.parts = DoubtParts{about.shared.of(definition.length), *u95};
-    u95 = std::hypot(measure.parts->surface, *u95);
+    measure.parts = DoubtParts{about.shared.of(definition.length), *u95 + *to_other};
+    u95 = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   if (definition.kind == LengthDefinition::Kind::kAngle) {
     measure.value_mm = std::numeric_limits<double>::quiet_NaN();
@@ -262,25 +301,27 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
                      const FootDoubts& about, const MeasureOptions& options) {
   const auto plane = definition.tape(foot.landmarks);
   if (!plane) return tl::unexpected(plane.error());
-  auto girth = options.girth(foot.cloud, *plane, options.girth_options);
+  auto girth = girth_in(*plane, foot, options);
   if (!girth) return tl::unexpected(girth.error());
-  const bool is_standing = foot.cloud.stands_on_platform();
-  if (is_standing) girth = standing_girth(*std::move(girth), *plane);
   if (auto sane = check_share(girth->stretched_mm, foot); !sane) {
     return tl::unexpected(sane.error());
   }
   Measure measure;
   measure.id = definition.id;
   measure.value_mm = girth->stretched_mm;
-  const HiddenWall hidden = is_standing ? hidden_wall(about.seen, *plane, *girth) : HiddenWall{};
+  const HiddenWall hidden =
+      foot.cloud.stands_on_platform() ? hidden_wall(about.seen, *plane, *girth) : HiddenWall{};
   if (auto seen = check_wall(hidden); !seen) return tl::unexpected(seen.error());
   // The tape's own interval alone, without that of the landmarks that place the tape, would promise
   // too much.
   const auto by_landmarks = u95_by_landmarks(definition, foot, about);
   if (!by_landmarks) return tl::unexpected(by_landmarks.error());
+  const auto to_other = distance_to_other_foot(definition, girth->stretched_mm, foot, options);
+  if (!to_other) return tl::unexpected(to_other.error());
   if (*by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
-    measure.parts = DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks};
+    measure.parts =
+        DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks + *to_other};
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   measure.plane = *plane;

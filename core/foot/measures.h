@@ -29,9 +29,10 @@ struct MeasureOptions {
 ///
 /// The part of the landmarks is how a measure scatters over FootScan::redraws, a girth's by tapes
 /// laid round the same points, widened for what all redraws share, and with what it moves by where
-/// a landmark lies each of Landmark::deviations_off_mm; that of the surface is Girth's
-/// own, a length's what the cloud's shared errors do (core/foot/shared_doubt.h). Neither knows of a
-/// rule that is not what was meant.
+/// a landmark lies each of Landmark::deviations_off_mm; where the side is not sure, it reaches as
+/// far beyond the value that the other foot would have. That of the surface is Girth's own, a
+/// length's what the cloud's shared errors do (core/foot/shared_doubt.h). Neither knows of a rule
+/// that is not what was meant.
 ///
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; so is one
 /// whose interval is wider, to either side, than an eighth of it and 5 mm, or than 10 degrees: the

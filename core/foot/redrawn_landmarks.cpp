@@ -118,16 +118,20 @@ double variance_share(const Parting& parting) {
   return parting.is_part_left_out ? (parts - 1.0) * (parts - 1.0) / parts : 1.0 / parts;
 }
 
-/// Where each redraw puts a landmark, along an axis of the foot.
+/// Where a redraw puts a landmark, in the frame of the foot.
+std::optional<Vector3d> place_of(const std::string& name, const RedrawnLandmarks& redrawn) {
+  const auto found = redrawn.landmarks.find(name);
+  if (found == redrawn.landmarks.end()) return std::nullopt;
+  return redrawn.foot_from_redrawn * found->second.position_mm;
+}
+
+/// Along one of its axes, where each does.
 std::vector<std::optional<double>> redrawn_coordinates(const std::vector<RedrawnLandmarks>& redraws,
                                                        const std::string& name, int axis) {
   std::vector<std::optional<double>> values;
   for (const auto& redrawn : redraws) {
-    const auto found = redrawn.landmarks.find(name);
-    values.push_back(
-        found == redrawn.landmarks.end()
-            ? std::nullopt
-            : std::optional((redrawn.foot_from_redrawn * found->second.position_mm)(axis)));
+    const auto place = place_of(name, redrawn);
+    values.push_back(place ? std::optional((*place)(axis)) : std::nullopt);
   }
   return values;
 }
@@ -224,11 +228,14 @@ void set_radii(FootScan& foot) {
       is_known = is_known && own && erring;
       squared += std::pow(own.value_or(0.0), 2) + std::pow(erring.value_or(0.0), 2);
     }
-    if (is_known) {
+    const auto other = redraws.of_other_side ? place_of(name, *redraws.of_other_side)
+                                             : std::optional(landmark.position_mm);
+    if (is_known && other) {
       double shared = 0.0;
       for (const auto& off : landmark.deviations_off_mm) shared += off.squaredNorm();
       landmark.radius_mm =
-          std::hypot(std::sqrt(squared), own_doubt_mm(name), kDeviations * std::sqrt(shared));
+          std::hypot(std::sqrt(squared), own_doubt_mm(name), kDeviations * std::sqrt(shared)) +
+          (*other - landmark.position_mm).norm();
     }
   }
 }
