@@ -21,7 +21,8 @@ struct LengthDefinition {
   std::string words;
   enum class Kind { kLength, kAngle } kind = Kind::kLength;
   double floor_doubt_mm = 0.0;  ///< of a height, where the floor is told by the sole alone
-  /// What the patch that tells a landmark pulls it aside by, over drawn feet (tests/bench/feet).
+  /// What the patch that tells a landmark, or the cameras, pull it aside by, over drawn feet and
+  /// simulated stations (tests/bench/feet, poses).
   double own_doubt_mm = 0.0;
 };
 
