@@ -27,6 +27,7 @@ constexpr double kSplitBandMm = 8.0;         // width of the strip that is searc
 constexpr double kLeastSplitShare = 0.25;    // of a piece on the smaller side of a split
 constexpr double kWaistShare = 0.7;          // of the most ground at a line, between two feet
 constexpr double kNotableShare = 0.05;       // of the larger foot's surface, of a part left out
+constexpr double kCrumbMm = 40.0;            // shorter, it is not worth a word
 
 /// Connected cells, each standing for the points in it.
 struct Piece {
@@ -282,6 +283,21 @@ std::vector<std::string> named_parts(const std::vector<Piece>& feet,
   return warnings;
 }
 
+/// Where nothing is long enough for a foot: how long the longest is that stands and is no crumb.
+std::vector<std::string> named_short_ones(const std::vector<Piece>& none, double standing_height_mm,
+                                          const SeparationSettings& settings) {
+  double longest = 0.0;
+  for (const auto& piece : none) {
+    if (!stands(piece, standing_height_mm, settings)) continue;
+    longest = std::max(longest, enclosing_rectangle(piece.hull()).length);
+  }
+  if (longest < kCrumbMm) return {};
+  const auto in_mm = [](double length) { return std::to_string(std::lround(std::floor(length))); };
+  return {"the longest thing that stands there is " + in_mm(longest) +
+          " mm long, and feet of less than " + in_mm(settings.least_length_mm) +
+          " mm are not measured"};
+}
+
 }  // namespace
 
 SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double standing_height_mm,
@@ -318,6 +334,7 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
   if (are_many) feet.resize(2);
   if (feet.empty()) {
     separated.strays = positions.size();
+    separated.warnings = named_short_ones(small, standing_height_mm, settings);
     return separated;
   }
   const auto left_out = adopt(feet, std::move(small));

@@ -32,7 +32,8 @@ struct SeparatedFeet {
 /// a piece too wide for a foot, or for its own length and thin somewhere between two feet, is split
 /// where it is thinnest. Then small pieces go to the foot whose outline they lie in, and everything
 /// else is stray; where such a thing stands and could be a part of a foot, too far away to be
-/// joined, or is only too short for a foot, a warning says so. No foot gives an empty list.
+/// joined, or is only too short for a foot, a warning says so. No foot gives an empty list, and a
+/// warning where something stands there that is shorter.
 SeparatedFeet separate_feet(const std::vector<Eigen::Vector3d>& positions,
                             double standing_height_mm, const SeparationSettings& settings = {});
 

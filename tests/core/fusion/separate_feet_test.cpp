@@ -121,6 +121,24 @@ TEST(SeparateFeet, NamesAHeelThatNoCameraJoinsToTheFoot) {
 
 /// A bag's corner, or the heel of a foot half out of view: as a foot it would spoil the other's
 /// scan.
+/// A baby's foot was "no foot: step on the platform".
+TEST(SeparateFeet, SaysOfWhatIsTooShortToBeMeasuredHowLongItIs) {
+  std::vector<Vector3d> points;
+  add_foot(points, 0, 0, 112.5, 44, 28);
+  const auto separated = separate_feet(points, 0.0);
+  EXPECT_TRUE(separated.feet.empty());
+  ASSERT_EQ(separated.warnings.size(), 1U);
+  EXPECT_NE(separated.warnings[0].find("is 112 mm long"), std::string::npos)
+      << separated.warnings[0];
+  EXPECT_NE(separated.warnings[0].find("less than 120 mm"), std::string::npos);
+  std::vector<Vector3d> crumb;
+  add_foot(crumb, 0, 0, 20, 9, 5);
+  EXPECT_TRUE(separate_feet(crumb, 0.0).warnings.empty());
+  std::vector<Vector3d> hovering = points;
+  for (auto& point : hovering) point.z() += 100.0;
+  EXPECT_TRUE(separate_feet(hovering, 0.0).warnings.empty()) << "as a leg above a foot";
+}
+
 TEST(SeparateFeet, LeavesOutAndNamesWhatIsTooShortForAFoot) {
   std::vector<Vector3d> points;
   add_foot(points, 0, 0, 255, 98);
