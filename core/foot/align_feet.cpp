@@ -35,6 +35,18 @@ Result<FootScan> with_side(FootScan foot, const PointCloud& cloud, Side side,
   return again;
 }
 
+/// Of two feet that look like the same side one is the other: which, their shapes tell against each
+/// other.
+void doubt_one_side(std::vector<FootScan>& feet) {
+  const auto right_alone = [](const FootScan& right, const FootScan& wrong) {
+    return right.side_confidence * (1.0 - wrong.side_confidence);
+  };
+  const double first = right_alone(feet[0], feet[1]);
+  const double second = right_alone(feet[1], feet[0]);
+  feet[0].side_confidence = std::max(0.5, first / (first + second));
+  feet[1].side_confidence = std::max(0.5, second / (first + second));
+}
+
 }  // namespace
 
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
@@ -63,6 +75,7 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
       feet[i] = std::move(*settled);
     }
   } else if (feet[0].side == feet[1].side) {
+    doubt_one_side(feet);
     for (auto& foot : feet) {
       foot.warnings.emplace_back("both feet look like the same side: check the sides");
     }

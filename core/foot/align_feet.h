@@ -16,8 +16,8 @@ namespace instep {
 /// Two feet that point roughly the same way are told left from right by where they stand, which is
 /// surer than the shape of either; where the shape clearly says otherwise (crossed feet) that is a
 /// warning. Two feet of one side, pointing different ways, keep what their shapes say, with a
-/// warning. A forced side applies to a single foot only. Fails as align_foot() does, for the first
-/// cloud that fails.
+/// warning: one of them is wrong, and each is as sure as its shape is against the other's. A forced
+/// side applies to a single foot only. Fails as align_foot() does, for the first cloud that fails.
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
                                          const AlignmentOptions& options = {});
 

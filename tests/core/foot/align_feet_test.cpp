@@ -90,6 +90,7 @@ TEST(AlignFeet, KeepsTheShapesOfFeetThatPointDifferentWays) {
   for (const auto& foot : *feet) {
     EXPECT_EQ(foot.side, Side::kRight);
     EXPECT_TRUE(says(foot, "same side"));
+    EXPECT_FALSE(foot.is_side_sure()) << "one of them is a left one";
   }
 }
 
