@@ -99,9 +99,6 @@ std::string beside(const StandingBody& body) {
 
 std::vector<std::string> doubts(const FootScan& foot) {
   std::vector<std::string> warnings;
-  if (!foot.is_side_sure()) {
-    warnings.emplace_back("the shape hardly tells left from right: check the side");
-  }
   if (!foot.landmarks.contains("toe2_tip")) {
     warnings.emplace_back("the toes were not seen: scan the foot again, in full view");
   } else if (!foot.has_seen_toes()) {

@@ -113,6 +113,11 @@ Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot) {
   mark(foot);
   foot.redraws = redraw_landmarks(foot, workers);
   foot.redraws.of_other_side = landmarks_of_other_side(foot);
+  if (foot.redraws.of_other_side) {
+    foot.warnings.emplace_back(
+        "the shape hardly tells left from right, so that all intervals reach to what the other "
+        "foot would have: check the side, or say which foot it is (--side)");
+  }
   set_radii(foot);
   if (foot.rules != MeasuringRules{}) {
     foot.warnings.push_back("measured by definitions of one's own choice: " + in_words(foot.rules));
