@@ -1,6 +1,5 @@
 #include "core/foot/measures.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -17,6 +16,7 @@
 #include "core/foot/shoe_last.h"
 #include "core/foot/standing_girth.h"
 #include "core/foot/unseen_ends.h"
+#include "core/foot/useless_measure.h"
 #include "core/geometry/seen_skin.h"
 #include "core/girth/length_doubt.h"
 #include "core/in_millimetres.h"
@@ -34,12 +34,6 @@ constexpr double kLeastHeelShare = 0.125;
 // A lower arch is not told from a sole closed by the scanner.
 constexpr double kLeastArchMm = 3.0;
 
-// Feet of one length differ in breadths and girths by an eighth to either side at the most: a wider
-// interval says less than that length. Of an arch or a toe an eighth is hardly more than the doubt
-// of a floor, and toes point within twenty degrees.
-constexpr double kUselessShare = 0.125;
-constexpr double kUselessMm = 5.0;
-constexpr double kUselessDegrees = 10.0;
 /// Of what a wall that was not seen leaves open of a girth.
 constexpr double kWorthSayingMm = 1.0;
 // Of the section's height: of a wall that was lost higher, most of the tape's way is a guess. Of 24
@@ -209,6 +203,13 @@ Result<double> distance_to_other_foot(const GirthDefinition& definition, double 
   return std::abs(girth->stretched_mm - girth_mm);
 }
 
+/// An interval that reaches so much further, by its landmarks.
+DoubtParts widened(const DoubtParts& parts, double further) {
+  if (further == 0.0) return parts;
+  const double whole = std::hypot(parts.surface, parts.landmarks) + further;
+  return {parts.surface, std::sqrt(whole * whole - parts.surface * parts.surface)};
+}
+
 std::vector<std::string> doubts(const FootScan& foot, const std::vector<const char*>& landmarks) {
   std::vector<std::string> warnings;
   for (const char* name : landmarks) {
@@ -257,7 +258,7 @@ Result<Measure> take(const LengthDefinition& definition, const FootScan& foot,
   std::optional<double> u95 = *by_landmarks;
   if (u95 && !foot.is_floor_known) u95 = std::hypot(*u95, definition.floor_doubt_mm);
   if (u95) {
-    measure.parts = DoubtParts{about.shared.of(definition.length), *u95 + *to_other};
+    measure.parts = widened({about.shared.of(definition.length), *u95}, *to_other);
     u95 = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   if (definition.kind == LengthDefinition::Kind::kAngle) {
@@ -321,7 +322,7 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   if (*by_landmarks && girth->stretched_u95_mm) {
     const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
     measure.parts =
-        DoubtParts{std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks + *to_other};
+        widened({std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks}, *to_other);
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);
   }
   measure.plane = *plane;
@@ -335,26 +336,14 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   return measure;
 }
 
-/// Whether the interval holds so much that a foot which was not measured could be told as well.
-bool is_useless(const Measure& measure) {
-  if (!measure.u95()) return false;
-  const double limit = measure.value_deg
-                           ? kUselessDegrees
-                           : std::max(kUselessMm, kUselessShare * std::abs(measure.value_mm));
-  return *measure.u95() > limit;
-}
-
-std::string why_useless(const Measure& measure) {
-  return "it is told to no better than +-" + std::to_string(std::lround(*measure.u95())) +
-         (measure.value_deg ? " degrees" : " mm") +
-         ": scan again with more frames, and one foot alone in full view of all cameras";
-}
-
-void keep(MeasureSet& set, const std::string& id, bool is_last, Result<Measure> measure) {
-  if (measure && is_useless(*measure)) {
-    set.withheld.push_back({id, why_useless(*measure)});
-  } else if (measure) {
-    set.measures.push_back(*std::move(measure));
+void keep(MeasureSet& set, const FootScan& foot, const std::string& id, bool is_last,
+          Result<Measure> measure) {
+  if (measure) {
+    if (auto useless = why_useless(*measure, foot)) {
+      set.withheld.push_back({id, *std::move(useless)});
+    } else {
+      set.measures.push_back(*std::move(measure));
+    }
   } else if (is_last && is_of_feet_only(id)) {
     set.withheld.push_back({id, "a shoe last has none"});
   } else {
@@ -376,7 +365,7 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   const bool is_last = is_shoe_last(foot);
   const FootDoubts about(foot);
   for (const auto& definition : length_definitions(foot.rules)) {
-    keep(set, definition.id, is_last, take(definition, foot, about));
+    keep(set, foot, definition.id, is_last, take(definition, foot, about));
     if (!go_on()) return cancelled();
   }
   const auto definitions = girth_definitions(foot);
@@ -389,7 +378,7 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   });
   if (!wanted) return cancelled();
   for (std::size_t i = 0; i < definitions.size(); ++i) {
-    keep(set, definitions[i].id, is_last, *std::move(girths[i]));
+    keep(set, foot, definitions[i].id, is_last, *std::move(girths[i]));
   }
   return set;
 }

@@ -29,20 +29,20 @@ struct MeasureOptions {
 ///
 /// The part of the landmarks is how a measure scatters over FootScan::redraws, a girth's by tapes
 /// laid round the same points, widened for what all redraws share, and with what it moves by where
-/// a landmark lies each of Landmark::deviations_off_mm; where the side is not sure, it reaches as
-/// far beyond the value that the other foot would have. That of the surface is Girth's own, a
-/// length's what the cloud's shared errors do (core/foot/shared_doubt.h). Neither knows of a rule
-/// that is not what was meant.
+/// a landmark lies each of Landmark::deviations_off_mm; where the side is not sure, it makes
+/// the interval reach as far beyond the value that the other foot would have. That of the surface
+/// is Girth's own, a length's what the cloud's shared errors do (core/foot/shared_doubt.h). Neither
+/// knows of a rule that is not what was meant.
 ///
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; so is one
 /// whose interval is wider, to either side, than an eighth of it and 5 mm, or than 10 degrees: the
-/// foot's length alone says as much. The length itself may be so too, and then there are no sizes;
-/// where the skin of the toes or the heel runs on and only the points end, it says so, and all
-/// intervals hold what another 10 mm of foot along its axis would change
+/// foot's length alone says as much (core/foot/useless_measure.h). The length itself may be so too,
+/// and then there are no sizes; where the skin of the toes or the heel runs on and only the points
+/// end, it says so, and all intervals hold what another 10 mm of foot along its axis would change
 /// (core/foot/unseen_ends.h). One that leans on a doubtful landmark carries a warning. Fails with
 /// kInvalidInput if the foot has no pternion, acropodion or instep point. A left foot has the
-/// measures of its mirror image. The cost is that of the girths; `go_on` hears of each measure, and
-/// once it returns false the whole fails with kCancelled.
+/// measures of its mirror image. The cost is that of the girths, twice where the side is not sure;
+/// `go_on` hears of each measure, and once it returns false the whole fails with kCancelled.
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
                                 const GoOn& go_on = always);
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
@@ -37,6 +41,14 @@ MeasureSet measured(const FootScan& foot) {
   const auto set = measure_foot(foot);
   if (!set) throw std::runtime_error(set.error().line());
   return *set;
+}
+
+/// Why a measure was withheld.
+std::string reason_of(const std::string& id, const MeasureSet& set) {
+  for (const auto& one : set.withheld) {
+    if (one.id == id) return one.reason;
+  }
+  return "";
 }
 
 class OtherSide : public testing::TestWithParam<std::uint64_t> {
@@ -87,10 +99,42 @@ TEST_P(OtherSide, ThatDoesNotGiveAMeasureWithholdsIt) {
   ASSERT_EQ(foot.redraws.of_other_side->landmarks.erase("acropodion"), 1U);
   const auto set = measured(foot);
   EXPECT_EQ(set.find("foot_length"), nullptr);
-  for (const auto& one : set.withheld) {
-    if (one.id != "foot_length") continue;
-    EXPECT_NE(one.reason.find("hardly tells left from right"), std::string::npos) << one.reason;
-  }
+  const std::string why = reason_of("foot_length", set);
+  EXPECT_NE(why.find("hardly tells left from right"), std::string::npos) << why;
+}
+
+/// More frames would not help.
+TEST_P(OtherSide, ThatIsTooFarOffIsAskedFor) {
+  FootScan foot = marked_by_guess(Side::kRight, cloud_);
+  foot.redraws.of_other_side->landmarks.at("toe1_top").position_mm.z() += 30.0;
+  const std::string why = reason_of("toe1_height", measured(foot));
+  EXPECT_NE(why.find("say which foot it is"), std::string::npos) << why;
+  foot.redraws.of_other_side.reset();
+  foot.side_confidence = 1.0;
+  EXPECT_EQ(reason_of("toe1_height", measured(foot)), "");
+}
+
+/// The interval of the other foot, if it is as wide, is in that of the one: a girth's surface too.
+TEST_P(OtherSide, WidensTheWholeInterval) {
+  const FootScan foot = marked_by_guess(Side::kRight, cloud_);
+  FootScan sure = foot;
+  sure.side_confidence = 1.0;
+  sure.redraws.of_other_side.reset();
+  FootScan apart = sure;
+  apart.redraws.of_other_side = {foot.landmarks, RigidTransform::Identity()};
+  apart.redraws.of_other_side->landmarks.at("instep_point").position_mm.x() += 4.0;
+  const Measure narrow = *measured(sure).find("instep_girth");
+  const Measure wide = *measured(apart).find("instep_girth");
+  ASSERT_TRUE(narrow.parts && wide.parts);
+  EXPECT_GT(narrow.parts->surface, 0.0);
+  EXPECT_EQ(wide.parts->surface, narrow.parts->surface);
+  EXPECT_NEAR(std::hypot(wide.parts->surface, wide.parts->landmarks), *wide.u95_mm, 1e-9);
+  FootScan moved = sure;
+  moved.landmarks = apart.redraws.of_other_side->landmarks;
+  const double distance =
+      std::abs(measured(moved).find("instep_girth")->value_mm - narrow.value_mm);
+  EXPECT_GT(distance, 0.3);
+  EXPECT_NEAR(*wide.u95_mm, *narrow.u95_mm + distance, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfDrawnFeet, OtherSide, testing::Values(2, 5, 7));
