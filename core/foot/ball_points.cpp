@@ -172,19 +172,19 @@ std::vector<Eigen::Vector3d> may_be_further(const Landmark& hidden, double less_
 
 /// `metatarsal`: the point of the ball on that border.
 std::optional<Landmark> broadest(const SkinBorder& border, double length,
-                                 const std::optional<Landmark>& metatarsal) {
+                                 const Landmark& metatarsal) {
   const auto peak = border.furthest(0.50 * length, 0.85 * length);
   if (!peak) return std::nullopt;
   Landmark furthest{border.position(*peak), 0.9,
                     "furthest point of the outline in 0.50-0.85 of the foot's length"};
-  if (!metatarsal || metatarsal->deviations_off_mm.empty()) return furthest;
+  if (metatarsal.deviations_off_mm.empty()) return furthest;
   const Eigen::Vector3d& outwards = border.view().outwards;
-  const double less = outwards.dot(furthest.position_mm - metatarsal->position_mm);
+  const double less = outwards.dot(furthest.position_mm - metatarsal.position_mm);
   if (less < 0.0) {
-    furthest = *metatarsal;
+    furthest = metatarsal;
     furthest.rule = "as the point of the ball, where the outline was not seen";
   }
-  furthest.deviations_off_mm = may_be_further(*metatarsal, std::max(0.0, less), outwards);
+  furthest.deviations_off_mm = may_be_further(metatarsal, std::max(0.0, less), outwards);
   return furthest;
 }
 
@@ -211,13 +211,11 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
        "nearness to 0.63"});
 }
 
-std::optional<Landmark> find_ball_medial(const FootOutline& outline,
-                                         const std::optional<Landmark>& tibiale) {
+std::optional<Landmark> find_ball_medial(const FootOutline& outline, const Landmark& tibiale) {
   return broadest(outline.medial(), outline.length_mm(), tibiale);
 }
 
-std::optional<Landmark> find_ball_lateral(const FootOutline& outline,
-                                          const std::optional<Landmark>& fibulare) {
+std::optional<Landmark> find_ball_lateral(const FootOutline& outline, const Landmark& fibulare) {
   return broadest(outline.lateral(), outline.length_mm(), fibulare);
 }
 

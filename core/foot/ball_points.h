@@ -22,10 +22,8 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
 /// The most medial and the most lateral point of the outline in 0.50-0.85 of the foot's length:
 /// the ends of its horizontal breadth. Where `tibiale` or `fibulare` are told for a border that was
 /// not seen, no less far out than these, and with deviations of their own.
-std::optional<Landmark> find_ball_medial(const FootOutline& outline,
-                                         const std::optional<Landmark>& tibiale);
-std::optional<Landmark> find_ball_lateral(const FootOutline& outline,
-                                          const std::optional<Landmark>& fibulare);
+std::optional<Landmark> find_ball_medial(const FootOutline& outline, const Landmark& tibiale);
+std::optional<Landmark> find_ball_lateral(const FootOutline& outline, const Landmark& fibulare);
 
 /// The highest point of the upright section through the two points of the ball. Where these may be
 /// off, one of Landmark::deviations_off_mm holds what its height moves by.

@@ -49,14 +49,14 @@ void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landma
 }
 
 void mark_forefoot(const FootOutline& outline, bool has_toes, Marking& marking) {
+  // Where a border has no point of the ball, as in a hole, its furthest one is the hole's edge.
   const auto tibiale = marking.add("metatarsale_tibiale", find_metatarsale_tibiale(outline));
-  std::optional<Landmark> fibulare;
-  if (tibiale) {
-    fibulare = marking.add("metatarsale_fibulare", find_metatarsale_fibulare(outline, *tibiale));
-  }
-  marking.add("ball_medial", find_ball_medial(outline, tibiale));
-  marking.add("ball_lateral", find_ball_lateral(outline, fibulare));
-  if (!tibiale || !fibulare) return;
+  if (!tibiale) return;
+  marking.add("ball_medial", find_ball_medial(outline, *tibiale));
+  const auto fibulare =
+      marking.add("metatarsale_fibulare", find_metatarsale_fibulare(outline, *tibiale));
+  if (!fibulare) return;
+  marking.add("ball_lateral", find_ball_lateral(outline, *fibulare));
   marking.add("ball_top", find_ball_top(outline, *tibiale, *fibulare));
   if (has_toes) mark_toes(outline, *tibiale, *fibulare, marking);
 }

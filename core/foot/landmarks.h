@@ -19,7 +19,8 @@ namespace instep {
 /// |                            | nearness to 0.69                                              |
 /// | `metatarsale_fibulare`     | most lateral point in 0.50-0.75 FL, at least 15 mm behind the |
 /// |                            | metatarsale tibiale, weighed by nearness to 0.63              |
-/// | `ball_medial`, `_lateral`  | most medial and most lateral point in 0.50-0.85 FL            |
+/// | `ball_medial`, `_lateral`  | most medial and most lateral point in 0.50-0.85 FL; no less   |
+/// |                            | far out than the two above where a border was not seen        |
 /// | `ball_top`                 | highest point of the section over the two metatarsal points   |
 /// | `instep_point`             | ridge of the foot's back at 0.50 FL                           |
 /// | `lateral_midfoot`          | point of the lateral outline in 0.25-0.45 FL nearest to the   |

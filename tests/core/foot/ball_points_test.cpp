@@ -160,14 +160,14 @@ TEST(BallPoints, OfTheBreadthAreNoNarrowerThanThoseThatWereNotSeen) {
     SCOPED_TRACE(seed);
     const auto outline = outline_with(border, bulging(0.62 * kLength, 0.02), kLength, 0.2, seed,
                                       test::kPointsOfBorders, is_seen);
-    const auto hidden = find_ball_medial(outline, find_metatarsale_tibiale(outline));
+    const auto hidden = find_ball_medial(outline, *find_metatarsale_tibiale(outline));
     ASSERT_TRUE(hidden);
     const double off = deviation_of(*hidden).y();
     EXPECT_NEAR(hidden->position_mm.y(), 45.0, 2.0 * off);
     EXPECT_GT(off, 0.1);
     EXPECT_LT(off, 3.0);
     const auto seen = find_ball_lateral(
-        outline, find_metatarsale_fibulare(outline, *find_metatarsale_tibiale(outline)));
+        outline, *find_metatarsale_fibulare(outline, *find_metatarsale_tibiale(outline)));
     ASSERT_TRUE(seen);
     EXPECT_TRUE(seen->deviations_off_mm.empty());
   }

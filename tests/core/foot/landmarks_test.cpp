@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "core/foot/alignment.h"
 #include "core/geometry/extent.h"
@@ -54,6 +56,23 @@ TEST(Landmarks, FallBackToTheAverageFootWhereTheBorderIsStraight) {
   EXPECT_LT(fibulare.confidence, 0.35);
   EXPECT_NEAR(fibulare.position_mm.x(), 0.63 * 260.0, 2.0);
   EXPECT_FALSE(found->warnings.empty());
+}
+
+/// The furthest point of what is left of the border is the hole's edge: no end of a breadth.
+TEST(Landmarks, OfABorderAreNotAtTheEdgesOfAHole) {
+  auto foot = align_foot(FootBody{}.points());
+  ASSERT_TRUE(foot) << foot.error().line();
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < foot->cloud.size(); ++i) {
+    const auto& point = foot->cloud.positions[i];
+    const bool is_gone = point.x() > 0.58 * 260.0 && point.x() < 0.82 * 260.0 && point.z() < 30.0;
+    if (!is_gone) left.push_back(i);
+  }
+  foot->cloud = foot->cloud.subset(left);
+  const auto found = find_landmarks(*foot);
+  ASSERT_TRUE(found) << found.error().line();
+  EXPECT_FALSE(found->landmarks.contains("metatarsale_tibiale"));
+  EXPECT_FALSE(found->landmarks.contains("ball_medial"));
 }
 
 TEST(Landmarks, AreNotSoughtOnAFootThatIsNotAligned) {
