@@ -9,4 +9,4 @@ shift
 rm -rf "$folder"
 mkdir -p "$folder"
 "$here/can-boot.sh" "$folder"
-"$here/run-in-guest.sh" -t 540 -s "$folder" "$here/guest/run-device-tests" "$@"
+"$here/run-in-guest.sh" -t 900 -s "$folder" "$here/guest/run-device-tests" "$@"
