@@ -239,6 +239,20 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& opt
   return found;
 }
 
+FootScan aligned_as(const FootScan& foot, PointCloud cloud) {
+  FootScan other;
+  other.cloud = std::move(cloud);
+  other.side = foot.side;
+  other.side_confidence = foot.side_confidence;
+  other.is_floor_known = foot.is_floor_known;
+  other.rules = foot.rules;
+  for (const char* name : {"pternion", "acropodion", "toe2_tip"}) {
+    const auto found = foot.landmarks.find(name);
+    if (found != foot.landmarks.end()) other.landmarks.insert(*found);
+  }
+  return other;
+}
+
 bool realign(FootScan& foot) {
   const StandingPlane floor = floor_again(foot);
   const RigidTransform standing_from_cloud = floor.standing_from_input();

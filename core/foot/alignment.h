@@ -38,12 +38,16 @@ struct AlignmentOptions {
 ///
 /// Strays, what stands apart and what stands beside the foot are left out; a warning tells of large
 /// parts of one foot, and of what stands near it or touches it. Normals that contradict the shape
-/// are dropped, with a warning. A sole that was not seen is closed on the floor (close_open_sole()),
-/// with a warning. A leg above the foot, an open sole and a cut at any height above the instep are
-/// fine. Fails with kInsufficientData under 200 points and with kInvalidInput, saying why, for what
-/// is no whole foot or is touched by something half as large. A mirrored cloud gives the mirrored
-/// result. O(n log n).
+/// are dropped, with a warning. A sole that was not seen is closed on the floor
+/// (close_open_sole()), with a warning. A leg above the foot, an open sole and a cut at any height
+/// above the instep are fine. Fails with kInsufficientData under 200 points and with kInvalidInput,
+/// saying why, for what is no whole foot or is touched by something half as large. A mirrored cloud
+/// gives the mirrored result. O(n log n).
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
+
+/// The foot by another cloud in its frame: side, floor and rules, and the three landmarks of
+/// align_foot(); from there on as if that were its input. No other landmarks, no warnings.
+FootScan aligned_as(const FootScan& foot, PointCloud cloud);
 
 /// Finds floor, axis and ends again on a foot that stands in its own frame already, as after points
 /// were taken away: moves its cloud into the new frame, adds the move to `foot_from_input`, and

@@ -114,9 +114,10 @@ Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot) {
   foot.redraws = redraw_landmarks(foot, workers);
   foot.redraws.of_other_side = landmarks_of_other_side(foot);
   if (foot.redraws.of_other_side) {
-    foot.warnings.emplace_back(
-        "the shape hardly tells left from right, so that all intervals reach to what the other "
-        "foot would have: check the side, or say which foot it is (--side)");
+    foot.warnings.push_back(
+        std::string("the shape hardly tells left from right, so that all intervals reach to what "
+                    "the other foot would have: check the side, or ") +
+        kSayWhichFoot);
   }
   set_radii(foot);
   if (foot.rules != MeasuringRules{}) {

@@ -177,7 +177,7 @@ tl::unexpected<Error> not_of_other_foot() {
   return fail(ErrorCode::kInsufficientData,
               "the shape hardly tells left from right, and of the other foot it could not be taken "
               "here",
-              "say which foot it is (--side), or scan again, with both its sides in view");
+              std::string(kSayWhichFoot) + ", or scan again, with both its sides in view");
 }
 
 /// How far a measure is from that of the other foot, the interval of which has to be in its own; 0

@@ -55,13 +55,8 @@ void err_anew(std::uint64_t draw, PointCloud& cloud) {
 /// again.
 RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices,
                             std::optional<std::uint64_t> draw) {
-  FootScan part;
-  part.side = foot.side;
-  part.is_floor_known = foot.is_floor_known;
-  part.rules = foot.rules;
-  part.cloud = foot.cloud.subset(indices);
+  FootScan part = aligned_as(foot, foot.cloud.subset(indices));
   if (draw) err_anew(*draw, part.cloud);
-  part.landmarks = foot.landmarks;
   // Along another axis its landmarks would be those of another foot.
   if (!realign(part)) return {};
   mark(part);

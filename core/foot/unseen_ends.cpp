@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/foot/alignment.h"
 #include "core/foot/end_facing.h"
 #include "core/foot/full_size.h"
 #include "core/foot/landmarks.h"
@@ -76,17 +77,9 @@ RedrawnLandmarks lengthened(const FootScan& foot, const Unseen& unseen) {
   const RigidTransform longer_from_foot =
       RigidTransform(Eigen::AngleAxisd(unseen.turn, Eigen::Vector3d::UnitZ())) *
       Eigen::Translation3d(unseen.heel_mm, 0.0, 0.0);
-  FootScan longer;
-  longer.cloud = transformed(longer_from_foot, foot.cloud);
-  longer.side = foot.side;
-  longer.is_floor_known = foot.is_floor_known;
-  longer.rules = foot.rules;
-  longer.landmarks.insert(*foot.landmarks.find("pternion"));
-  for (const char* name : {"acropodion", "toe2_tip"}) {
-    const auto found = foot.landmarks.find(name);
-    if (found == foot.landmarks.end()) continue;
-    Landmark& landmark = longer.landmarks[name] = found->second;
-    landmark.position_mm = longer_from_foot * landmark.position_mm;
+  FootScan longer = aligned_as(foot, transformed(longer_from_foot, foot.cloud));
+  for (auto& [name, landmark] : longer.landmarks) {
+    if (name != "pternion") landmark.position_mm = longer_from_foot * landmark.position_mm;
   }
   longer.landmarks.at("acropodion").position_mm.x() += unseen.toes_mm;
   mark(longer);

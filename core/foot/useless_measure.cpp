@@ -28,7 +28,7 @@ std::optional<std::string> why_useless(const Measure& measure, const FootScan& f
   // Of a side that is not sure the interval holds the other foot's too, whatever the frames.
   return "it is told to no better than +-" + std::to_string(std::lround(*measure.u95())) +
          (measure.value_deg ? " degrees" : " mm") + ": " +
-         (foot.is_side_sure() ? "" : "say which foot it is (--side), or ") +
+         (foot.is_side_sure() ? "" : std::string(kSayWhichFoot) + ", or ") +
          "scan again with more frames, and one foot alone in full view of all cameras";
 }
 
