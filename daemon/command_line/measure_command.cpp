@@ -13,6 +13,7 @@
 #include "core/noticed.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/file_ending.h"
 #include "daemon/command_line/measuring_options.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/page/pdf_page.h"
@@ -45,11 +46,6 @@ struct MeasureCommand {
 
 bool is_pdf(const std::string& file) {
   return std::filesystem::path(file).extension() == ".pdf";
-}
-
-std::string check_report(const std::string& file) {
-  const bool is_known = is_pdf(file) || std::filesystem::path(file).extension() == ".svg";
-  return is_known ? "" : "needs a name that ends in .svg or .pdf";
 }
 
 Result<void> write_report(const ScanRecord& record, const MeasureCommand& command) {
@@ -111,7 +107,7 @@ void add_measure_command(CLI::App& app, int& exit_code) {
   measure
       ->add_option("--report", command->report,
                    "one page to print, FILE.svg or FILE.pdf; an old one is replaced")
-      ->check(check_report);
+      ->check(FileEnding({".svg", ".pdf"}));
   measure->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

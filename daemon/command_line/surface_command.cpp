@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/file_ending.h"
 
 namespace instep {
 namespace {
@@ -38,8 +40,17 @@ std::string check_cube(const std::string& text) {
   return cube && *cube >= 0.001 && *cube <= 1000.0 ? "" : "needs a number from 0.001 to 1000";
 }
 
+/// The points are not lost to their own mesh.
+Result<void> check_out(const SurfaceCommand& command) {
+  std::error_code is_new;
+  if (!std::filesystem::equivalent(command.out, command.cloud.file, is_new)) return {};
+  return fail(ErrorCode::kInvalidInput, command.out + " is the cloud itself, and is not replaced",
+              "choose another --out");
+}
+
 Result<void> run(const SurfaceCommand& command) {
   const auto start = Clock::now();
+  if (auto checked = check_out(command); !checked) return checked;
   const auto file = read_cloud(command.cloud);
   if (!file) return tl::make_unexpected(file.error());
   ConstrainedSurfaceOptions options;
@@ -67,7 +78,8 @@ void add_surface_command(CLI::App& app, int& exit_code) {
   const auto command = std::make_shared<SurfaceCommand>();
   add_cloud_options(*surface, command->cloud);
   surface->add_option("--out", command->out, "PLY file to write; an old one is replaced")
-      ->required();
+      ->required()
+      ->check(FileEnding({".ply"}));
   surface
       ->add_option("--cube-mm", command->cube_mm,
                    "edge of the cubes, which is about that of the triangles; else a hundredth of "

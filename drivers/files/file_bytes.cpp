@@ -5,8 +5,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <optional>
 #include <system_error>
 
 #include "drivers/files/descriptor.h"
@@ -14,19 +16,23 @@
 namespace instep {
 namespace {
 
-Result<std::size_t> checked_size(int descriptor, const std::filesystem::path& path,
-                                 std::size_t most_bytes) {
+namespace fs = std::filesystem;
+
+Result<void> check_regular(const struct stat& status, const fs::path& path, const char* advice) {
+  if (S_ISREG(status.st_mode)) return {};
+  const char* kind = S_ISDIR(status.st_mode) ? "a folder" : "no regular file";
+  return fail(ErrorCode::kInvalidInput, fmt::format("{} is {}", path.string(), kind), advice);
+}
+
+Result<std::size_t> checked_size(int descriptor, const fs::path& path, std::size_t most_bytes) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) {
     return tl::make_unexpected(file_error(errno, "read", path));
   }
-  if (S_ISDIR(status.st_mode)) {
-    return fail(ErrorCode::kInvalidInput, fmt::format("{} is a folder", path.string()),
-                "give the name of a file");
-  }
-  if (!S_ISREG(status.st_mode)) {
-    return fail(ErrorCode::kInvalidInput, fmt::format("{} is no regular file", path.string()),
-                "save the data in a file first");
+  const char* advice =
+      S_ISDIR(status.st_mode) ? "give the name of a file" : "save the data in a file first";
+  if (auto regular = check_regular(status, path, advice); !regular) {
+    return tl::make_unexpected(regular.error());
   }
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > most_bytes) {
@@ -36,6 +42,40 @@ Result<std::size_t> checked_size(int descriptor, const std::filesystem::path& pa
                 "thin the data out");
   }
   return size;
+}
+
+/// The permissions of the file that is replaced; nothing where there is none. A device, a pipe or a
+/// folder is not replaced.
+Result<std::optional<mode_t>> replaced_mode(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) {
+    if (errno == ENOENT) return std::nullopt;
+    return tl::make_unexpected(file_error(errno, "write", path));
+  }
+  return check_regular(status, path, "choose another name").map([&] {
+    return std::optional(status.st_mode & 07777U);
+  });
+}
+
+/// Where a link leads to, which need not be there: the link itself stays.
+fs::path end_of_links(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code failed;
+  for (int link = 0; link < kMostLinks && fs::is_symlink(path, failed); ++link) {
+    path = path.parent_path() / fs::read_symlink(path, failed);
+  }
+  return path;
+}
+
+/// A new file beside `path`, which gets its name; as readable as all that its maker makes.
+int open_beside(const fs::path& path, std::string& name) {
+  static std::atomic<unsigned> count = 0;
+  int file = -1;
+  do {
+    name = fmt::format("{}.{}-{}", path.string(), ::getpid(), count++);
+    file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (file < 0 && errno == EEXIST);
+  return file;
 }
 
 bool write_all(int descriptor, std::string_view bytes) {
@@ -49,7 +89,7 @@ bool write_all(int descriptor, std::string_view bytes) {
 }
 
 /// Makes the renaming itself last through a power cut. Some file systems cannot, which is no fault.
-void sync_folder(const std::filesystem::path& folder) {
+void sync_folder(const fs::path& folder) {
   const Descriptor descriptor(
       ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (descriptor.is_open()) ::fsync(descriptor.number());
@@ -114,19 +154,22 @@ Result<std::string> read_file_bytes(const std::filesystem::path& path, std::size
 }
 
 Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes) {
-  std::string temporary = path.string() + ".XXXXXX";
-  Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
+  const auto mode = replaced_mode(path);
+  if (!mode) return tl::make_unexpected(mode.error());
+  const fs::path target = end_of_links(path);
+  std::string temporary;
+  Descriptor file(open_beside(target, temporary));
   if (!file.is_open()) return tl::make_unexpected(file_error(errno, "write", path));
 
-  const bool written = ::fchmod(file.number(), 0644) == 0 && write_all(file.number(), bytes) &&
-                       ::fsync(file.number()) == 0 && file.close() &&
-                       ::rename(temporary.c_str(), path.c_str()) == 0;
+  const bool written = (!*mode || ::fchmod(file.number(), **mode) == 0) &&
+                       write_all(file.number(), bytes) && ::fsync(file.number()) == 0 &&
+                       file.close() && ::rename(temporary.c_str(), target.c_str()) == 0;
   if (!written) {
     const Error error = file_error(errno, "write", path);
     ::unlink(temporary.c_str());
     return tl::make_unexpected(error);
   }
-  sync_folder(path.parent_path());
+  sync_folder(target.parent_path());
   return {};
 }
 

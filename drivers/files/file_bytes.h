@@ -17,10 +17,12 @@ namespace instep {
 Result<std::string> read_file_bytes(const std::filesystem::path& path, std::size_t most_bytes);
 
 /// Puts `bytes` under the name `path`, whole or not at all: they are written to a temporary name in
-/// the same folder, brought to the disk and renamed. A file of that name is replaced; on failure it
-/// stays as it was and nothing is left behind.
+/// the same folder, brought to the disk and renamed. A file of that name is replaced and its
+/// permissions are kept; where `path` is a link, what it leads to is. A new file has those of the
+/// process's umask. On failure all stays as it was and nothing is left behind.
 ///
-/// Fails with kNoSpace, kPermissionDenied, kNotFound (no such folder) or kIo.
+/// Fails with kInvalidInput (a folder, a device or a pipe has that name), kNoSpace,
+/// kPermissionDenied, kNotFound (no such folder) or kIo.
 Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes);
 
 /// What to do where a file system takes nothing: the kernel itself takes writing away from one that

@@ -171,6 +171,7 @@ TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
                  "too few");
   expect_failure({"surface", cloud, "--out", folder_.path() / "none" / "mesh.ply"}, 1,
                  "cannot write");
+  expect_failure({"surface", cloud, "--out", folder_.path() / "mesh.stl"}, 2, "ends in .ply");
   EXPECT_FALSE(fs::exists(out));
 
   const auto made = test::run_program("instep", {"surface", cloud, "--out", out});
@@ -179,6 +180,7 @@ TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
   const auto girth =
       test::run_program("instep", {"girth", out, "--plane", kPlane, "--method", "section"});
   EXPECT_EQ(girth.exit_code, 0) << girth.errors;
+  expect_failure({"surface", out, "--out", out}, 1, "is the cloud itself");
 }
 
 TEST_F(BadInput, ForbiddenFilesAreOne) {

@@ -68,6 +68,7 @@ TEST_F(RepeatProgram, SaysInOneLineWhatIsWrong) {
   expect_failure({"repeat", good, file("torn.json", "{\"id\": ")}, 1, "is no JSON object");
   expect_failure({"repeat", good, file("empty.json", "{}")}, 1, "holds no measures");
   expect_failure({"repeat", good, file("deep.json", std::string(100000, '['))}, 1, "no JSON");
+  expect_failure({"repeat", good, other, "--plot", good}, 2, "ends in .svg");
   expect_failure({"repeat", good, other, "--plot", folder_.path() / "no/such/plot.svg"}, 1,
                  "no/such");
 }
