@@ -7,9 +7,11 @@
 
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
+#include "daemon/command_line/file_ending.h"
 #include "daemon/repeat/repeat_report.h"
 #include "daemon/repeat/repeat_study.h"
 #include "daemon/repeat/repeat_svg.h"
+#include "daemon/report/json_fields.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -42,7 +44,7 @@ struct RepeatCommand {
 Result<nlohmann::json> read_result(const std::filesystem::path& file) {
   const auto bytes = read_file_bytes(file, kLargestResultFile);
   if (!bytes) return tl::make_unexpected(bytes.error());
-  auto result = nlohmann::json::parse(*bytes, nullptr, /*allow_exceptions=*/false);
+  auto result = object_in(*bytes);
   if (result.is_object()) return result;
   return fail(ErrorCode::kCorruptData, file.string() + " is no JSON object",
               "give a result.json, or leave this one out");
@@ -89,9 +91,10 @@ void add_repeat_command(CLI::App& app, int& exit_code) {
       ->required();
   repeat->add_option("--format", command->format, "json (if stdout is no terminal) or text")
       ->check(CLI::IsMember({"json", "text"}));
-  repeat->add_option(
-      "--plot", command->plot,
-      "SVG file to write: each scan's deviation from the mean; an old one is replaced");
+  repeat
+      ->add_option("--plot", command->plot,
+                   "SVG file to write: each scan's deviation from the mean; an old one is replaced")
+      ->check(FileEnding({".svg"}));
   repeat->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
 }
 

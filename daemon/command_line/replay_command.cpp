@@ -10,6 +10,7 @@
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
+#include "daemon/report/json_fields.h"
 #include "daemon/report/pair_report.h"
 #include "daemon/scan/recorded_capture.h"
 #include "daemon/scan/scan_pipeline.h"
@@ -42,7 +43,7 @@ struct ReplayCommand {
 Result<json> result_of(const ScanRecord& record, ResultStore* store) {
   const auto content = content_of(record);
   if (!content) return tl::make_unexpected(content.error());
-  json result = json::parse(content->result_json, nullptr, /*allow_exceptions=*/false);
+  json result = object_in(content->result_json);
   if (!result.is_object()) {
     return fail(ErrorCode::kInternal, "a result is no JSON object", "report this");
   }

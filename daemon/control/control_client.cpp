@@ -9,10 +9,12 @@
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <utility>
 
 #include "daemon/control/protocol.h"
 #include "daemon/control/unix_socket.h"
+#include "daemon/report/json_fields.h"
 
 namespace instep {
 namespace {
@@ -78,8 +80,7 @@ Result<nlohmann::json> ControlClient::next(milliseconds limit) {
   while (true) {
     const auto end = input_.find('\n', looked_at);
     if (end != std::string::npos) {
-      auto line = nlohmann::json::parse(
-          input_.begin(), input_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+      auto line = object_in(std::string_view(input_).substr(0, end));
       input_.erase(0, end + 1);
       if (line.is_object()) return line;
       return tl::make_unexpected(answer_not_understood());

@@ -12,7 +12,8 @@ namespace instep {
 /// The asking end of the local protocol (protocol.h). One thread owns it; every call has a limit.
 class ControlClient {
  public:
-  /// Fails with kNotFound, saying how to start it, if no daemon answers on the socket.
+  /// Fails with kNotFound, saying how to start it, if no daemon answers on the socket, and with
+  /// kTimeout if one hangs.
   static Result<ControlClient> connect(const std::filesystem::path& socket);
   ~ControlClient();
   ControlClient(ControlClient&& other) noexcept;

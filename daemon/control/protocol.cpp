@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "daemon/report/json_fields.h"
 #include "daemon/report/json_number.h"
 
 namespace instep {
@@ -65,7 +66,7 @@ json to_json(const FrameCounts& frames) {
 }  // namespace
 
 Result<Request> parse_request(std::string_view line) {
-  const json request = json::parse(line, nullptr, false);
+  const json request = object_in(line);
   if (!request.is_object()) return refused("the request is not a JSON object");
   for (const auto& [key, value] : request.items()) {
     if (key != "verb" && key != "id") return refused("the request has an unknown key");

@@ -26,7 +26,7 @@ Result<json> show(const ResultStore& store, const std::string& id) {
     return fail(ErrorCode::kCorruptData, "scan " + id + " has no result.json", advice);
   }
   if (!text) return tl::make_unexpected(text.error());
-  json result = json::parse(*text, nullptr, false);
+  json result = object_in(*text);
   if (!result.is_object() || !result.value("measures", json()).is_array()) {
     return fail(ErrorCode::kCorruptData, "result.json of scan " + id + " is damaged", advice);
   }
@@ -37,7 +37,7 @@ Result<json> show(const ResultStore& store, const std::string& id) {
 std::optional<std::string> pair_of(const ResultStore& store, const std::string& id) {
   const auto text = store.read_result_json(id);
   if (!text) return std::nullopt;
-  const json result = json::parse(*text, nullptr, false);
+  const json result = object_in(*text);
   const auto pair = result.is_object() ? result.value("pair", json()) : json();
   for (const char* side : {"left", "right"}) {
     const std::string other = string_at(pair, side);

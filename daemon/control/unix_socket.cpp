@@ -4,15 +4,20 @@
 #include <sys/file.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <string>
 
 namespace instep {
 namespace {
+
+/// For learning whether somebody listens.
+constexpr std::chrono::seconds kLookWhether(1);
 
 Result<sockaddr_un> address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
@@ -52,14 +57,22 @@ tl::unexpected<Error> taken(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<int> connect_unix_socket(const std::filesystem::path& path) {
+Result<int> connect_unix_socket(const std::filesystem::path& path,
+                                std::chrono::microseconds limit) {
   const auto address = address_of(path);
   if (!address) return tl::make_unexpected(address.error());
   const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return failed("making a socket for", path);
+  // Where more wait than a listener takes, as before a daemon that hangs, connecting waits too.
+  const timeval longest{limit.count() / 1000000, limit.count() % 1000000};
+  ::setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);
   if (::connect(descriptor, generic(*address), sizeof *address) == 0) return descriptor;
   const int reason = errno;
   ::close(descriptor);
+  if (reason == EAGAIN) {
+    return fail(ErrorCode::kTimeout, "what listens on " + path.string() + " takes no connection",
+                "see what it does: systemctl status instepd");
+  }
   struct stat there {};
   if (::stat(path.c_str(), &there) == 0 && !S_ISSOCK(there.st_mode)) return no_socket(path);
   errno = reason == ECONNREFUSED ? ENOENT : reason;
@@ -108,10 +121,9 @@ Result<void> ListeningSocket::make_way() const {
   struct stat there {};
   if (::lstat(path_.c_str(), &there) != 0) return {};
   if (!S_ISSOCK(there.st_mode)) return no_socket(path_);
-  if (const auto other = connect_unix_socket(path_)) {
-    ::close(*other);
-    return taken(path_);
-  }
+  const auto other = connect_unix_socket(path_, kLookWhether);
+  if (other) ::close(*other);
+  if (other || other.error().code == ErrorCode::kTimeout) return taken(path_);
   ::unlink(path_.c_str());
   return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,9 +13,11 @@
 namespace instep {
 
 /// A Unix stream socket connected to `path`, close-on-exec; the caller closes it. Fails with
-/// kNotFound if nobody listens there, kInvalidInput if something else is there, kPermissionDenied,
-/// or kIo.
-Result<int> connect_unix_socket(const std::filesystem::path& path);
+/// kNotFound if nobody listens there, kTimeout if who does takes no connection within `limit`
+/// (above 0; nor may a later write wait longer), kInvalidInput if something else is there,
+/// kPermissionDenied, or kIo.
+Result<int> connect_unix_socket(const std::filesystem::path& path,
+                                std::chrono::microseconds limit = std::chrono::seconds(10));
 
 /// One that listens, non-blocking, mode 0660, and is removed at its end if it is still the one that
 /// has the name. A locked file beside it, PATH.lock, keeps two daemons that start at once from

@@ -66,6 +66,12 @@ TEST_F(StoreRequest, ShowingTellsOfAResultThatIsNone) {
   EXPECT_TRUE(answer("show", "20261121T091502420Z-bbbb").contains("result"));
 }
 
+TEST_F(StoreRequest, ShowingIsNotEndedByAResultNestedTooDeep) {
+  const std::string deep = std::string(100000, '[') + std::string(100000, ']');
+  put(kAlone, R"({"measures":[],"x":)" + deep + "}");
+  EXPECT_NE(answer("show", kAlone).dump().find("is damaged"), std::string::npos);
+}
+
 /// A result could not be taken away once its page to print was gone.
 TEST_F(StoreRequest, ExportingNamesWhatIsThere) {
   const json whole = {"result.json", "cloud.ply", "sections.svg", "report.svg"};

@@ -4,9 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <cstring>
+#include <deque>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -111,6 +115,41 @@ TEST_F(UnixSocket, RefusesAPlaceThatHoldsSomethingElse) {
   EXPECT_THAT(socket.error().message, HasSubstr("is no socket"));
   EXPECT_EQ(fs::file_size(path_), 8U);
   EXPECT_EQ(files_left(), 1U) << "no lock is left";
+}
+
+/// Listens, as a daemon that hangs does, and takes no connection.
+class HangingListener {
+ public:
+  explicit HangingListener(const fs::path& path)
+      : descriptor_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    EXPECT_EQ(
+        ::bind(descriptor_.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address),
+        0);
+    EXPECT_EQ(::listen(descriptor_.number(), 0), 0);
+  }
+
+ private:
+  Descriptor descriptor_;
+};
+
+TEST_F(UnixSocket, DoesNotWaitForEverForOneThatTakesNoConnection) {
+  const HangingListener hanging(path_);
+  std::deque<Descriptor> waiting;
+  Result<int> reached = 0;
+  for (int client = 0; client < 10 && reached; ++client) {
+    reached = connect_unix_socket(path_, std::chrono::milliseconds(20));
+    if (reached) waiting.emplace_back(*reached);
+  }
+  ASSERT_FALSE(reached);
+  EXPECT_EQ(reached.error().code, ErrorCode::kTimeout);
+  EXPECT_THAT(reached.error().message, HasSubstr("takes no connection"));
+  const auto socket = ListeningSocket::open(path_);
+  ASSERT_FALSE(socket) << "the name of one that listens is not taken";
+  EXPECT_EQ(socket.error().code, ErrorCode::kBusy);
+  EXPECT_TRUE(fs::exists(path_));
 }
 
 TEST_F(UnixSocket, SaysThatWhatIsThereIsNoSocketToReach) {
