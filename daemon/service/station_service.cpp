@@ -25,6 +25,8 @@ constexpr std::chrono::milliseconds kToSpare{100};
 static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment) + kToSpare <=
               kPromisedEnd);
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
+/// Nobody who asks for a result waits longer for old ones to be removed.
+constexpr std::chrono::seconds kLongestSweep{1};
 
 }  // namespace
 
@@ -111,7 +113,7 @@ void StationService::prepare_store() {
   sweep_store();
 }
 
-void StationService::sweep_store() {
+void StationService::sweep_store(std::size_t removed_before) {
   Retention retention{settings_.store.keep_days, settings_.store.keep_count};
   if (retention.keep_days > 0 && clock_.was_set(ClockWatch::read())) {
     retention.keep_days = 0;
@@ -121,13 +123,18 @@ void StationService::sweep_store() {
           "age until it is started again; see that the clock is right (timedatectl)");
     }
   }
-  archive_->post([this, retention, store = store_, leaving = leaving_,
+  archive_->post([this, retention, removed_before, store = store_, leaving = leaving_,
                   post = loop_->poster()](TaskProgress& progress) {
-    const auto swept = store->sweep(retention, std::chrono::system_clock::now(), [&] {
+    const auto end = EventLoop::monotonic_now() + kLongestSweep;
+    auto swept = store->sweep(retention, std::chrono::system_clock::now(), [&] {
       progress.step();
-      return !*leaving;
+      return !*leaving && EventLoop::monotonic_now() < end;
     });
-    post([this, swept] { tell_of(swept); });
+    const bool goes_on = swept.is_interrupted && swept.removed > 0;
+    swept.removed += removed_before;
+    post([this, swept, goes_on] {
+      goes_on && !*leaving_ ? sweep_store(swept.removed) : tell_of(swept);
+    });
   });
 }
 
@@ -145,11 +152,17 @@ void StationService::tell_of(const Swept& swept) {
   }
 }
 
+StationStatus StationService::status() const {
+  auto status = station_->status();
+  if (!settings_fault_.empty()) status.warnings.push_back(settings_fault_);
+  return status;
+}
+
 std::string StationService::status_text() const {
-  const auto status = station_->status();
-  std::string text = to_string(status.state);
-  if (!status.stage.empty()) text += ": " + status.stage;
-  if (!status.trouble.empty()) text += ": " + status.trouble;
+  const auto now = station_->status();
+  std::string text = to_string(now.state);
+  if (!now.stage.empty()) text += ": " + now.stage;
+  if (!now.trouble.empty()) text += ": " + now.trouble;
   return text;
 }
 
@@ -174,7 +187,7 @@ void StationService::station_changed() {
   }
   manager_.status(status_text());
   if (server_ && server_->has_watchers()) {
-    server_->broadcast(event_line("status", to_json(status)));
+    server_->broadcast(event_line("status", to_json(this->status())));
   }
 }
 
@@ -199,7 +212,7 @@ void StationService::serve(ControlServer::Client client, const Request& request)
   if (request.verb == "cancel") return reply(station_->request_cancel());
   if (request.verb == "watch") return begin_to_watch(client);
   if (request.verb == "status") {
-    return server_->answer(client, ok_answer(to_json(station_->status())));
+    return server_->answer(client, ok_answer(to_json(status())));
   }
   serve_from_store(client, request);
 }
@@ -208,7 +221,7 @@ void StationService::begin_to_watch(ControlServer::Client client) {
   if (const auto added = server_->add_watcher(client); !added) {
     return server_->answer(client, error_answer(added.error()));
   }
-  server_->answer(client, ok_answer(to_json(station_->status())));
+  server_->answer(client, ok_answer(to_json(status())));
   const bool recent = EventLoop::monotonic_now() - last_result_time_ < kRecentResult;
   if (recent && !last_result_event_.empty()) server_->send_event(client, last_result_event_);
 }
@@ -224,8 +237,13 @@ void StationService::serve_from_store(ControlServer::Client client, const Reques
 void StationService::reload() {
   manager_.reloading();
   const auto settings = read_settings_();
+  settings_fault_ =
+      settings ? ""
+               : "the new settings are faulty, so that the old ones stay and the next start "
+                 "will fail: " +
+                     settings.error().line();
   if (!settings) {
-    log_error("the new settings are faulty and the old ones stay: " + settings.error().line());
+    log_error(settings_fault_);
   } else {
     station_->reload(*settings);
     set_up_log(settings->log.level);
@@ -237,6 +255,7 @@ void StationService::reload() {
         "simulation, store and socket change with a restart");
     sweep_store();
   }
+  station_changed();
   manager_.ready(status_text());
 }
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -50,13 +51,16 @@ class StationService {
   void serve(ControlServer::Client client, const Request& request);
   void begin_to_watch(ControlServer::Client client);
   void serve_from_store(ControlServer::Client client, const Request& request);
-  void sweep_store();
+  /// In short parts, between which the archive answers those who ask.
+  void sweep_store(std::size_t removed_before = 0);
   void tell_of(const Swept& swept);
   void reload();
   void shut_down();
   void feed_watchdog();
   /// False if something had to be left behind.
   bool end_threads();
+  /// The station's, and what is wrong with its settings.
+  StationStatus status() const;
   std::string status_text() const;
 
   Settings settings_;
@@ -64,6 +68,7 @@ class StationService {
   std::unique_ptr<EventLoop> loop_;
   ServiceManager manager_;
   ChangeLog said_;
+  std::string settings_fault_;  ///< of those that were read last; empty if they are in use
   std::shared_ptr<ResultStore> store_;
   std::unique_ptr<TaskThread> archive_;
   std::unique_ptr<ControlServer> server_;

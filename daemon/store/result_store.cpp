@@ -228,7 +228,10 @@ Swept ResultStore::sweep(const Retention& retention, std::chrono::system_clock::
   const auto gone = expired(*ids, retention, now);
   swept.made_later = gone.made_later;
   for (const auto& id : gone.ids) {
-    if (!go_on()) return swept;
+    if (!go_on()) {
+      swept.is_interrupted = true;
+      return swept;
+    }
     if (const auto removed = move_away(id); removed) {
       ++swept.removed;
     } else {

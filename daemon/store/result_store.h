@@ -29,6 +29,7 @@ struct Prepared {
 struct Swept {
   std::size_t removed = 0;
   std::size_t made_later = 0;    ///< see Expired
+  bool is_interrupted = false;   ///< by its `go_on`: more may have to go
   std::optional<Error> trouble;  ///< the first, of a result that cannot be removed
 };
 

@@ -240,9 +240,13 @@ TEST(Station, KeepsItsSettingsWhenTheNewOnesAreFaulty) {
   ASSERT_TRUE(station.wait_for("RELOADING=1", kLong));
   ASSERT_TRUE(station.wait_for("READY=1", kLong));
   EXPECT_THAT(station.log(), HasSubstr("pedal.debounce_ms = 1 is outside 5 to 200"));
+  EXPECT_THAT(station.run_instep("status --format json").text,
+              HasSubstr("the new settings are faulty"));
   station.write_settings(StationProcess::small_settings() + "[station]\nname = \"renamed\"\n");
   station.signal(SIGHUP);
   ASSERT_TRUE(station.wait_for("READY=1", kLong));
+  EXPECT_THAT(station.run_instep("status --format json").text,
+              testing::Not(HasSubstr("the new settings are faulty")));
   const auto scan = station.run_instep("scan --format json");
   EXPECT_EQ(json::parse(scan.text, nullptr, false).value("station", ""), "renamed") << scan.text;
 }

@@ -150,6 +150,11 @@ TEST_F(ResultStoreOnDisk, SweepsNoMoreOnceItIsNotWanted) {
                   [&] { return ++asked == 1; });
   EXPECT_EQ(swept.removed, 1U);
   EXPECT_EQ(asked, 2);
+  EXPECT_TRUE(swept.is_interrupted);
+  const auto rest =
+      store.sweep({.keep_days = 0, .keep_count = 1}, *time_of_scan_id("20261104T000000000Z-aaaa"));
+  EXPECT_EQ(rest.removed, 1U);
+  EXPECT_FALSE(rest.is_interrupted);
 }
 
 TEST_F(ResultStoreOnDisk, RemovesFoldersWithinAResultToo) {
