@@ -26,6 +26,14 @@ const char* kind_of(const toml::node& node) {
   return "a date or time";
 }
 
+/// Of text in UTF-8: bytes that begin one.
+std::size_t letters_in(const std::string& text) {
+  const auto begins_one = [](char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+  };
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_one));
+}
+
 }  // namespace
 
 std::vector<std::string> SettingsFaults::in_order() const {
@@ -48,7 +56,7 @@ void SettingsTable::read(const std::string& key, std::string& value, std::size_t
   const bool printable = std::none_of(found.begin(), found.end(), [](char letter) {
     return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
   });
-  if (found.empty() || found.size() > longest || !printable) {
+  if (found.empty() || letters_in(found) > longest || !printable) {
     return fault(*node,
                  fmt::format("{} must have 1 to {} printable characters", full(key), longest));
   }

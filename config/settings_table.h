@@ -48,6 +48,7 @@ class SettingsTable {
       : table_(table), name_(std::move(name)), faults_(faults) {}
 
   void read(const std::string& key, bool& value);
+  /// Printable text of one letter to `longest`, not of so many bytes.
   void read(const std::string& key, std::string& value, std::size_t longest);
   void read(const std::string& key, double& value, double least, double most);
   void read(const std::string& key, std::optional<double>& value, double least, double most);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/foot/shoe_last.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -16,6 +17,9 @@ constexpr double kThirdOfAnInchMm = 25.4 / 3.0;
 constexpr double kUkZero = 25.0;
 constexpr double kUsMenZero = 22.0;
 constexpr double kUsWomenZero = 21.0;
+/// Sizes of a shop's table are hardly nearer to each other, and a foot that is shorter by less
+/// takes its smallest.
+constexpr double kLeastShopStepMm = 10.0;
 
 /// One table of JIS S 5037. The girth of letter A at the shortest length; it grows by 3 mm with
 /// each 5 mm of length, and by 6 mm with each letter.
@@ -82,6 +86,22 @@ bool takes(const ShopSize& size, const SizedFoot& foot) {
   return long_enough && wide_enough;
 }
 
+/// By how much longer a foot the size after the smallest takes.
+double first_step_mm(const ShopTable& table) {
+  const double smallest = table.sizes.front().longest_foot_mm;
+  for (const auto& size : table.sizes) {
+    if (size.longest_foot_mm > smallest) return size.longest_foot_mm - smallest;
+  }
+  return 0.0;
+}
+
+/// The table does not say how short a foot its smallest size is for, or the size before it would.
+bool may_be_too_long(const ShopTable& table, const ShopSize& size, double foot_mm) {
+  const double smallest = table.sizes.front().longest_foot_mm;
+  const double step = std::max(first_step_mm(table), kLeastShopStepMm);
+  return size.longest_foot_mm == smallest && foot_mm < smallest - step;
+}
+
 ShopChoice choose(const ShopTable& table, const SizedFoot& foot) {
   ShopChoice choice;
   choice.table = table.name;
@@ -94,6 +114,12 @@ ShopChoice choose(const ShopTable& table, const SizedFoot& foot) {
   choice.size = row->size;
   if (row->largest_ball_girth_mm && !foot.ball_girth_mm) {
     choice.note = "by the length alone: the ball girth is missing";
+  }
+  if (may_be_too_long(table, *row, *foot.length_mm)) {
+    choice.note += (choice.note.empty() ? "" : "; ") +
+                   std::string("may be too long: it takes a foot ") +
+                   in_millimetres(row->longest_foot_mm - *foot.length_mm) +
+                   " longer, and the table has none smaller";
   }
   return choice;
 }

@@ -91,7 +91,8 @@ struct ShoeSizes {
 /// is no width. A scale that does not reach so short or so long a foot is left out.
 ///
 /// Of a shop's table, the first row that takes the length, and the ball girth where the row has a
-/// limit for it. If the girth was not measured, the length alone decides, and the note says so.
+/// limit for it. If the girth was not measured, the length alone decides, and the note says so; it
+/// says too where the foot is so short that even the smallest size may be too long.
 ShoeSizes shoe_sizes(const SizedFoot& foot, const SizeRules& rules = {});
 
 /// Of a scanned foot, or of the larger of a pair of which it is one. A shoe last has none, since it

@@ -12,6 +12,8 @@ namespace {
 constexpr double kUselessShare = 0.125;
 constexpr double kUselessMm = 5.0;
 constexpr double kUselessDegrees = 10.0;
+constexpr const char* kTakeALongerAxis =
+    "measure along another axis, for the middle of a heel is a line too short to tell this by, or ";
 
 bool is_useless(const Measure& measure) {
   if (!measure.u95()) return false;
@@ -29,6 +31,7 @@ std::optional<std::string> why_useless(const Measure& measure, const FootScan& f
   return "it is told to no better than +-" + std::to_string(std::lround(*measure.u95())) +
          (measure.value_deg ? " degrees" : " mm") + ": " +
          (foot.is_side_sure() ? "" : std::string(kSayWhichFoot) + ", or ") +
+         (foot.rules.axis == AxisRule::kHeelCentre ? kTakeALongerAxis : "") +
          "scan again with more frames, and one foot alone in full view of all cameras";
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -123,6 +124,20 @@ class Study {
     return scans;
   }
 
+  /// One recording replayed twice makes two results; two scans never come out the same.
+  void warn_of_same_measures(const std::vector<const StudiedResult*>& scans) {
+    std::map<std::string, std::string> first_with;
+    for (const auto* scan : scans) {
+      const auto [first, is_new] =
+          first_with.emplace(list_at(scan->result, "measures").dump(), scan->name);
+      if (is_new) continue;
+      study_.warnings.push_back(fmt::format(
+          "{} has the very same measures as {}: if both were made of one recording, that "
+          "they agree tells nothing",
+          scan->name, first->second));
+    }
+  }
+
   void add_foot(const std::string& side, const std::vector<const StudiedResult*>& all) {
     std::vector<const StudiedResult*> scans;
     for (const auto* scan : all) {
@@ -139,6 +154,7 @@ class Study {
           fmt::format("{} scans of the {} side are few: their standard deviation is a rough guess",
                       scans.size(), side));
     }
+    warn_of_same_measures(scans);
     RepeatedFoot foot{side, {}, {}};
     for (const auto* scan : scans) {
       const auto id = string_at(scan->result, "id");

@@ -41,6 +41,14 @@ TEST(SettingsFile, ShippedFileIsSoundAndSaysTheDefaults) {
   EXPECT_EQ(describe(*shipped), describe(read(kCamera).settings));
 }
 
+/// A name of 63 letters was refused as one of more than 64: they were counted in bytes.
+TEST(SettingsFile, CountsTheLettersOfNames) {
+  const std::string name = "Orthopädie-Schuhtechnik Müller & Söhne, Filiale Zürich-Oerlikon";
+  const auto reading = read(kCamera + ("[station]\nname = \"" + name + "\""));
+  ASSERT_TRUE(reading.good());
+  EXPECT_EQ(reading.settings.station.name, name);
+}
+
 TEST(SettingsFile, SaysWhereThePedalIs) {
   const auto described = [](const std::string& toml) {
     return describe(read(kCamera + toml).settings);
@@ -125,6 +133,9 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[zzzzzz]\n", "there is no setting zzzzzz: known here are"},
         Fault{"[station]\nname = \"\"", "station.name must have 1 to 64 printable characters"},
         Fault{"[station]\nname = \"a\\nb\"", "printable"},
+        Fault{"[station]\nname = \"of sixty-five letters, which are one too many for the name of "
+              "one\"",
+              "1 to 64 printable"},
         Fault{"[station]\npoint_spacing_mm = nan", "is outside 0.2 to 10"},
         Fault{"[station]\npoint_spacing_mm = inf", "is outside 0.2 to 10"},
         Fault{"[station]\nplatform_height_mm = 1e30", "is outside -1000 to 1000"},

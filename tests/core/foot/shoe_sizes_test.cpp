@@ -195,5 +195,20 @@ TEST(ShopTable, SaysWhatItWentBy) {
   EXPECT_EQ(shoe_sizes(foot(260.0), shop()).shop.at(0).note, "");
 }
 
+/// A child's foot was told a man's smallest size, with no word.
+TEST(ShopTable, SaysThatItsSmallestSizeMayBeTooLong) {
+  const auto note = [](double length, const SizeRules& rules) {
+    return shoe_sizes(foot(length, 250.0), rules).shop.at(0).note;
+  };
+  EXPECT_EQ(note(252.5, shop()), "") << "a usual step shorter";
+  EXPECT_THAT(note(151.5, shop()), HasSubstr("it takes a foot 110.5 mm longer"));
+  EXPECT_THAT(shoe_sizes(foot(151.5), shop()).shop.at(0).size.value_or(""), "41");
+  SizeRules sandals;
+  sandals.shop_tables = {{"Sandal", {{"S", 230.0, std::nullopt}, {"M", 260.0, std::nullopt}}}};
+  EXPECT_EQ(note(201.0, sandals), "") << "the steps of this table are wide";
+  EXPECT_THAT(note(199.0, sandals), HasSubstr("too long"));
+  EXPECT_EQ(note(231.0, sandals), "");
+}
+
 }  // namespace
 }  // namespace instep

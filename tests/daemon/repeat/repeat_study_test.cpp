@@ -107,6 +107,17 @@ TEST(RepeatStudy, CountsAScanOnce) {
   EXPECT_THAT(study->warnings, ElementsAre(HasSubstr("copy.json is the same scan")));
 }
 
+/// One recording, replayed twice, is two results that agree too well.
+TEST(RepeatStudy, WarnsOfTwoScansWithTheVerySameMeasures) {
+  auto scans = seven_scans();
+  scans[4].result["measures"] = scans[2].result["measures"];
+  const auto study = study_repeats(scans);
+  ASSERT_TRUE(study);
+  EXPECT_EQ(study->feet[0].scans.size(), 7U);
+  EXPECT_THAT(study->warnings,
+              ElementsAre(HasSubstr("4.json has the very same measures as 2.json")));
+}
+
 TEST(RepeatStudy, WarnsOfFewScansAndOfMixedOnes) {
   auto scans = seven_scans();
   scans.resize(3);
