@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/report/mended_text.h"
+
 namespace instep::paper {
 namespace {
 
@@ -41,7 +43,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, double l
   const auto longest =
       static_cast<std::size_t>(std::max(1.0, std::floor(width / (kLetterWidth * letter_size))));
   std::vector<std::string> lines;
-  std::string rest = text;
+  std::string rest = mended_text(text);
   while (letters(rest) > longest) {
     const std::size_t limit = end_of(rest, longest);
     const std::size_t space = rest.rfind(' ', limit);

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "daemon/report/mended_text.h"
+
 namespace instep::svg {
 
 std::string escaped(std::string_view text) {
   std::string safe;
-  for (const char letter : text) {
+  for (const char letter : mended_text(text)) {
     switch (letter) {
       case '&':
         safe += "&amp;";

@@ -7,7 +7,8 @@
 
 namespace instep::svg {
 
-/// The text with the five characters of XML escaped and control characters left out.
+/// The text with the five characters of XML escaped, control characters left out, and what is no
+/// text mended.
 std::string escaped(std::string_view text);
 
 /// The points of a line without those nearer than `least` to the one kept before.

@@ -51,6 +51,15 @@ TEST_F(ReportOfACloud, IsWrittenBesideTheMeasures) {
   EXPECT_THAT(bytes_of(folder_.path() / "foot.pdf"), StartsWith("%PDF-"));
 }
 
+TEST_F(ReportOfACloud, IsWrittenOfAFileWhoseNameIsNoUtf8) {
+  const auto cloud = folder_.path() / "M\xFCller.xyz";
+  std::filesystem::rename(folder_.path() / "foot.xyz", cloud);
+  const auto file = folder_.path() / "foot.svg";
+  const auto run = test::run_program("instep", {"measure", cloud, "--report", file});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(bytes_of(file), HasSubstr("M\xEF\xBF\xBDller.xyz"));
+}
+
 TEST_F(ReportOfACloud, SaysWhatIsWrongWithItsName) {
   const auto odd = measure(folder_.path() / "foot.doc");
   EXPECT_EQ(odd.exit_code, 2);

@@ -259,6 +259,12 @@ TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
   EXPECT_EQ(joined, text);
 }
 
+TEST(WrappedText, CountsWhatStandsInPlaceOfBytesThatAreNoText) {
+  const auto lines = paper::wrapped(std::string(40, '\xBC'), 20.0 * 0.6 * 10.0, 20.0);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0].size(), 30U);
+}
+
 TEST(WrappedText, CutsALongWordBetweenLettersOfUtf8) {
   std::string word;
   for (int i = 0; i < 40; ++i) word += "ö";

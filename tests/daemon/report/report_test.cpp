@@ -312,6 +312,7 @@ TEST(SectionsSvg, DrawNoLengthWithoutBothItsEnds) {
 
 TEST(SvgText, EscapesWhatXmlDoesNotTake) {
   EXPECT_EQ(svg::escaped("a<b>&\"'\x01"), "a&lt;b&gt;&amp;&quot;&apos;");
+  EXPECT_EQ(svg::escaped("M\xFCller \xEF\xBF\xBF"), "M\xEF\xBF\xBDller \xEF\xBF\xBD");
 }
 
 }  // namespace
