@@ -138,7 +138,7 @@ void add_sizes(const ShoeSizes& sizes, bool of_both, Table& table) {
 std::vector<std::string> notes_of(const ScanRecord& record) {
   std::vector<std::string> notes;
   for (const auto& withheld : record.measures.withheld) {
-    notes.push_back(withheld.id + " not measured: " + withheld.reason);
+    notes.push_back(as_words(withheld.id) + " not measured: " + withheld.reason);
   }
   notes.insert(notes.end(), record.warnings.begin(), record.warnings.end());
   notes.insert(notes.end(), record.foot.warnings.begin(), record.foot.warnings.end());
@@ -148,14 +148,13 @@ std::vector<std::string> notes_of(const ScanRecord& record) {
       const auto known = std::find_if(doubts.begin(), doubts.end(),
                                       [&](const auto& doubt) { return doubt.first == warning; });
       if (known == doubts.end()) {
-        doubts.emplace_back(warning, measure.id);
+        doubts.emplace_back(warning, as_words(measure.id));
       } else {
-        known->second += ", " + measure.id;
+        known->second += ", " + as_words(measure.id);
       }
     }
   }
   for (const auto& [warning, ids] : doubts) notes.push_back(ids + ": " + warning);
-  for (auto& note : notes) note = as_words(note);
   return notes;
 }
 

@@ -177,6 +177,19 @@ TEST(ReportPage, SaysADoubtOfSeveralMeasuresOnce) {
               HasSubstr("ball girth, waist girth, instep girth: it is a guess<"));
 }
 
+TEST(ReportPage, LeavesNamesInItsNotesAsTheyAre) {
+  auto record = made_up_scan();
+  record.warnings = {"camera cam_left_1 gave 3 frames: set platform_height_mm"};
+  record.measures.measures[1].warnings = {"beside cam_left_1"};
+  record.measures.withheld = {{"ankle_girth", "hidden from cam_left_1"}};
+  const std::string page = report_page(record);
+  for (const char* note :
+       {">camera cam_left_1 gave 3 frames: set platform_height_mm<",
+        ">ball girth: beside cam_left_1<", ">ankle girth not measured: hidden from cam_left_1<"}) {
+    EXPECT_THAT(page, HasSubstr(note));
+  }
+}
+
 TEST(ReportPage, SaysByWhichChoiceOfDefinitionsAMeasureWasTaken) {
   auto scan = made_up_scan();
   EXPECT_THAT(report_page(scan), HasSubstr(">ball girth</text>"));
