@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "daemon/page/paper.h"
 #include "daemon/report/number_text.h"
-#include "daemon/report/svg_text.h"
 
 namespace instep {
 namespace {
@@ -73,7 +73,7 @@ class Table {
   void space(double height) { y_ += height; }
 
   double bottom() const { return y_; }
-  paper::Block block() const { return {svg_, y_}; }
+  svg::Block block() const { return {svg_, y_}; }
 
  private:
   double left_;
@@ -171,7 +171,7 @@ double notes_height(const ScanRecord& record, double width) {
   return table.bottom() + kNoteSpace;
 }
 
-paper::Block numbers_block(const ScanRecord& record, const Vector2d& corner, double width) {
+svg::Block numbers_block(const ScanRecord& record, const Vector2d& corner, double width) {
   Table table(corner, width);
   add_measures(record, table);
   table.space(34.0);
@@ -179,8 +179,8 @@ paper::Block numbers_block(const ScanRecord& record, const Vector2d& corner, dou
   return table.block();
 }
 
-paper::Block notes_block(const ScanRecord& record, const Vector2d& corner, double width,
-                         double lowest) {
+svg::Block notes_block(const ScanRecord& record, const Vector2d& corner, double width,
+                       double lowest) {
   const auto notes = notes_of(record);
   if (notes.empty()) return {{}, corner.y()};
   Table table(corner, width);

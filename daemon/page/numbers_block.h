@@ -2,21 +2,21 @@
 
 #include <Eigen/Core>
 
-#include "daemon/page/paper.h"
+#include "daemon/report/svg_text.h"
 #include "daemon/scan/scan_record.h"
 
 namespace instep {
 
 /// The numbers of a report: the measures with their intervals, beside them what the other foot has
 /// more or less, then the sizes of shoes. What was withheld has a dash.
-paper::Block numbers_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width);
+svg::Block numbers_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width);
 
 /// What notes_block() takes for all it has to say.
 double notes_height(const ScanRecord& record, double width);
 
 /// What was withheld and why, and what to doubt, in lines that fit `width`; those below `lowest`
 /// are left out, and their number is said.
-paper::Block notes_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width,
-                         double lowest);
+svg::Block notes_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width,
+                       double lowest);
 
 }  // namespace instep

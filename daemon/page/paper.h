@@ -14,12 +14,6 @@ inline constexpr double kWidth = 2100.0;
 inline constexpr double kHeight = 2970.0;
 inline constexpr double kMargin = 140.0;
 
-/// A part of the page: its elements, and how far down it reaches.
-struct Block {
-  std::string svg;
-  double bottom = 0.0;
-};
-
 /// The scales that drawings are made in, 1 to so much, largest first.
 inline constexpr std::array kScales = {1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0};
 

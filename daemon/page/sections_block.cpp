@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "daemon/page/paper.h"
 #include "daemon/report/number_text.h"
 #include "daemon/report/section_drawing.h"
-#include "daemon/report/svg_text.h"
 
 namespace instep {
 namespace {
@@ -70,8 +70,8 @@ std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double 
 
 }  // namespace
 
-paper::Block sections_block(const FootScan& foot, const MeasureSet& measures,
-                            const Vector2d& corner, double width, double lowest) {
+svg::Block sections_block(const FootScan& foot, const MeasureSet& measures, const Vector2d& corner,
+                          double width, double lowest) {
   const auto panels = draw_sections(foot, measures);
   if (panels.empty()) return {{}, corner.y()};
   double scale = paper::kScales.back();

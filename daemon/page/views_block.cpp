@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "daemon/page/foot_view.h"
+#include "daemon/page/paper.h"
 #include "daemon/page/tape_ring.h"
 #include "daemon/report/length_drawing.h"
 #include "daemon/report/number_text.h"
-#include "daemon/report/svg_text.h"
 
 namespace instep {
 namespace {
@@ -77,8 +77,8 @@ std::string landmarks_svg(const FootScan& foot, const FootView& view, const Vect
 }
 
 /// "1 acropodion, 2 instep point ...", and which of them are placed by proportion.
-paper::Block legend(const FootScan& foot, const Vector2d& corner, double width) {
-  paper::Block block{{}, corner.y()};
+svg::Block legend(const FootScan& foot, const Vector2d& corner, double width) {
+  svg::Block block{{}, corner.y()};
   const auto end_line = [&](const std::string& line) {
     block.bottom += kLegendLine;
     block.svg += svg::label({corner.x(), block.bottom}, "legend", line);
@@ -120,8 +120,8 @@ std::string tapes_svg(const std::vector<TapeRing>& rings, const FootView& view) 
 
 }  // namespace
 
-paper::Block views_block(const FootScan& foot, const MeasureSet& measures, const Vector2d& corner,
-                         double width) {
+svg::Block views_block(const FootScan& foot, const MeasureSet& measures, const Vector2d& corner,
+                       double width) {
   FootView above(foot, FootView::From::kAbove, kHighestFromAboveMm);
   FootView side(foot, FootView::From::kMedial, kHighestFromSideMm);
   if (above.is_empty() || side.is_empty()) {
@@ -144,7 +144,7 @@ paper::Block views_block(const FootScan& foot, const MeasureSet& measures, const
   };
   const std::string to_scale = fmt::format(", 1 : {:g}", scale);
 
-  paper::Block block;
+  svg::Block block;
   double y = corner.y() + kCaption;
   block.svg += svg::label({corner.x(), y}, "caption", "from above" + to_scale);
   y += kNames;
@@ -157,7 +157,7 @@ paper::Block views_block(const FootScan& foot, const MeasureSet& measures, const
   block.svg += draw(side, y);
   y += per_mm * side.bounds().sizes().y();
   block.svg += svg::line({corner.x(), y}, {corner.x() + width, y}, "floor");
-  const paper::Block names = legend(foot, {corner.x(), y + kBelowFloor}, width);
+  const svg::Block names = legend(foot, {corner.x(), y + kBelowFloor}, width);
   return {block.svg + names.svg, names.bottom};
 }
 

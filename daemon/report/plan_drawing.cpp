@@ -15,7 +15,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostPoints = 5000;
+constexpr double kPointRadiusMm = 0.4;
 constexpr double kLengthLineBelowPx = 22.0;
+constexpr double kLengthBelowLinePx = 17.0;
 
 /// What is drawn of the foot: all below the ankle.
 constexpr double kHighestMm = 90.0;
@@ -31,6 +33,11 @@ class View {
   /// x to the right, y upwards on the page: the foot is seen from above.
   Vector2d operator()(const Vector3d& point) const {
     return corner_ + scale_ * Vector2d(point.x() - foot_.min().x(), foot_.max().y() - point.y());
+  }
+
+  double px_per_mm() const { return scale_; }
+  double bottom() const {
+    return corner_.y() + (foot_.isEmpty() ? 0.0 : scale_ * foot_.sizes().y());
   }
 
  private:
@@ -49,6 +56,7 @@ std::vector<Vector3d> low_points(const FootScan& foot) {
 
 std::string tapes(const MeasureSet& measures, const View& view) {
   std::string elements;
+  std::string names;  // over all tapes
   for (const auto& measure : measures.measures) {
     if (!measure.girth || !measure.plane) continue;
     std::vector<Vector2d> ring;
@@ -61,19 +69,20 @@ std::string tapes(const MeasureSet& measures, const View& view) {
     const auto end = std::max_element(outline.begin(), outline.end(),
                                       [](const auto& a, const auto& b) { return a.y() < b.y(); });
     const std::string name = measure.id.substr(0, measure.id.find('_'));
-    elements += svg::label(*end + Vector2d(0.0, 15.0), "name", name);
+    names += svg::label(*end + Vector2d(0.0, 15.0), "name", name);
   }
-  return elements;
+  return elements + names;
 }
 
 std::string length_line(const FootScan& foot, const MeasureSet& measures, const View& view,
-                        double bottom) {
+                        double y) {
   const auto length = draw_length(foot, measures);
   if (!length) return {};
-  const Vector2d from(view(length->rear).x(), bottom + kLengthLineBelowPx);
+  const Vector2d from(view(length->rear).x(), y);
   const Vector2d to(view(length->front).x(), from.y());
   return svg::measuring_line(from, to, 5.0, "rule") +
-         svg::label((from + to) / 2.0 + Vector2d(0.0, 17.0), "length", length->interval + " mm");
+         svg::label((from + to) / 2.0 + Vector2d(0.0, kLengthBelowLinePx), "length",
+                    length->interval + " mm");
 }
 
 std::string ball_line(const FootScan& foot, const View& view) {
@@ -88,8 +97,8 @@ std::string ball_line(const FootScan& foot, const View& view) {
 
 }  // namespace
 
-std::string plan_drawing(const FootScan& foot, const MeasureSet& measures, const Vector2d& corner,
-                         const Vector2d& size) {
+svg::Block plan_drawing(const FootScan& foot, const MeasureSet& measures, const Vector2d& corner,
+                        const Vector2d& size) {
   const auto points = low_points(foot);
   Eigen::AlignedBox2d box;
   for (const auto& point : points) box.extend(Vector2d(point.head<2>()));
@@ -97,8 +106,10 @@ std::string plan_drawing(const FootScan& foot, const MeasureSet& measures, const
   std::vector<Vector2d> drawn;
   const std::size_t step = points.size() / kMostPoints + 1;
   for (std::size_t i = 0; i < points.size(); i += step) drawn.push_back(view(points[i]));
-  return svg::dots(drawn, 0.8, "cloud") + tapes(measures, view) + ball_line(foot, view) +
-         length_line(foot, measures, view, corner.y() + size.y());
+  const double length_y = view.bottom() + kLengthLineBelowPx;
+  return {svg::dots(drawn, kPointRadiusMm * view.px_per_mm(), "cloud") + tapes(measures, view) +
+              ball_line(foot, view) + length_line(foot, measures, view, length_y),
+          length_y + kLengthBelowLinePx};
 }
 
 }  // namespace instep

@@ -20,9 +20,12 @@ constexpr double kLeastPageWidthPx = 1060.0;
 constexpr double kPixelsPerMm = 3.0;
 constexpr double kBetweenPx = 56.0;
 constexpr double kPlanTopPx = 120.0;
-constexpr double kPlanWidthPx = 560.0;
-constexpr double kPlanHeightPx = 230.0;
-constexpr double kSectionsTopPx = kPlanTopPx + 322.0;
+constexpr double kLeastPlanHeightPx = 230.0;
+/// What the length takes below the foot from above.
+constexpr double kLengthHeightPx = 60.0;
+constexpr double kTableWidthPx = 364.0;
+constexpr double kBesideTablePx = 40.0;
+constexpr double kAboveSectionsPx = 53.0;
 constexpr double kBelowSectionsPx = 150.0;
 constexpr double kRulerMm = 50.0;
 constexpr SectionStyle kSectionStyle = {"tape", 1.5, 1.3};
@@ -33,7 +36,8 @@ text { font-family: "Source Serif 4", Georgia, "DejaVu Serif", serif; fill: #3b3
 .note { font-size: 13px; fill: #8a7b6c; }
 .row { font-size: 15px; }
 .value { font-size: 15px; text-anchor: end; font-weight: bold; }
-.name { font-size: 13px; text-anchor: middle; fill: #8a4b20; }
+.name { font-size: 13px; text-anchor: middle; fill: #8a4b20;
+  paint-order: stroke; stroke: #fdfaf5; stroke-width: 4; }
 .length { font-size: 15px; text-anchor: middle; font-weight: bold; }
 .heading { font-size: 18px; text-anchor: middle; }
 .number { font-size: 26px; text-anchor: middle; font-weight: bold; }
@@ -87,20 +91,23 @@ std::string title(const FootScan& foot, double width) {
 }
 
 /// All measures in a table beside the foot from above.
-std::string table(const MeasureSet& measures, double left, double right) {
+svg::Block table(const MeasureSet& measures, double left, double right) {
   std::string text;
   double y = kPlanTopPx + 24.0;
+  double bottom = kPlanTopPx;
   for (const auto& measure : measures.measures) {
     text += svg::label({left, y}, "row", as_words(measure.id));
     text += svg::label({right, y}, "value", measure_text(measure));
     text += svg::line({left, y + 8.0}, {right, y + 8.0}, "floor");
+    bottom = y + 8.0;
     y += 30.0;
   }
   for (const auto& withheld : measures.withheld) {
     text += svg::label({left, y}, "doubt", as_words(withheld.id) + ": not measured");
+    bottom = y;
     y += 22.0;
   }
-  return text;
+  return {text, bottom};
 }
 
 std::string ruler(double y) {
@@ -121,7 +128,14 @@ std::string sections_svg(const FootScan& foot, const MeasureSet& measures) {
     tallest = std::max(tallest, kPixelsPerMm * panel.drawing.height);
   }
   const double width = std::max(kLeastPageWidthPx, row_width + 2.0 * kMarginPx);
-  const double base_line = kSectionsTopPx + tallest;
+  const double table_left = width - kMarginPx - kTableWidthPx;
+  const auto numbers = table(measures, table_left, width - kMarginPx);
+  // The foot is as tall as the table beside it.
+  const double plan_height =
+      std::max(kLeastPlanHeightPx, numbers.bottom - kPlanTopPx - kLengthHeightPx);
+  const auto plan = plan_drawing(foot, measures, {kMarginPx, kPlanTopPx},
+                                 {table_left - kBesideTablePx - kMarginPx, plan_height});
+  const double base_line = std::max(plan.bottom, numbers.bottom) + kAboveSectionsPx + tallest;
   const double height = base_line + kBelowSectionsPx;
 
   std::string page = fmt::format(
@@ -131,8 +145,7 @@ std::string sections_svg(const FootScan& foot, const MeasureSet& measures) {
   page += kStyle;
   page += "<rect width=\"100%\" height=\"100%\" fill=\"#fdfaf5\"/>\n";
   page += title(foot, width);
-  page += plan_drawing(foot, measures, {kMarginPx, kPlanTopPx}, {kPlanWidthPx, kPlanHeightPx});
-  page += table(measures, kMarginPx + kPlanWidthPx + 40.0, width - kMarginPx);
+  page += plan.svg + numbers.svg;
   double left = (width - row_width) / 2.0;
   for (const auto& panel : panels) {
     page += panel_svg(panel, left, base_line);

@@ -7,6 +7,12 @@
 
 namespace instep::svg {
 
+/// A part of a page: its elements, and how far down it reaches.
+struct Block {
+  std::string svg;
+  double bottom = 0.0;
+};
+
 /// The text with the five characters of XML escaped, control characters left out, and what is no
 /// text mended.
 std::string escaped(std::string_view text);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -287,6 +288,33 @@ TEST(SectionsSvg, DrawsTheTapeOverTheHollow) {
   };
   EXPECT_EQ(corners("skin"), 5);
   EXPECT_EQ(corners("tape"), 4);
+}
+
+/// The lowest and the highest places on the page of all labels whose class and text are such.
+std::pair<double, double> heights(const std::string& svg, const std::string& style,
+                                  const std::string& text) {
+  const std::regex label("class=\"(?:" + style + ")\" x=\"[0-9.]+\" y=\"([0-9.]+)\">" + text + "<");
+  std::vector<double> found;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), label), end; at != end; ++at) {
+    found.push_back(std::stod((*at)[1]));
+  }
+  if (found.empty()) return {kNan, kNan};
+  const auto [least, most] = std::minmax_element(found.begin(), found.end());
+  return {*least, *most};
+}
+
+TEST(SectionsSvg, StandBelowATableOfAnyLength) {
+  for (const auto& [measures, withheld] : {std::pair(2, 1), std::pair(18, 0), std::pair(11, 7)}) {
+    auto set = small_set();
+    set.measures[1].girth->contour = {{-40, 0}, {40, 0}, {40, 170}, {-40, 170}};
+    set.measures.resize(static_cast<std::size_t>(measures), set.measures[0]);
+    set.withheld.resize(static_cast<std::size_t>(withheld), {"waist_girth", "the section is open"});
+    const std::string svg = sections_svg(small_foot(), set);
+    const double table_bottom = heights(svg, "row|value|doubt", "[^<]*").second;
+    const double sections_top = heights(svg, "side", "dorsal").first;
+    EXPECT_GT(sections_top, table_bottom + 20.0) << measures << " and " << withheld;
+    EXPECT_GT(sections_top, heights(svg, "length", "[^<]*").second + 20.0);
+  }
 }
 
 TEST(SectionsSvg, StandsWhateverItIsGiven) {
