@@ -19,8 +19,10 @@ constexpr double kRow = 50.0;
 constexpr double kOtherFootWidth = 84.0;
 constexpr double kSizeRow = 40.0;
 constexpr double kLetters = 28.0;
+/// Bold letters of that size are as wide as plain ones of this.
+constexpr double kBoldLetters = 30.0;
 constexpr double kNoteLetters = 24.0;
-constexpr double kNoteLine = 32.0;
+constexpr double kTextLine = 32.0;
 constexpr double kNoteSpace = 4.0;
 
 /// A table that grows downwards.
@@ -46,29 +48,29 @@ class Table {
     const double value_end = right_ - (has_other ? kOtherFootWidth : 0.0);
     const std::string said = value.empty() ? "not measured" : value;
     const std::string in_full = choice.empty() ? name : name + " (" + choice + ")";
-    const bool has_room =
-        choice.empty() || paper::text_width(in_full + " " + said, kLetters) <= value_end - left_;
+    const bool has_room = choice.empty() || fit_beside(in_full, said, value_end);
     svg_ += svg::label({left_, y_ - 14.0}, "row", has_room ? in_full : name) +
             svg::label({value_end, y_ - 14.0}, value.empty() ? "other" : "value", said) +
             svg::label({right_, y_ - 14.0}, "other", other);
     if (!has_room) {
-      y_ += kNoteLine;
+      y_ += kTextLine;
       svg_ += svg::label({left_, y_ - 14.0}, "note", "(" + choice + ")");
     }
     svg_ += svg::line({left_, y_}, {right_, y_}, "table-line");
   }
 
-  void size(const std::string& system, const std::string& value) {
-    y_ += kSizeRow;
-    svg_ += svg::label({left_, y_}, "row", system) + svg::label({right_, y_}, "value", value);
-  }
-
-  void line(const std::string& text) {
-    for (const auto& part : paper::wrapped(text, right_ - left_, kNoteLetters)) {
-      y_ += kNoteLine;
-      svg_ += svg::label({left_, y_}, "note", part);
+  /// The value stands beside the name's last line, or below it where both leave no room.
+  void size(const std::string& name, const std::string& value) {
+    y_ += kSizeRow - kTextLine;
+    const std::string last = lines(name, left_, "row", kLetters);
+    if (fit_beside(last, value, right_)) {
+      svg_ += svg::label({right_, y_}, "value", value);
+    } else {
+      lines(value, right_, "value", kBoldLetters);
     }
   }
+
+  void line(const std::string& text) { lines(text, left_, "note", kNoteLetters); }
 
   void space(double height) { y_ += height; }
 
@@ -76,11 +78,42 @@ class Table {
   svg::Block block() const { return {svg_, y_}; }
 
  private:
+  /// Adds as many lines as the text takes, and gives back the last one.
+  std::string lines(const std::string& text, double x, const char* style, double letters) {
+    std::string last;
+    for (const auto& part : paper::wrapped(text, right_ - left_, letters)) {
+      y_ += kTextLine;
+      svg_ += svg::label({x, y_}, style, part);
+      last = part;
+    }
+    return last;
+  }
+
+  bool fit_beside(const std::string& name, const std::string& value, double value_end) const {
+    return paper::text_width(name + " ", kLetters) + paper::text_width(value, kBoldLetters) <=
+           value_end - left_;
+  }
+
   double left_;
   double right_;
   double y_;
   std::string svg_;
 };
+
+/// Adds to the table what does not reach below `lowest`, and says how much is left out.
+template <typename Item, typename Add>
+void add_while_there_is_room(const std::vector<Item>& items, double lowest, Table& table,
+                             const Add& add) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    Table longer = table;
+    add(longer, items[i]);
+    const bool is_last = i + 1 == items.size();
+    if (longer.bottom() + (is_last ? 0.0 : kTextLine) > lowest) {
+      return table.line(fmt::format("and {} more: see result.json", items.size() - i));
+    }
+    table = std::move(longer);
+  }
+}
 
 std::string half_sizes(double size) {
   return fmt::format("{:g}", size);
@@ -117,7 +150,7 @@ std::string length_and_width(const ShoeSizes& sizes) {
              : fmt::format("{:.0f}", *sizes.mondopoint_mm);
 }
 
-void add_sizes(const ShoeSizes& sizes, bool of_both, Table& table) {
+void add_sizes(const ShoeSizes& sizes, bool of_both, double lowest, Table& table) {
   table.caption(of_both ? "Size guide for the larger foot" : "Size guide");
   table.space(6.0);
   if (sizes.mondopoint_mm) table.size("Mondopoint", length_and_width(sizes));
@@ -127,11 +160,11 @@ void add_sizes(const ShoeSizes& sizes, bool of_both, Table& table) {
   if (sizes.us_women) table.size("US women (Brannock)", half_sizes(sizes.us_women->marked));
   if (sizes.jis_men) table.size("JIS S 5037 men", *sizes.jis_men);
   if (sizes.jis_women) table.size("JIS S 5037 women", *sizes.jis_women);
-  for (const auto& choice : sizes.shop) {
-    table.size(choice.table, choice.size.value_or("none"));
-    if (!choice.note.empty()) table.line(choice.note);
-  }
   for (const auto& note : sizes.notes) table.line(note);
+  add_while_there_is_room(sizes.shop, lowest, table, [](Table& longer, const ShopChoice& choice) {
+    longer.size(choice.table, choice.size.value_or("none"));
+    if (!choice.note.empty()) longer.line(choice.note);
+  });
 }
 
 /// Whatever doubts several measures alike is said once.
@@ -171,11 +204,13 @@ double notes_height(const ScanRecord& record, double width) {
   return table.bottom() + kNoteSpace;
 }
 
-svg::Block numbers_block(const ScanRecord& record, const Vector2d& corner, double width) {
+svg::Block numbers_block(const ScanRecord& record, const Vector2d& corner, double width,
+                         double lowest) {
   Table table(corner, width);
   add_measures(record, table);
   table.space(34.0);
-  add_sizes(record.pair ? record.pair->sizes : record.sizes, record.pair.has_value(), table);
+  add_sizes(record.pair ? record.pair->sizes : record.sizes, record.pair.has_value(), lowest,
+            table);
   return table.block();
 }
 
@@ -186,16 +221,8 @@ svg::Block notes_block(const ScanRecord& record, const Vector2d& corner, double 
   Table table(corner, width);
   table.caption(kNotesCaption);
   table.space(kNoteSpace);
-  for (std::size_t i = 0; i < notes.size(); ++i) {
-    const auto lines = paper::wrapped(notes[i], width, kNoteLetters).size();
-    const bool is_last = i + 1 == notes.size();
-    const double room = lowest - table.bottom() - (is_last ? 0.0 : kNoteLine);
-    if (static_cast<double>(lines) * kNoteLine > room) {
-      table.line(fmt::format("and {} more: see result.json", notes.size() - i));
-      break;
-    }
-    table.line(notes[i]);
-  }
+  add_while_there_is_room(notes, lowest, table,
+                          [](Table& longer, const std::string& note) { longer.line(note); });
   return table.block();
 }
 

@@ -8,8 +8,10 @@
 namespace instep {
 
 /// The numbers of a report: the measures with their intervals, beside them what the other foot has
-/// more or less, then the sizes of shoes. What was withheld has a dash.
-svg::Block numbers_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width);
+/// more or less, then the sizes of shoes. Tables of the shop that reach below `lowest` are left
+/// out, and their number is said.
+svg::Block numbers_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width,
+                         double lowest);
 
 /// What notes_block() takes for all it has to say.
 double notes_height(const ScanRecord& record, double width);

@@ -8,20 +8,30 @@
 namespace instep::paper {
 namespace {
 
+/// Of a small letter or a figure, for a letter size of 1.
 constexpr double kLetterWidth = 0.58;
 
-/// Letters, not bytes: the bytes that continue a letter of UTF-8 do not count.
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
-    return (static_cast<unsigned>(byte) & 0xC0U) != 0x80U;
-  }));
+/// Of the letter that begins with a byte, in halves of a small one; bytes of UTF-8 that continue a
+/// letter have none. From U+3000 on, letters are as wide as they are tall.
+std::size_t halves(char byte) {
+  const auto code = static_cast<unsigned char>(byte);
+  if ((code & 0xC0U) == 0x80U) return 0;
+  if (code >= 0xE3U) return 4;
+  return code >= 'A' && code <= 'Z' ? 3 : 2;
 }
 
-/// Where the letter after `count` letters begins.
-std::size_t end_of(const std::string& text, std::size_t count) {
+std::size_t halves(const std::string& text) {
+  std::size_t sum = 0;
+  for (const char byte : text) sum += halves(byte);
+  return sum;
+}
+
+/// Where the letter begins that `room` is too small for; it is not the first one.
+std::size_t end_of(const std::string& text, std::size_t room) {
   std::size_t at = 0;
-  for (std::size_t seen = 0; at < text.size(); ++at) {
-    if ((static_cast<unsigned>(text[at]) & 0xC0U) != 0x80U && seen++ == count) break;
+  for (std::size_t taken = 0; at < text.size(); ++at) {
+    taken += halves(text[at]);
+    if (taken > room && halves(text[at]) > 0 && at > 0) break;
   }
   return at;
 }
@@ -36,16 +46,16 @@ double scale_that_fits(double extent_mm, double room) {
 }
 
 double text_width(const std::string& text, double letter_size) {
-  return kLetterWidth * letter_size * static_cast<double>(letters(text));
+  return kLetterWidth / 2.0 * letter_size * static_cast<double>(halves(text));
 }
 
 std::vector<std::string> wrapped(const std::string& text, double width, double letter_size) {
-  const auto longest =
-      static_cast<std::size_t>(std::max(1.0, std::floor(width / (kLetterWidth * letter_size))));
+  const auto room = static_cast<std::size_t>(
+      std::max(2.0, std::floor(2.0 * width / (kLetterWidth * letter_size))));
   std::vector<std::string> lines;
   std::string rest = mended_text(text);
-  while (letters(rest) > longest) {
-    const std::size_t limit = end_of(rest, longest);
+  while (halves(rest) > room) {
+    const std::size_t limit = end_of(rest, room);
     const std::size_t space = rest.rfind(' ', limit);
     const bool has_space = space != std::string::npos && space > 0;
     lines.push_back(rest.substr(0, has_space ? space : limit));

@@ -17,7 +17,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kBodyTop = 318.0;
+constexpr double kBelowHeader = 56.0;
+constexpr double kOriginLetters = 26.0;
+constexpr double kOriginLine = 36.0;
 constexpr double kViewsWidth = 1150.0;
 constexpr double kNumbersWidth = 610.0;
 constexpr double kRight = paper::kWidth - paper::kMargin;
@@ -25,6 +27,8 @@ constexpr double kFooter = paper::kHeight - 110.0;
 constexpr double kLowest = kFooter - 70.0;
 constexpr double kRulerMm = 50.0;
 constexpr double kBetweenBlocks = 40.0;
+/// What the sections need when they are smallest.
+constexpr double kLeastSections = 400.0;
 /// The most that is kept below the sections for what is to be said in words.
 constexpr double kMostNotes = 360.0;
 
@@ -83,11 +87,17 @@ std::string origin_text(const ScanRecord& record, const std::string& origin) {
   return text;
 }
 
-std::string header(const ScanRecord& record, const std::string& origin) {
+svg::Block header(const ScanRecord& record, const std::string& origin) {
   std::string text = svg::label({paper::kMargin, 190.0}, "title",
-                                record.foot.side == Side::kLeft ? "Left foot" : "Right foot") +
-                     svg::label({paper::kMargin, 238.0}, "origin", origin_text(record, origin));
-  return text + svg::line({paper::kMargin, 262.0}, {kRight, 262.0}, "rule");
+                                record.foot.side == Side::kLeft ? "Left foot" : "Right foot");
+  double y = 238.0 - kOriginLine;
+  for (const auto& line :
+       paper::wrapped(origin_text(record, origin), kRight - paper::kMargin, kOriginLetters)) {
+    y += kOriginLine;
+    text += svg::label({paper::kMargin, y}, "origin", line);
+  }
+  const double rule = y + 24.0;
+  return {text + svg::line({paper::kMargin, rule}, {kRight, rule}, "rule"), rule};
 }
 
 /// The ruler is as long as it says if the page was printed at its own size.
@@ -114,14 +124,17 @@ std::string report_page(const ScanRecord& record, const std::string& origin) {
       paper::kWidth / paper::kPerMm, paper::kHeight / paper::kPerMm, paper::kWidth, paper::kHeight);
   page += kStyle;
   page += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
-  page += header(record, origin) + footer();
-  const auto views =
-      views_block(record.foot, record.measures, {paper::kMargin, kBodyTop}, kViewsWidth);
-  const auto numbers = numbers_block(record, {kRight - kNumbersWidth, kBodyTop}, kNumbersWidth);
-  const double sections_top = std::max(views.bottom, numbers.bottom) + kBetweenBlocks;
+  const auto head = header(record, origin);
+  page += head.svg + footer();
+  const double body_top = head.bottom + kBelowHeader;
   const double width = kRight - paper::kMargin;
   const double notes_top =
       kLowest - kBetweenBlocks / 2.0 - std::min(kMostNotes, notes_height(record, width));
+  const auto views =
+      views_block(record.foot, record.measures, {paper::kMargin, body_top}, kViewsWidth);
+  const auto numbers = numbers_block(record, {kRight - kNumbersWidth, body_top}, kNumbersWidth,
+                                     notes_top - kLeastSections - kBetweenBlocks);
+  const double sections_top = std::max(views.bottom, numbers.bottom) + kBetweenBlocks;
   const auto sections = sections_block(record.foot, record.measures, {paper::kMargin, sections_top},
                                        width, notes_top);
   const auto notes =

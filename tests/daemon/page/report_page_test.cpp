@@ -170,6 +170,109 @@ TEST(ReportPage, SaysHowMuchItLeftOut) {
   for (std::size_t i = 1; i < heights.size(); i += 2) EXPECT_LT(heights[i], 2860.0);
 }
 
+/// A label of a page: where it stands, and its text.
+struct Label {
+  double x = 0.0;
+  double y = 0.0;
+  std::string text;
+};
+
+std::vector<Label> labels(const std::string& page, const std::string& style) {
+  const std::regex label("class=\"" + style + "\" x=\"([0-9.]+)\" y=\"([0-9.]+)\">([^<]*)<");
+  std::vector<Label> found;
+  for (std::sregex_iterator at(page.begin(), page.end(), label), end; at != end; ++at) {
+    found.push_back({std::stod((*at)[1]), std::stod((*at)[2]), (*at)[3]});
+  }
+  return found;
+}
+
+std::vector<ShopTable> shop_tables(std::size_t count, const std::string& name,
+                                   const std::string& size) {
+  return std::vector<ShopTable>(count, ShopTable{name, {{size, 300.0, {}}}});
+}
+
+ScanRecord scan_with_shop_tables(const std::vector<ShopTable>& tables) {
+  auto record = made_up_scan();
+  SizeRules rules;
+  rules.shop_tables = tables;
+  record.sizes = shoe_sizes(sized_foot(record.measures), rules);
+  return record;
+}
+
+TEST(ReportPage, KeepsTheNamesOfShopTablesOffTheirSizes) {
+  // Of DejaVu Serif, a wide type, at the sizes of the page; the mean of the letters used here.
+  constexpr double kNameLetter = 16.0;
+  constexpr double kSizeLetter = 18.0;
+  for (const auto& [name, size] :
+       {std::pair("Lowa Renegade GTX women narrow", "UK 7.5 / EU 41.5 wide"),
+        std::pair("Hanwag Tatra II Bunion GTX Lady, extra wide toes and thick insol", "9.5"),
+        std::pair("Walker", "UK 7.5 / EU 41.5 / US 9 / 26.0cm")}) {
+    const std::string page = report_page(scan_with_shop_tables(shop_tables(1, name, size)));
+    EXPECT_THAT(page, HasSubstr(std::string(">") + size + "<"));
+    std::string names;
+    for (const Label& row : labels(page, "row")) {
+      names += row.text + " ";
+      const double name_ends = row.x + kNameLetter * static_cast<double>(row.text.size());
+      EXPECT_LT(name_ends, paper::kWidth - paper::kMargin + 1.0) << row.text;
+      for (const Label& value : labels(page, "value")) {
+        if (value.y != row.y) continue;
+        EXPECT_LT(name_ends, value.x - kSizeLetter * static_cast<double>(value.text.size()))
+            << row.text << " " << value.text;
+      }
+    }
+    EXPECT_THAT(names, HasSubstr(name));
+  }
+}
+
+TEST(ReportPage, LeavesOutTheShopTablesThatItHasNoRoomFor) {
+  for (const std::size_t count : {1U, 10U, 20U, 32U}) {
+    auto record = scan_with_shop_tables(shop_tables(count, "Walker", "42"));
+    record.measures.measures.resize(17, record.measures.measures[0]);
+    for (int i = 0; i < 20; ++i) record.warnings.push_back("doubt number " + std::to_string(i));
+    const std::string page = report_page(record);
+    const auto rows = labels(page, "row");
+    const auto shown = static_cast<std::size_t>(std::count_if(
+        rows.begin(), rows.end(), [](const auto& row) { return row.text == "Walker"; }));
+    EXPECT_GE(shown, std::min<std::size_t>(count, 7));
+    const auto left_out = numbers(page, "and # more: see result.json");
+    ASSERT_EQ(left_out.size(), shown == count ? 1U : 2U);  // the notes' own is the last
+    if (shown < count) {
+      EXPECT_EQ(shown + static_cast<std::size_t>(left_out[0]), count);
+    }
+    const auto sections = labels(page, "section-name");
+    ASSERT_EQ(sections.size(), 3U);
+    EXPECT_GT(sections[0].y, rows.back().y + 100.0);
+    const auto notes = labels(page, "note");
+    ASSERT_FALSE(notes.empty());
+    EXPECT_GT(notes.back().y, sections[0].y);
+    EXPECT_LT(notes.back().y, 2800.0) << "above the ruler";
+  }
+}
+
+TEST(ReportPage, WrapsWhatSaysWhereItIsFrom) {
+  auto record = made_up_scan();
+  record.station = "Orthopaedie-Schuhtechnik Mueller und Soehne, Filiale Zuerich-Nord";
+  record.simulated = true;
+  record.foot.side_confidence = 0.997;
+  const std::string file(240, 'x');
+  const std::string page = report_page(record, file + ".ply");
+  std::string said;
+  for (const Label& line : labels(page, "origin")) {
+    constexpr double kLetter = 15.0;  // of a wide type at the size of the line
+    EXPECT_LT(line.x + kLetter * static_cast<double>(line.text.size()),
+              paper::kWidth - paper::kMargin + 1.0);
+    said += line.text + (line.text.back() == 'x' ? "" : " ");
+  }
+  for (const auto& part :
+       {file + ".ply", record.station, std::string("side told from the shape, 100 % sure")}) {
+    EXPECT_THAT(said, HasSubstr(part));
+  }
+  const auto heights_of_rules = numbers(page, "class=\"rule\" x1=\"#\" y1=\"#\"");
+  ASSERT_GE(heights_of_rules.size(), 2U);
+  EXPECT_GT(heights_of_rules[1], labels(page, "origin").back().y);
+  EXPECT_GT(labels(page, "caption").front().y, heights_of_rules[1] + 20.0);
+}
+
 TEST(ReportPage, SaysADoubtOfSeveralMeasuresOnce) {
   auto record = made_up_scan();
   for (std::size_t i = 1; i < 4; ++i) record.measures.measures[i].warnings = {"it is a guess"};
@@ -258,38 +361,6 @@ TEST(ReportPage, StandsWhateverItIsGiven) {
   EXPECT_EQ(test::fault_in_xml(report_page(record)), "");
   record.foot.cloud.positions.assign(500, {5.0, 5.0, 500.0});
   EXPECT_EQ(test::fault_in_xml(report_page(record)), "");
-}
-
-TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
-  const std::string text = "no camera saw the sole; it is closed by the platform";
-  const auto lines = paper::wrapped(text, 300.0, 20.0);
-  ASSERT_GT(lines.size(), 1U);
-  std::string joined;
-  for (const auto& line : lines) {
-    EXPECT_LE(line.size(), 25U);
-    joined += (joined.empty() ? "" : " ") + line;
-  }
-  EXPECT_EQ(joined, text);
-}
-
-TEST(WrappedText, CountsWhatStandsInPlaceOfBytesThatAreNoText) {
-  const auto lines = paper::wrapped(std::string(40, '\xBC'), 20.0 * 0.6 * 10.0, 20.0);
-  ASSERT_EQ(lines.size(), 4U);
-  EXPECT_EQ(lines[0].size(), 30U);
-}
-
-TEST(WrappedText, CutsALongWordBetweenLettersOfUtf8) {
-  std::string word;
-  for (int i = 0; i < 40; ++i) word += "ö";
-  std::string joined;
-  for (const auto& line : paper::wrapped(word, 100.0, 20.0)) {
-    EXPECT_EQ(line.size() % 2, 0U);
-    EXPECT_FALSE(line.empty());
-    joined += line;
-  }
-  EXPECT_EQ(joined, word);
-  EXPECT_TRUE(paper::wrapped("", 100.0, 20.0).empty());
-  EXPECT_EQ(paper::wrapped("ab", 0.0, 20.0).size(), 2U);
 }
 
 }  // namespace

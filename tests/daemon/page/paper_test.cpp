@@ -1,0 +1,53 @@
+#include "daemon/page/paper.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace instep {
+namespace {
+
+TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
+  const std::string text = "no camera saw the sole; it is closed by the platform";
+  const auto lines = paper::wrapped(text, 300.0, 20.0);
+  ASSERT_GT(lines.size(), 1U);
+  std::string joined;
+  for (const auto& line : lines) {
+    EXPECT_LE(line.size(), 25U);
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  EXPECT_EQ(joined, text);
+}
+
+TEST(WrappedText, HasRoomForLettersThatAreAsWideAsTheyAreTall) {
+  std::string joined;
+  for (const auto& line : paper::wrapped("足型計測ステーション東京本店", 100.0, 20.0)) {
+    EXPECT_LE(line.size() / 3, 5U);
+    joined += line;
+  }
+  EXPECT_EQ(joined, "足型計測ステーション東京本店");
+  EXPECT_EQ(paper::wrapped("足型", 0.0, 20.0).size(), 2U);
+}
+
+TEST(WrappedText, CountsWhatStandsInPlaceOfBytesThatAreNoText) {
+  const auto lines = paper::wrapped(std::string(40, '\xBC'), 20.0 * 0.6 * 10.0, 20.0);
+  ASSERT_EQ(lines.size(), 8U);
+  EXPECT_EQ(lines[0], "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
+}
+
+TEST(WrappedText, CutsALongWordBetweenLettersOfUtf8) {
+  std::string word;
+  for (int i = 0; i < 40; ++i) word += "ö";
+  std::string joined;
+  for (const auto& line : paper::wrapped(word, 100.0, 20.0)) {
+    EXPECT_EQ(line.size() % 2, 0U);
+    EXPECT_FALSE(line.empty());
+    joined += line;
+  }
+  EXPECT_EQ(joined, word);
+  EXPECT_TRUE(paper::wrapped("", 100.0, 20.0).empty());
+  EXPECT_EQ(paper::wrapped("ab", 0.0, 20.0).size(), 2U);
+}
+
+}  // namespace
+}  // namespace instep
