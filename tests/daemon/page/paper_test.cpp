@@ -7,6 +7,14 @@
 namespace instep {
 namespace {
 
+TEST(TextWidth, IsNoLessThanThatOfAWideType) {
+  // The widths that the font file of DejaVu Serif states, summed, for a letter size of 1.
+  EXPECT_GE(paper::text_width("WANDERSCHUHE MIT FUSSBETT", 1.0), 18.104);
+  EXPECT_GE(paper::text_width("Lowa Renegade GTX women narrow", 1.0), 18.513);
+  EXPECT_GE(paper::text_width("Orthopädie-Schuhtechnik Müller & Söhne, Filiale Zürich", 1.0),
+            28.860);
+}
+
 TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
   const std::string text = "no camera saw the sole; it is closed by the platform";
   const auto lines = paper::wrapped(text, 300.0, 20.0);
