@@ -1,6 +1,7 @@
 #include "core/foot/alignment.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -16,11 +17,13 @@
 #include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
 #include "core/in_millimetres.h"
+#include "core/some_of.h"
 
 namespace instep {
 namespace {
 
 constexpr std::size_t kFewestPoints = 200;
+constexpr std::size_t kPointsOfLength = 10000;
 constexpr double kLargePieceShare = 0.1;   ///< a piece apart that is worth a word
 constexpr double kLargeBesideShare = 0.5;  ///< of the foot, that touches it
 
@@ -46,13 +49,19 @@ Result<StandingPlane> plane_at_size(const PointCloud& cloud, double length_mm) {
   });
 }
 
-/// How long a foot is shows once it stands, and how it stands once its size is known, roughly.
+/// How long a foot is shows once it stands, and some of its points tell it as well.
+std::optional<double> rough_length(const PointCloud& cloud) {
+  const PointCloud some = cloud.subset(some_of(cloud.size(), kPointsOfLength));
+  const auto plane = plane_at_size(some, longest_extent(some.positions));
+  if (!plane) return std::nullopt;
+  const auto outline = find_outline_axis(transformed(plane->standing_from_input(), some).positions);
+  return outline ? std::optional(outline->length_mm) : std::nullopt;
+}
+
+/// How it stands shows once its size is known.
 Result<StandingPlane> plane_under(const PointCloud& cloud) {
-  const auto rough = plane_at_size(cloud, longest_extent(cloud.positions));
-  if (!rough) return rough;
-  const auto standing = transformed(rough->standing_from_input(), cloud).positions;
-  const auto outline = find_outline_axis(standing);
-  return outline ? plane_at_size(cloud, outline->length_mm) : rough;
+  const auto length = rough_length(cloud);
+  return plane_at_size(cloud, length ? *length : longest_extent(cloud.positions));
 }
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {

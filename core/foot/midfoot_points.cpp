@@ -24,8 +24,10 @@ constexpr std::size_t kFewestRidgePoints = 12;
 constexpr double kArchFrom = 0.35;
 constexpr double kArchTo = 0.60;
 constexpr double kArchPrior = 0.48;
-constexpr double kArchStep = 0.005;
+/// Between tapes, which take points 4 mm to either side.
+constexpr double kArchStep = 0.01;
 constexpr double kArchWindow = 0.08;
+constexpr std::size_t kFewestTapes = 5;
 
 std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double place, double width) {
   std::vector<Vector3d> slab;
@@ -64,7 +66,7 @@ std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place,
 
 /// Where the cubic through (place, length) pairs is lowest, if it is so inside their range.
 std::optional<double> lowest_place(const std::vector<Vector2d>& lengths) {
-  if (lengths.size() < 8) return std::nullopt;
+  if (lengths.size() < kFewestTapes) return std::nullopt;
   const double middle = (lengths.front().x() + lengths.back().x()) / 2.0;
   const double half = (lengths.back().x() - lengths.front().x()) / 2.0;
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(lengths.size()), 4);
@@ -181,7 +183,7 @@ std::optional<Landmark> find_arch_point(const FootOutline& outline) {
     if (is_near && point.z() < kUndersideShare * length) underside.push_back(point);
   }
   std::optional<Vector3d> highest;
-  for (double share = kArchFrom; share <= kArchTo + 1e-9; share += 2.0 * kArchStep) {
+  for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
     const auto inner = outline.medial().reach(share * length);
     const auto outer = outline.lateral().reach(share * length);
     if (!inner || !outer) continue;
