@@ -17,8 +17,8 @@ constexpr double kThirdOfAnInchMm = 25.4 / 3.0;
 constexpr double kUkZero = 25.0;
 constexpr double kUsMenZero = 22.0;
 constexpr double kUsWomenZero = 21.0;
-/// Sizes of a shop's table are hardly nearer to each other, and a foot that is shorter by less
-/// takes its smallest.
+/// A foot that is shorter by less than this, or than a step of the table, still takes its smallest
+/// size.
 constexpr double kLeastShopStepMm = 10.0;
 
 /// One table of JIS S 5037. The girth of letter A at the shortest length; it grows by 3 mm with

@@ -51,13 +51,14 @@ bool has_same_names(const StationCalibration& one, const StationCalibration& oth
 }  // namespace
 
 Result<void> check_calibration_target(const CalibrationTarget& target) {
-  if (auto folder = check_folder(target.file); !folder) return folder;
+  const fs::path file = target.is_of_station ? end_of_links(target.file) : target.file;
+  if (auto folder = check_folder(file); !folder) return folder;
   std::error_code away;
-  const auto kind = fs::symlink_status(target.file, away).type();
+  const auto kind = fs::symlink_status(file, away).type();
   if (kind == fs::file_type::not_found) return {};
-  const bool is_file = kind == fs::file_type::regular;
-  if (is_file || (target.is_of_station && kind == fs::file_type::symlink)) {
-    return target.is_of_station ? Result<void>() : check_is_calibration(target.file);
+  if (kind == fs::file_type::regular) {
+    const bool is_stations_own = target.is_of_station && file == target.file;
+    return is_stations_own ? Result<void>() : check_is_calibration(file);
   }
   return fail(ErrorCode::kInvalidInput, target.file.string() + " is no regular file",
               "choose another --out");
@@ -73,7 +74,8 @@ Result<void> write_calibration(const CalibrationTarget& target,
                 "nothing is written, for it could not be read again: " + why,
                 "leave --out away and take the poses that are printed");
   }
-  auto written = write_file_bytes(target.file, text);
+  auto written =
+      write_file_bytes(target.file, text, target.is_of_station ? Readers::kAll : Readers::kByUmask);
   if (!written && written.error().code == ErrorCode::kPermissionDenied) {
     written.error().advice = kAsWhoMayWrite;
   }

@@ -45,7 +45,7 @@ struct MeasureCommand {
 };
 
 bool is_pdf(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".pdf";
+  return has_ending(file, ".pdf");
 }
 
 Result<void> write_report(const ScanRecord& record, const MeasureCommand& command) {

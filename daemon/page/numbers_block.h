@@ -8,8 +8,8 @@
 namespace instep {
 
 /// The numbers of a report: the measures with their intervals, beside them what the other foot has
-/// more or less, then the sizes of shoes. Tables of the shop that reach below `lowest` are left
-/// out, and their number is said.
+/// more or less, then the sizes of shoes. Tables of the shop that reach below `lowest`, and these
+/// alone, are left out, and their number is said.
 svg::Block numbers_block(const ScanRecord& record, const Eigen::Vector2d& corner, double width,
                          double lowest);
 

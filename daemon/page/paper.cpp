@@ -8,21 +8,24 @@
 namespace instep::paper {
 namespace {
 
-/// Of a small letter or a figure, for a letter size of 1.
-constexpr double kLetterWidth = 0.58;
-
-/// Of the letter that begins with a byte, in halves of a small one; bytes of UTF-8 that continue a
-/// letter have none. From U+3000 on, letters are as wide as they are tall.
-std::size_t halves(char byte) {
+/// Of the letter that begins with a byte, in hundredths of the letters' size; bytes of UTF-8 that
+/// continue a letter have none. Of two bytes are umlauts and Cyrillic letters, capitals too; from
+/// U+3000 on letters are as wide as they are tall, and more.
+std::size_t hundredths(char byte) {
+  constexpr std::size_t kSmall = 58;
+  constexpr std::size_t kFigure = 64;
+  constexpr std::size_t kCapital = 87;
+  constexpr std::size_t kSquare = 116;
   const auto code = static_cast<unsigned char>(byte);
   if ((code & 0xC0U) == 0x80U) return 0;
-  if (code >= 0xE3U) return 4;
-  return code >= 'A' && code <= 'Z' ? 3 : 2;
+  if (code >= 0xE3U) return kSquare;
+  if ((code >= 0xC3U && code < 0xE0U) || (code >= 'A' && code <= 'Z')) return kCapital;
+  return code >= '0' && code <= '9' ? kFigure : kSmall;
 }
 
-std::size_t halves(const std::string& text) {
+std::size_t hundredths(const std::string& text) {
   std::size_t sum = 0;
-  for (const char byte : text) sum += halves(byte);
+  for (const char byte : text) sum += hundredths(byte);
   return sum;
 }
 
@@ -30,8 +33,8 @@ std::size_t halves(const std::string& text) {
 std::size_t end_of(const std::string& text, std::size_t room) {
   std::size_t at = 0;
   for (std::size_t taken = 0; at < text.size(); ++at) {
-    taken += halves(text[at]);
-    if (taken > room && halves(text[at]) > 0 && at > 0) break;
+    taken += hundredths(text[at]);
+    if (taken > room && hundredths(text[at]) > 0 && at > 0) break;
   }
   return at;
 }
@@ -46,15 +49,14 @@ double scale_that_fits(double extent_mm, double room) {
 }
 
 double text_width(const std::string& text, double letter_size) {
-  return kLetterWidth / 2.0 * letter_size * static_cast<double>(halves(text));
+  return 0.01 * letter_size * static_cast<double>(hundredths(text));
 }
 
 std::vector<std::string> wrapped(const std::string& text, double width, double letter_size) {
-  const auto room = static_cast<std::size_t>(
-      std::max(2.0, std::floor(2.0 * width / (kLetterWidth * letter_size))));
+  const auto room = static_cast<std::size_t>(std::max(1.0, 100.0 * width / letter_size));
   std::vector<std::string> lines;
   std::string rest = mended_text(text);
-  while (halves(rest) > room) {
+  while (hundredths(rest) > room) {
     const std::size_t limit = end_of(rest, room);
     const std::size_t space = rest.rfind(' ', limit);
     const bool has_space = space != std::string::npos && space > 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "daemon/control/store_requests.h"
@@ -25,7 +26,7 @@ constexpr std::chrono::milliseconds kToSpare{100};
 static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment) + kToSpare <=
               kPromisedEnd);
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
-/// Nobody who asks for a result waits longer for old ones to be removed.
+/// Who asks for a result waits about so long for old ones to be removed, and for their list.
 constexpr std::chrono::seconds kLongestSweep{1};
 
 }  // namespace
@@ -113,7 +114,14 @@ void StationService::prepare_store() {
   sweep_store();
 }
 
-void StationService::sweep_store(std::size_t removed_before) {
+void StationService::sweep_store() {
+  sweeps_again_ = is_sweeping_;
+  if (is_sweeping_) return;
+  is_sweeping_ = true;
+  sweep_part(0);
+}
+
+void StationService::sweep_part(std::size_t removed_before) {
   Retention retention{settings_.store.keep_days, settings_.store.keep_count};
   if (retention.keep_days > 0 && clock_.was_set(ClockWatch::read())) {
     retention.keep_days = 0;
@@ -125,15 +133,20 @@ void StationService::sweep_store(std::size_t removed_before) {
   }
   archive_->post([this, retention, removed_before, store = store_, leaving = leaving_,
                   post = loop_->poster()](TaskProgress& progress) {
-    const auto end = EventLoop::monotonic_now() + kLongestSweep;
+    std::optional<std::chrono::nanoseconds> end;  // told once they are listed, which takes long too
     auto swept = store->sweep(retention, std::chrono::system_clock::now(), [&] {
       progress.step();
-      return !*leaving && EventLoop::monotonic_now() < end;
+      const auto now = EventLoop::monotonic_now();
+      if (!end) end = now + kLongestSweep;
+      return !*leaving && now < *end;
     });
     const bool goes_on = swept.is_interrupted && swept.removed > 0;
     swept.removed += removed_before;
     post([this, swept, goes_on] {
-      goes_on && !*leaving_ ? sweep_store(swept.removed) : tell_of(swept);
+      if (goes_on && !*leaving_) return sweep_part(swept.removed);
+      tell_of(swept);
+      is_sweeping_ = false;
+      if (sweeps_again_ && !*leaving_) sweep_store();
     });
   });
 }
@@ -163,31 +176,32 @@ std::string StationService::status_text() const {
   std::string text = to_string(now.state);
   if (!now.stage.empty()) text += ": " + now.stage;
   if (!now.trouble.empty()) text += ": " + now.trouble;
+  if (!settings_fault_.empty()) text += " (by the old settings: the new ones are faulty)";
   return text;
 }
 
 void StationService::station_changed() {
   if (!station_) return;
-  const auto status = station_->status();
-  const std::string state = to_string(status.state);
+  const auto now = status();
+  const std::string state = to_string(now.state);
   if (said_.is_news("state", state)) log_info("station is " + state);
-  if (said_.is_news("trouble", status.trouble)) {
-    status.trouble.empty() ? log_info("all is well again") : log_warning(status.trouble);
+  if (said_.is_news("trouble", now.trouble)) {
+    now.trouble.empty() ? log_info("all is well again") : log_warning(now.trouble);
   }
-  for (const auto& warning : status.warnings) {
+  for (const auto& warning : now.warnings) {
     if (said_.is_news(warning, "said")) log_warning(warning);
   }
-  if (said_.is_news("stage", status.stage) && !status.stage.empty()) {
-    log_debug("scan is at " + status.stage);
+  if (said_.is_news("stage", now.stage) && !now.stage.empty()) {
+    log_debug("scan is at " + now.stage);
   }
-  for (const auto& [name, on, trouble] : status.outputs) {
+  for (const auto& [name, on, trouble] : now.outputs) {
     const std::string line = trouble ? trouble->line() : "";
     if (!said_.is_news(name, line)) continue;
     trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
   }
   manager_.status(status_text());
   if (server_ && server_->has_watchers()) {
-    server_->broadcast(event_line("status", to_json(this->status())));
+    server_->broadcast(event_line("status", to_json(now)));
   }
 }
 
@@ -244,6 +258,7 @@ void StationService::reload() {
                      settings.error().line();
   if (!settings) {
     log_error(settings_fault_);
+    said_.is_news(settings_fault_, "said");  // it is among the warnings of the status from now on
   } else {
     station_->reload(*settings);
     set_up_log(settings->log.level);

@@ -51,8 +51,9 @@ class StationService {
   void serve(ControlServer::Client client, const Request& request);
   void begin_to_watch(ControlServer::Client client);
   void serve_from_store(ControlServer::Client client, const Request& request);
+  void sweep_store();
   /// In short parts, between which the archive answers those who ask.
-  void sweep_store(std::size_t removed_before = 0);
+  void sweep_part(std::size_t removed_before);
   void tell_of(const Swept& swept);
   void reload();
   void shut_down();
@@ -76,6 +77,8 @@ class StationService {
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
+  bool is_sweeping_ = false;
+  bool sweeps_again_ = false;  ///< asked for while it was sweeping
   ClockWatch clock_{ClockWatch::read()};
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;

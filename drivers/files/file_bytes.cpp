@@ -44,36 +44,32 @@ Result<std::size_t> checked_size(int descriptor, const fs::path& path, std::size
   return size;
 }
 
-/// The permissions of the file that is replaced; nothing where there is none. A device, a pipe or a
-/// folder is not replaced.
-Result<std::optional<mode_t>> replaced_mode(const fs::path& path) {
+/// Whose the file that is replaced is, and who may read it.
+struct Owned {
+  uid_t user;
+  gid_t group;
+  mode_t mode;
+};
+
+/// Nothing where there is none. A device, a pipe or a folder is not replaced.
+Result<std::optional<Owned>> replaced_by(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) {
     if (errno == ENOENT) return std::nullopt;
     return tl::make_unexpected(file_error(errno, "write", path));
   }
   return check_regular(status, path, "choose another name").map([&] {
-    return std::optional(status.st_mode & 07777U);
+    return std::optional(Owned{status.st_uid, status.st_gid, status.st_mode & 0777U});
   });
 }
 
-/// Where a link leads to, which need not be there: the link itself stays.
-fs::path end_of_links(fs::path path) {
-  constexpr int kMostLinks = 40;
-  std::error_code failed;
-  for (int link = 0; link < kMostLinks && fs::is_symlink(path, failed); ++link) {
-    path = path.parent_path() / fs::read_symlink(path, failed);
-  }
-  return path;
-}
-
-/// A new file beside `path`, which gets its name; as readable as all that its maker makes.
-int open_beside(const fs::path& path, std::string& name) {
+/// A new file beside `path`, which gets its name.
+int open_beside(const fs::path& path, mode_t mode, std::string& name) {
   static std::atomic<unsigned> count = 0;
   int file = -1;
   do {
     name = fmt::format("{}.{}-{}", path.string(), ::getpid(), count++);
-    file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   } while (file < 0 && errno == EEXIST);
   return file;
 }
@@ -95,7 +91,22 @@ void sync_folder(const fs::path& folder) {
   if (descriptor.is_open()) ::fsync(descriptor.number());
 }
 
+/// Whom a file may not be given to, it is not; others may read it no more than before.
+bool give_to(int file, const Owned& owned) {
+  if (::fchown(file, owned.user, owned.group) != 0 && errno != EPERM) return false;
+  return ::fchmod(file, owned.mode) == 0;
+}
+
 }  // namespace
+
+fs::path end_of_links(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code failed;
+  for (int link = 0; link < kMostLinks && fs::is_symlink(path, failed); ++link) {
+    path = path.parent_path() / fs::read_symlink(path, failed);
+  }
+  return path;
+}
 
 Error file_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
   ErrorCode code = ErrorCode::kIo;
@@ -153,15 +164,18 @@ Result<std::string> read_file_bytes(const std::filesystem::path& path, std::size
   return bytes;
 }
 
-Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes) {
-  const auto mode = replaced_mode(path);
-  if (!mode) return tl::make_unexpected(mode.error());
+Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes,
+                              Readers of_new) {
+  const auto old = replaced_by(path);
+  if (!old) return tl::make_unexpected(old.error());
   const fs::path target = end_of_links(path);
   std::string temporary;
-  Descriptor file(open_beside(target, temporary));
+  Descriptor file(open_beside(target, *old ? (*old)->mode : 0666, temporary));
   if (!file.is_open()) return tl::make_unexpected(file_error(errno, "write", path));
 
-  const bool written = (!*mode || ::fchmod(file.number(), **mode) == 0) &&
+  const bool is_for_all = !*old && of_new == Readers::kAll;
+  const bool written = (!*old || give_to(file.number(), **old)) &&
+                       (!is_for_all || ::fchmod(file.number(), 0644) == 0) &&
                        write_all(file.number(), bytes) && ::fsync(file.number()) == 0 &&
                        file.close() && ::rename(temporary.c_str(), target.c_str()) == 0;
   if (!written) {

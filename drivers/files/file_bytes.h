@@ -16,14 +16,22 @@ namespace instep {
 /// (larger than the limit) or kIo; the message names the file. Never waits on a pipe.
 Result<std::string> read_file_bytes(const std::filesystem::path& path, std::size_t most_bytes);
 
+/// Who may read a new file.
+enum class Readers { kByUmask, kAll };
+
 /// Puts `bytes` under the name `path`, whole or not at all: they are written to a temporary name in
-/// the same folder, brought to the disk and renamed. A file of that name is replaced and its
-/// permissions are kept; where `path` is a link, what it leads to is. A new file has those of the
-/// process's umask. On failure all stays as it was and nothing is left behind.
+/// the same folder, brought to the disk and renamed. A file of that name is replaced, with the same
+/// owner, if that is allowed, and the same permissions; where `path` is a link, what it leads to
+/// is. On failure all stays as it was and nothing is left behind.
 ///
 /// Fails with kInvalidInput (a folder, a device or a pipe has that name), kNoSpace,
 /// kPermissionDenied, kNotFound (no such folder) or kIo.
-Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes);
+Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes,
+                              Readers of_new = Readers::kByUmask);
+
+/// What write_file_bytes() writes to: where a link leads to, which need not be there, and the links
+/// after it; `path` itself if it is none.
+std::filesystem::path end_of_links(std::filesystem::path path);
 
 /// What to do where a file system takes nothing: the kernel itself takes writing away from one that
 /// has errors.

@@ -35,6 +35,15 @@ TEST(CalibrationTarget, MayReplaceACalibrationAndOfTheStationAFaultyOne) {
   fs::create_symlink("nowhere", file);
   EXPECT_FALSE(check_calibration_target({file, false}));
   EXPECT_TRUE(check_calibration_target({file, true}));
+  ASSERT_TRUE(write_calibration({file, true}, calibration_of({"left"})));
+  EXPECT_TRUE(fs::is_symlink(file));
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "nowhere"));
+  EXPECT_TRUE(check_calibration_target({file, true}));
+  std::ofstream(folder.path() / "nowhere") << "something else";
+  EXPECT_FALSE(check_calibration_target({file, true})) << "what a link leads to is not lost";
+  fs::remove(file);
+  fs::create_symlink("no such folder/file", file);
+  EXPECT_FALSE(check_calibration_target({file, true}));
   fs::remove(file);
   fs::create_directory(file);
   EXPECT_FALSE(check_calibration_target({file, true}));

@@ -13,6 +13,8 @@ TEST(TextWidth, IsNoLessThanThatOfAWideType) {
   EXPECT_GE(paper::text_width("Lowa Renegade GTX women narrow", 1.0), 18.513);
   EXPECT_GE(paper::text_width("Orthopädie-Schuhtechnik Müller & Söhne, Filiale Zürich", 1.0),
             28.860);
+  EXPECT_GE(paper::text_width("20261128T193412417Z-k3f9", 1.0), 14.9);
+  EXPECT_GE(paper::text_width("ÄÖÜ", 1.0), 2.38);
 }
 
 TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {

@@ -74,6 +74,12 @@ TEST(FileBytes, AreAsReadableAsTheFileBeforeOrAsTheUmaskSays) {
   ::umask(before);
   ASSERT_TRUE(made);
   EXPECT_EQ(mode_of(file), 0640U);
+  ::umask(077);
+  const auto for_all = write_file_bytes(folder.path() / "for all", "new", Readers::kAll);
+  ::umask(before);
+  ASSERT_TRUE(for_all);
+  EXPECT_EQ(mode_of(folder.path() / "for all"), 0644U);
+  std::filesystem::remove(folder.path() / "for all");
   ASSERT_EQ(::chmod(file.c_str(), 0604), 0);
   ASSERT_TRUE(write_file_bytes(file, "replaced"));
   EXPECT_EQ(mode_of(file), 0604U);
@@ -82,6 +88,22 @@ TEST(FileBytes, AreAsReadableAsTheFileBeforeOrAsTheUmaskSays) {
     ++entries;
   }
   EXPECT_EQ(entries, 1U);
+}
+
+/// Root's calibration of a station whose settings are its user's and group's alone.
+TEST(FileBytes, StayThoseOfTheOwnerOfTheFileBefore) {
+  constexpr uid_t kOther = 12345;
+  const test::TemporaryFolder folder;
+  const auto file = folder.path() / "file";
+  ASSERT_TRUE(write_file_bytes(file, "old"));
+  if (::chown(file.c_str(), kOther, kOther) != 0) GTEST_SKIP() << "needs the right to give files";
+  ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
+  ASSERT_TRUE(write_file_bytes(file, "replaced"));
+  struct stat status {};
+  ASSERT_EQ(::stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, kOther);
+  EXPECT_EQ(status.st_gid, kOther);
+  EXPECT_EQ(mode_of(file), 0640U);
 }
 
 }  // namespace
