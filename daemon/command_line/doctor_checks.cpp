@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <pwd.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 #include <Eigen/Core>
@@ -45,26 +46,30 @@ DoctorCheck check_settings(const Result<FoundSettings>& found) {
   return bad("settings", finding, "correct the file, then: instepd --check");
 }
 
-DoctorCheck check_store(const std::filesystem::path& root) {
-  std::error_code failed;
-  const bool there = std::filesystem::exists(root, failed);
-  const auto folder = there ? root : root.parent_path();
-  if (there && !std::filesystem::is_directory(root, failed)) {
-    return bad("store", root.string() + " is no folder", "set store.root to a folder");
+/// Of the daemon, or of whoever runs it: where Instep is installed, root's is not.
+bool may_owner_write(const struct stat& folder) {
+  const auto* user = ::getpwnam("instep");
+  const bool is_daemons = user != nullptr ? folder.st_uid == user->pw_uid : folder.st_uid != 0;
+  return is_daemons && (folder.st_mode & S_IWUSR) != 0 && (folder.st_mode & S_IXUSR) != 0;
+}
+
+/// Whoever asks needs no right to write: it is the daemon that keeps the results.
+DoctorCheck check_writing(const std::filesystem::path& folder, bool does_daemon_answer) {
+  struct statvfs disk {};
+  if (::statvfs(folder.c_str(), &disk) == 0 && (disk.f_flag & ST_RDONLY) != 0) {
+    return bad("store", folder.string() + " is read-only", kReadOnlyAdvice);
   }
-  if (!std::filesystem::is_directory(folder, failed)) {
-    return bad("store", folder.string() + " is not there",
-               ::getpwnam("instep") != nullptr
-                   ? "sudo install -d -o instep -g instep -m 0750 " + folder.string()
-                   : "install Instep (README.md), or set store.root to a folder of your own");
+  if (does_daemon_answer || ::access(folder.c_str(), W_OK | X_OK) == 0) {
+    return good("store", folder.string() + ", writable");
   }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    if (errno == EROFS) return bad("store", folder.string() + " is read-only", kReadOnlyAdvice);
-    return bad("store", "you may not write in " + folder.string() + ": " + std::strerror(errno),
-               "sudo usermod -aG instep $USER; the daemon's own user needs: sudo chown instep " +
-                   folder.string());
+  const std::string trouble = std::strerror(errno);
+  struct stat there {};
+  if (::stat(folder.c_str(), &there) == 0 && may_owner_write(there)) {
+    return good("store", folder.string() + ", writable for its owner");
   }
-  return good("store", (there ? "" : "will be made in ") + folder.string() + ", writable");
+  return bad("store", "the daemon may not write in " + folder.string() + ": " + trouble,
+             ::getpwnam("instep") != nullptr ? "sudo chown instep " + folder.string()
+                                             : "set store.root to a folder of your own");
 }
 
 /// Nothing where there is no folder yet, of which check_store() tells.
@@ -226,6 +231,24 @@ Result<json> ask_status(const std::filesystem::path& socket) {
 
 }  // namespace
 
+DoctorCheck check_store(const std::filesystem::path& root, bool does_daemon_answer) {
+  std::error_code failed;
+  const bool there = std::filesystem::exists(root, failed);
+  const auto folder = there ? root : root.parent_path();
+  if (there && !std::filesystem::is_directory(root, failed)) {
+    return bad("store", root.string() + " is no folder", "set store.root to a folder");
+  }
+  if (!std::filesystem::is_directory(folder, failed)) {
+    return bad("store", folder.string() + " is not there",
+               ::getpwnam("instep") != nullptr
+                   ? "sudo install -d -o instep -g instep -m 0750 " + folder.string()
+                   : "install Instep (README.md), or set store.root to a folder of your own");
+  }
+  auto check = check_writing(folder, does_daemon_answer);
+  if (check.good && !there) check.finding = "will be made in " + check.finding;
+  return check;
+}
+
 std::optional<DoctorCheck> check_calibration(const Settings& settings, const ToldSerials& told) {
   std::vector<CameraPlacement> cameras;
   for (const auto& camera : settings.cameras) {
@@ -253,7 +276,7 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(library_versions());
   checks.push_back(check_settings(found));
   const auto store = std::filesystem::absolute(settings.store.root);
-  checks.push_back(check_store(store));
+  checks.push_back(check_store(store, status.has_value()));
   if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
   ToldSerials told;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ struct DoctorCheck {
 /// may do so rightly, which is good, with a word. Nothing where there is nothing to calibrate: no
 /// real camera, or a single one that stands as the settings say.
 std::optional<DoctorCheck> check_calibration(const Settings& settings, const ToldSerials& told);
+
+/// Whether the daemon can keep results there, which it shows by running: else by whose the folder
+/// is.
+DoctorCheck check_store(const std::filesystem::path& root, bool does_daemon_answer);
 
 /// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes
 /// nothing. Takes up to some seconds: if no daemon runs, the cameras are opened.

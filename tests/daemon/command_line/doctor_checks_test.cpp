@@ -2,10 +2,17 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pwd.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
+
+#include "tests/support/temporary_folder.h"
 
 namespace instep {
 namespace {
@@ -93,6 +100,39 @@ TEST(CalibrationCheck, SaysWhenAllWereCalibrated) {
   ASSERT_TRUE(check);
   EXPECT_TRUE(check->good);
   EXPECT_THAT(check->finding, HasSubstr("2026-11-28T02:11:12Z"));
+}
+
+/// As somebody finds it who owns nothing: that thread alone is another user's.
+DoctorCheck check_of_stranger(const std::filesystem::path& store, bool does_daemon_answer) {
+  constexpr int kNobody = 65534;
+  DoctorCheck check;
+  std::thread([&] {
+    ::syscall(SYS_setresuid, kNobody, kNobody, kNobody);
+    check = check_store(store, does_daemon_answer);
+  }).join();
+  return check;
+}
+
+TEST(StoreCheck, NeedsNoRightOfWhoeverAsks) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs the right to give a folder away";
+  const test::TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  const auto store = folder.path() / "store";
+  std::filesystem::create_directory(store);
+  std::filesystem::permissions(store, std::filesystem::perms(0755));
+  const auto roots = check_of_stranger(store, false);
+  EXPECT_FALSE(roots.good) << "no daemon runs as root";
+  EXPECT_THAT(roots.finding, HasSubstr("the daemon may not write"));
+  EXPECT_THAT(roots.remedy, testing::Not(HasSubstr("usermod")));
+  EXPECT_TRUE(check_of_stranger(store, true).good);
+
+  const auto* daemon = ::getpwnam("instep");
+  ASSERT_EQ(::chown(store.c_str(), daemon != nullptr ? daemon->pw_uid : 1, 1), 0);
+  std::filesystem::permissions(store, std::filesystem::perms(0750));
+  const auto daemons = check_of_stranger(store, false);
+  EXPECT_TRUE(daemons.good) << daemons.finding;
+  std::filesystem::permissions(store, std::filesystem::perms(0550));
+  EXPECT_FALSE(check_of_stranger(store, false).good) << "its owner may not write either";
 }
 
 }  // namespace
