@@ -25,7 +25,10 @@ class CameraAtWork {
   CameraAtWork(const CameraAtWork&) = delete;
   CameraAtWork& operator=(const CameraAtWork&) = delete;
 
-  Result<void> start() { return camera_.start(); }
+  Result<void> start() {
+    const auto started = camera_.start();
+    return started ? started : tl::make_unexpected(named(started.error()));
+  }
 
   /// Takes the next frame, whatever it holds, for nothing but what it tells of the clock.
   Result<void> warm_up() {
@@ -62,7 +65,7 @@ class CameraAtWork {
  private:
   Result<DepthFrame> next_frame() {
     auto frame = camera_.next_frame(kFrameLimit);
-    if (!frame) return frame;
+    if (!frame) return tl::make_unexpected(named(frame.error()));
     fault_ = tally_.count(*frame);
     if (fault_ == FrameFault::kNone && !is_clock_known_) note_clock(*frame);
     return frame;
@@ -73,8 +76,11 @@ class CameraAtWork {
       auto frame = next_frame();
       if (!frame || fault_ == FrameFault::kNone) return frame;
     }
-    return tl::make_unexpected(
-        named_after_camera(camera_.description().geometry.id, bad_frames_only(fault_)));
+    return tl::make_unexpected(named(bad_frames_only(fault_)));
+  }
+
+  Error named(Error error) const {
+    return named_after_camera(camera_.description().geometry.id, std::move(error));
   }
 
   void note_clock(const DepthFrame& frame) {

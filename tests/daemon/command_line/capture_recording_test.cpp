@@ -106,6 +106,20 @@ TEST(CaptureRecording, TellsWhatIsWrongWithACameraOfFaultyFrames) {
   }
 }
 
+TEST(CaptureRecording, NamesACameraThatSendsNoFrame) {
+  for (const int warmup_frames : {0, 1}) {
+    for (const auto turns : {CameraTurns::kTogether, CameraTurns::kOneAtATime}) {
+      const test::TemporaryFolder folder;
+      RecordingPlan plan{.length = {3, {}}, .turns = turns};
+      plan.warmup_frames = warmup_frames;
+      const auto recording =
+          capture_recording(two_cameras({Step::kGone}), {}, plan, folder.path() / "visit", go_on);
+      ASSERT_FALSE(recording);
+      EXPECT_EQ(recording.error().message, "camera b: it left");
+    }
+  }
+}
+
 /// Counts how many of its kind stream at a time.
 class CountedCamera final : public DepthCamera {
  public:
