@@ -52,9 +52,17 @@ PosedCloud cloud_of(const WorkingView& view, const PoseFinding& settings) {
   return {station_cloud(view, pixels, settings.surface), view.station_from_camera};
 }
 
-tl::unexpected<Error> not_found(const std::string& camera, const std::string& why) {
+tl::unexpected<Error> not_found(const std::string& camera, const std::string& why,
+                                const std::string& advice = kObjectAdvice) {
   return fail(ErrorCode::kInsufficientData,
-              "where camera " + camera + " stands cannot be told: " + why, kObjectAdvice);
+              "where camera " + camera + " stands cannot be told: " + why, advice);
+}
+
+/// A view of another size, or the wrong way round, fits nowhere either.
+tl::unexpected<Error> does_not_fit(const std::string& camera) {
+  return not_found(camera, "what it sees does not fit what the others see",
+                   kObjectAdvice + ("; and see that the lens and the depth unit of camera " +
+                                    camera + " are its own, and its image is not mirrored"));
 }
 
 tl::unexpected<Error> too_round() {
@@ -128,7 +136,7 @@ class PoseSearch {
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const auto& view = registration->views[i];
       if (view.fit == ViewFit::kDoesNotFit || view.fit == ViewFit::kAlone) {
-        return not_found(views_[i].id, "what it sees does not fit what the others see");
+        return does_not_fit(views_[i].id);
       }
       move(i, view.unstretched_correction);
       views_[i].errors = view.errors;

@@ -175,6 +175,14 @@ TEST(FindPoses, RefusesTwoCamerasThatShareHardlyAnything) {
   EXPECT_FALSE(found.error().advice.empty());
 }
 
+TEST(FindPoses, SaysOfACameraThatFitsNowhereWhatElseMayBeWrongWithIt) {
+  auto views = std::vector<View>(good_views().begin(), good_views().begin() + 2);
+  for (float& depth : views[0].depth.depth_mm) depth *= 1.1F;
+  const auto found = find_poses(views);
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.error().advice.find("depth unit"), std::string::npos) << found.error().line();
+}
+
 TEST(FindPoses, LevelsASingleCameraAndMovesItNoFurther) {
   auto said = std::vector<View>{good_views()[0]};
   const RigidTransform truth = said[0].geometry.station_from_camera;
