@@ -107,6 +107,7 @@ float block_mean(const DepthFrame& frame, int column, int row, int lowest, int h
 
 TemporalFusion::TemporalFusion(TemporalSettings settings) : settings_(settings) {
   settings_.most_frames = std::clamp(settings_.most_frames, 1, 255);
+  settings_.expected_frames = std::max(settings_.expected_frames, 1);
 }
 
 Result<void> TemporalFusion::check(const DepthFrame& frame) const {
@@ -128,10 +129,6 @@ Result<void> TemporalFusion::check(const DepthFrame& frame) const {
   if (frame.width != width_ || frame.height != height_ || frame.depth_unit_mm != unit_mm_) {
     return corrupt("differs in size or unit from those before");
   }
-  if (frames_used_ >= settings_.most_frames) {
-    return fail(ErrorCode::kInvalidInput, "there are more frames than can be fused",
-                "give fewer frames");
-  }
   return {};
 }
 
@@ -149,9 +146,11 @@ void TemporalFusion::start(const DepthFrame& frame) {
   counts_.assign(frame.raw.size(), 0);
 }
 
-/// Doubles the room of each pixel.
+/// Makes room for the frames that are expected, then for twice as many, as far as it can be needed.
 void TemporalFusion::widen() {
-  const std::size_t wider = std::max<std::size_t>(4, 2 * room_);
+  const auto most = static_cast<std::size_t>(settings_.most_frames);
+  const auto expected = static_cast<std::size_t>(settings_.expected_frames);
+  const std::size_t wider = std::min(std::max(expected, 2 * room_), most);
   std::vector<std::uint16_t> sorted(counts_.size() * wider);
   for (std::size_t pixel = 0; pixel < counts_.size(); ++pixel) {
     std::copy_n(sorted_.data() + pixel * room_, counts_[pixel], sorted.data() + pixel * wider);
@@ -161,6 +160,7 @@ void TemporalFusion::widen() {
 }
 
 Result<void> TemporalFusion::add(const DepthFrame& frame) {
+  if (frames_used_ >= settings_.most_frames) return {};
   auto sound = check(frame);
   if (!sound) {
     ++frames_rejected_;

@@ -31,7 +31,8 @@ struct TemporalSettings {
   double least_seen_share = 0.4;      ///< of the frames, in which a pixel must be seen to count
   double gate = 3.5;  ///< robust deviations from the median beyond which a value is dropped
   double movement_limit_mm = 1.0;  ///< beyond it `moved` is set
-  int most_frames = 60;            ///< later ones are refused: bounds the memory
+  int expected_frames = 4;         ///< room is made for so many at first, and later for more
+  int most_frames = 120;           ///< those beyond are passed over: bounds the memory
 };
 
 /// Several frames of one camera as one depth image.
@@ -53,14 +54,16 @@ struct FusedDepth {
 /// that noise does not dither away, and SensorNoise::correlated_share.
 ///
 /// Keeps the values of each pixel sorted: two bytes a pixel and frame (9 MB for 15 frames of
-/// 640x480). Adding costs some 5 ms, the result some 15 ms. One thread at a time.
+/// 640x480, 74 MB for 120, which is as much as the frames themselves). Adding costs some 5 ms, the
+/// result some 15 ms. One thread at a time.
 class TemporalFusion {
  public:
   explicit TemporalFusion(TemporalSettings settings = {});
 
   /// Takes a frame in, or says why not and counts it as rejected: status not kGood, size or unit
   /// unlike the first frame's or not sound, fewer values than pixels (kCorruptData), nearly nothing
-  /// in range (kInsufficientData), more than most_frames.
+  /// in range (kInsufficientData). One beyond most_frames is not looked at and not counted, for
+  /// nothing is wrong with it.
   Result<void> add(const DepthFrame& frame);
 
   int frames_used() const { return frames_used_; }

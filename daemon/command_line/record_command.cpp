@@ -72,7 +72,7 @@ void add_record_command(CLI::App& app, int& exit_code) {
       ->required();
   record
       ->add_option("--frames", command->frames,
-                   "how many each camera takes (15 if nothing is said)")
+                   "how many each camera takes (15 if nothing is said; a scan uses 120)")
       ->check(CLI::Range(1, 10000));
   record
       ->add_option("--seconds", command->seconds, "how long each camera records, by its own clock")

@@ -1,5 +1,6 @@
 #include "daemon/scan/camera_images.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -12,9 +13,15 @@ namespace {
 /// that is not whole is never measured as if it were.
 Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& camera,
                                const GoOn& go_on) {
-  TemporalFusion fusion;
+  const auto is_own = [&camera](const DepthFrame& frame) {
+    return frame.camera == camera.geometry.id;
+  };
+  TemporalSettings settings;
+  settings.expected_frames = static_cast<int>(std::min<std::ptrdiff_t>(
+      std::count_if(capture.frames.begin(), capture.frames.end(), is_own), settings.most_frames));
+  TemporalFusion fusion(settings);
   for (const auto& frame : capture.frames) {
-    if (frame.camera != camera.geometry.id) continue;
+    if (!is_own(frame)) continue;
     // A rejected frame is counted, and the count is part of the result's quality.
     static_cast<void>(fusion.add(frame));
     if (!go_on()) return cancelled();

@@ -148,13 +148,18 @@ TEST(TemporalFusion, CountsAndRefusesBadFrames) {
   EXPECT_EQ(fused->camera, "cam");
 }
 
-TEST(TemporalFusion, TakesNoMoreFramesThanItsLimit) {
-  TemporalSettings settings;
-  settings.most_frames = 3;
-  TemporalFusion fusion(settings);
-  for (int i = 0; i < 3; ++i) EXPECT_TRUE(fusion.add(flat_frame(500)));
-  EXPECT_FALSE(fusion.add(flat_frame(500)));
-  EXPECT_EQ(fusion.frames_used(), 3);
+TEST(TemporalFusion, UsesAllFramesThatAStationMayTakeAndCallsNoneBeyondBad) {
+  for (const int expected_frames : {-1, 0, 4, 15, 120, 1000}) {
+    TemporalSettings settings;
+    settings.expected_frames = expected_frames;
+    TemporalFusion fusion(settings);
+    for (int i = 0; i < 130; ++i) {
+      EXPECT_TRUE(fusion.add(flat_frame(static_cast<std::uint16_t>(i % 2 == 0 ? 499 : 501))));
+    }
+    EXPECT_EQ(fusion.frames_used(), 120) << "capture.frames_per_camera may be as many";
+    EXPECT_EQ(fusion.frames_rejected(), 0);
+    EXPECT_NEAR(fusion.result()->depth_mm[30], 500.0, 1e-3);
+  }
 }
 
 TEST(TemporalFusion, NoticesAFootThatMoves) {
