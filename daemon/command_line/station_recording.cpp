@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <utility>
 
 #include "daemon/command_line/command_output.h"
+#include "daemon/control/control_client.h"
 #include "daemon/station/devices.h"
 
 namespace instep {
@@ -22,10 +24,24 @@ std::unique_ptr<OutputLine> light_of(const OutputSettings& outputs) {
   return nullptr;
 }
 
+/// What opening them would fail with says of each camera that somebody has it, and never who.
+Result<void> check_that_no_daemon_has(const Settings& settings) {
+  const bool has_real_cameras =
+      std::any_of(settings.cameras.begin(), settings.cameras.end(),
+                  [](const auto& camera) { return camera.placement() != nullptr; });
+  if (!has_real_cameras || !ControlClient::connect(settings.control.socket)) return {};
+  return fail(ErrorCode::kBusy, Remedy::kOperator,
+              "the daemon has the cameras: it answers on " + settings.control.socket.string(),
+              "systemctl stop instepd, and start it again afterwards");
+}
+
 }  // namespace
 
 Result<Recording> record_station(const Settings& settings, const RecordingLength& length,
                                  const std::filesystem::path& folder, const StopRequest& stop) {
+  if (auto free = check_that_no_daemon_has(settings); !free) {
+    return tl::make_unexpected(free.error());
+  }
   const auto devices = open_devices(settings);
   if (!devices) return tl::make_unexpected(devices.error());
   Recording header;

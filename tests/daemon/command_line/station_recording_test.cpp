@@ -1,5 +1,6 @@
 #include "daemon/command_line/station_recording.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -7,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "daemon/control/unix_socket.h"
 #include "drivers/recording/recording_reader.h"
+#include "tests/support/small_station.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -17,13 +20,8 @@ using Images = std::map<std::string, std::vector<std::vector<std::uint16_t>>>;
 
 /// What each camera of a small simulated station gives, image by image.
 Images recorded(int warmup_frames, std::size_t frames) {
-  Settings settings;
-  settings.cameras.emplace_back();
+  Settings settings = test::small_station();
   settings.simulation.cameras = 2;
-  settings.simulation.width_px = 64;
-  settings.simulation.height_px = 48;
-  settings.simulation.pacing = SimulatedPacing::kAsFastAsPossible;
-  settings.simulation.truth = false;
   settings.capture.warmup_frames = warmup_frames;
   const test::TemporaryFolder folder;
   const StopRequest stop;
@@ -46,6 +44,41 @@ TEST(StationRecording, LeavesOutTheFramesThatTheSettingsSayWarmACameraUp) {
     const std::vector last(images.begin() + 3, images.end());
     EXPECT_EQ(warm.at(camera), last) << camera;
   }
+}
+
+TEST(StationRecording, SaysThatTheDaemonHasTheCameras) {
+  const test::TemporaryFolder folder;
+  Settings settings;
+  settings.cameras.emplace_back();
+  settings.cameras[0].kind = CameraKind::kOpenni;
+  settings.cameras[0].openni.serial = "none";
+  settings.control.socket = folder.path() / "control.sock";
+  const StopRequest stop;
+  const auto record = [&] {
+    return record_station(settings, {1, std::nullopt}, folder.path() / "visit", stop);
+  };
+  const auto alone = record();
+  ASSERT_FALSE(alone);
+  EXPECT_NE(alone.error().code, ErrorCode::kBusy) << alone.error().line();
+
+  const auto daemon = ListeningSocket::open(settings.control.socket);
+  ASSERT_TRUE(daemon) << daemon.error().line();
+  const auto recording = record();
+  ASSERT_FALSE(recording);
+  EXPECT_EQ(recording.error().code, ErrorCode::kBusy);
+  EXPECT_THAT(recording.error().message, testing::StartsWith("the daemon has the cameras"));
+  EXPECT_THAT(recording.error().advice, testing::StartsWith("systemctl stop instepd"));
+}
+
+TEST(StationRecording, LeavesADaemonThatSimulatesItsOwnCamerasAlone) {
+  const test::TemporaryFolder folder;
+  Settings settings = test::small_station();
+  settings.control.socket = folder.path() / "control.sock";
+  const auto daemon = ListeningSocket::open(settings.control.socket);
+  ASSERT_TRUE(daemon) << daemon.error().line();
+  const StopRequest stop;
+  const auto recording = record_station(settings, {1, std::nullopt}, folder.path() / "visit", stop);
+  EXPECT_TRUE(recording) << recording.error().line();
 }
 
 }  // namespace
