@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/in_millimetres.h"
 #include "core/median.h"
 
 namespace instep {
@@ -113,7 +114,7 @@ TemporalFusion::TemporalFusion(TemporalSettings settings) : settings_(settings) 
 Result<void> TemporalFusion::check(const DepthFrame& frame) const {
   const auto corrupt = [&](const std::string& what) {
     return fail(ErrorCode::kCorruptData, "a frame of camera " + frame.camera + " " + what,
-                "check the cable; the other frames are used");
+                "check its cable");
   };
   if (frame.status != FrameStatus::kGood) return corrupt("came damaged");
   if (frame.width < 1 || frame.height < 1 || frame.width > 8192 || frame.height > 8192) {
@@ -175,8 +176,10 @@ Result<void> TemporalFusion::add(const DepthFrame& frame) {
       settings_.least_filled_share * static_cast<double>(frame.raw.size())) {
     ++frames_rejected_;
     return fail(ErrorCode::kInsufficientData,
-                "a frame of camera " + frame.camera + " shows nearly nothing in range",
-                "check that nothing covers the camera");
+                "a frame of camera " + frame.camera + " shows nearly nothing from " +
+                    in_millimetres(settings_.nearest_mm) + " to " +
+                    in_millimetres(settings_.farthest_mm) + " away",
+                "check that nothing covers the camera, and its depth_unit_mm");
   }
   if (static_cast<std::size_t>(frames_used_) == room_) widen();
   for (std::size_t pixel = 0; pixel < frame.raw.size(); ++pixel) {

@@ -154,6 +154,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   if (!images) return tl::make_unexpected(images.error());
   auto quality = frame_quality(*images);
   auto warnings = movement_warnings(*images);
+  for (auto& warning : rejection_warnings(*images)) warnings.push_back(std::move(warning));
 
   if (!clock.begin("fuse views", 0.2)) return cancelled();
   const auto scene = fuse_scene(capture, std::move(*images), settings, go_on);

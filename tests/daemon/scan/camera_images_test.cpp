@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace instep {
@@ -73,6 +74,35 @@ TEST(CameraImages, AreNoneWhereACameraGaveNothingOfUse) {
     EXPECT_EQ(images.error().code, ErrorCode::kInsufficientData);
     EXPECT_THAT(images.error().message, testing::HasSubstr("camera right"));
   }
+}
+
+TEST(CameraImages, AreNoneForAReasonThatIsTold) {
+  auto torn = wall("right", 1400);
+  torn.status = FrameStatus::kCorrupt;
+  auto far = wall("right", 1400);  // as of a camera with a depth unit ten times too large
+  far.depth_unit_mm = 5.0;
+  for (const auto& [frame, reason, help] :
+       {std::tuple{torn, "came damaged", "check its cable"},
+        std::tuple{far, "nearly nothing from 50.0 mm to 3000.0 mm away", "depth_unit_mm"}}) {
+    const auto images = camera_images(two_cameras({wall("left", 800), frame}), always);
+    ASSERT_FALSE(images);
+    EXPECT_THAT(images.error().message, testing::HasSubstr(reason));
+    EXPECT_THAT(images.error().advice, testing::HasSubstr(help));
+  }
+}
+
+TEST(CameraImages, WarnOfACameraWhoseFramesAreMostlyOfNoUse) {
+  auto torn = wall("right", 1400);
+  torn.status = FrameStatus::kCorrupt;
+  auto frames = std::vector{wall("left", 800), wall("right", 1400), torn};
+  EXPECT_TRUE(rejection_warnings(*camera_images(two_cameras(frames), always)).empty());
+  frames.push_back(torn);
+  const auto of_right = testing::HasSubstr("2 of 3 frames of camera right were of no use");
+  EXPECT_THAT(rejection_warnings(*camera_images(two_cameras(frames), always)),
+              testing::ElementsAre(of_right));
+  const auto measured = measure_capture(two_cameras(frames), {}, {});
+  ASSERT_FALSE(measured) << "walls are no feet";
+  EXPECT_THAT(measured.error().line(), of_right);
 }
 
 TEST(CameraImages, AreGivenUpWhenNobodyWantsThem) {
