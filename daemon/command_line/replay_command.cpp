@@ -1,6 +1,9 @@
 #include "daemon/command_line/replay_command.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -62,21 +65,22 @@ std::string text_of(const json& results) {
   return results.empty() ? text : text + pair_text(results.back().value("pair", json()));
 }
 
+tl::unexpected<Error> of_out(Error error) {
+  error.advice = "choose another --out";
+  return tl::make_unexpected(std::move(error));
+}
+
 /// Before the long work, so that nothing is measured in vain.
 Result<void> make_ready(ResultStore& store, const std::filesystem::path& folder) {
   std::error_code failed;
   const auto parent = folder.parent_path();
   if (!parent.empty()) std::filesystem::create_directories(parent, failed);
-  if (failed) {
-    auto error = file_error(failed.value(), "make", parent);
-    error.advice = "choose another --out";
-    return tl::make_unexpected(error);
-  }
+  if (failed) return of_out(file_error(failed.value(), "make", parent));
   const auto prepared = store.prepare();
-  if (prepared) return {};
-  Error error = prepared.error();
-  error.advice = "choose another --out";
-  return tl::make_unexpected(std::move(error));
+  if (!prepared) return of_out(prepared.error());
+  // One that is there is taken as it is.
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  return of_out(file_error(errno, "write in", folder));
 }
 
 Result<void> run(const ReplayCommand& command) {

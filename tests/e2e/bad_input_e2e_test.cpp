@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -188,6 +189,18 @@ TEST_F(BadInput, ForbiddenFilesAreOne) {
   const auto cloud = file("c.xyz", cylinder());
   fs::permissions(cloud, fs::perms::none);
   expect_bad_girth(cloud, "permissions");
+}
+
+TEST_F(BadInput, AFolderThatTakesNoResultsIsOneBeforeAnythingIsMeasured) {
+  const auto visit = folder_.path() / "visit";
+  test::write_small_recording(visit);  // of nothing that could be measured
+  const auto disk = folder_.path() / "disk";
+  fs::create_directory(disk);
+  if (::geteuid() != 0 || ::mount("tmpfs", disk.c_str(), "tmpfs", MS_RDONLY, "") != 0) {
+    GTEST_SKIP() << "needs the right to mount a disk";
+  }
+  expect_failure({"replay", visit, "--out", disk}, 1, "choose another --out");
+  ::umount(disk.c_str());
 }
 
 TEST_F(BadInput, BadRecordingsAreOne) {
