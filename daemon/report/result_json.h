@@ -11,8 +11,8 @@
 
 namespace instep {
 
-/// Lengths are rounded to 0.001 mm, those of a single girth to 0.000001 mm; what is no finite number
-/// is null.
+/// Lengths are rounded to 0.001 mm, those of a single girth to 0.000001 mm; what is no finite
+/// number is null.
 
 /// Milliseconds that `instep girth` took, by stage.
 struct GirthTimes {
