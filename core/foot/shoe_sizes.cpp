@@ -95,7 +95,8 @@ double first_step_mm(const ShopTable& table) {
   return 0.0;
 }
 
-/// The table does not say how short a foot its smallest size is for, or the size before it would.
+/// Where a foot is shorter by more than a step: the table does not say how short a foot its
+/// smallest size is for.
 bool may_be_too_long(const ShopTable& table, const ShopSize& size, double foot_mm) {
   const double smallest = table.sizes.front().longest_foot_mm;
   const double step = std::max(first_step_mm(table), kLeastShopStepMm);

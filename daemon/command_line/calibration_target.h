@@ -19,8 +19,8 @@ struct CalibrationTarget {
 Result<void> check_calibration_target(const CalibrationTarget& target);
 
 /// Writes it, whole or not at all; a new one of the station may be read by all, whoever calibrates.
-/// Fails with kInvalidInput, before that, if it would not be read
-/// again (names that no settings have), or with what write_file_bytes() says.
+/// Fails with kInvalidInput, before that, if it would not be read again (names that no settings
+/// have), or with what write_file_bytes() says.
 Result<void> write_calibration(const CalibrationTarget& target,
                                const StationCalibration& calibration);
 

@@ -59,7 +59,9 @@ DoctorCheck check_writing(const std::filesystem::path& folder, bool does_daemon_
   if (::statvfs(folder.c_str(), &disk) == 0 && (disk.f_flag & ST_RDONLY) != 0) {
     return bad("store", folder.string() + " is read-only", kReadOnlyAdvice);
   }
-  if (does_daemon_answer || ::access(folder.c_str(), W_OK | X_OK) == 0) {
+  // Were it not, the daemon would say so itself.
+  if (does_daemon_answer) return good("store", folder.string() + ", kept by the daemon");
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) {
     return good("store", folder.string() + ", writable");
   }
   const std::string trouble = std::strerror(errno);

@@ -109,7 +109,7 @@ void add_while_there_is_room(const std::vector<Item>& items, double lowest, Tabl
     add(longer, items[i]);
     const bool is_last = i + 1 == items.size();
     if (longer.bottom() + (is_last ? 0.0 : kTextLine) > lowest) {
-      return table.line(fmt::format("and {} more: result.json, or as printed", items.size() - i));
+      return table.line(fmt::format("and {} more, in result.json or printed", items.size() - i));
     }
     table = std::move(longer);
   }

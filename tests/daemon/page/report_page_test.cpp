@@ -161,7 +161,7 @@ TEST(ReportPage, SaysHowMuchItLeftOut) {
   const std::string page = report_page(record);
   EXPECT_THAT(page, HasSubstr("doubt number 0<"));
   EXPECT_THAT(page, Not(HasSubstr("doubt number 59<")));
-  const auto left_out = numbers(page, "and # more: result.json, or as printed");
+  const auto left_out = numbers(page, "and # more, in result.json or printed");
   const auto said = numbers(page, "doubt number #<");
   ASSERT_EQ(left_out.size(), 1U);
   EXPECT_EQ(said.size() + static_cast<std::size_t>(left_out[0]), 60U);
@@ -234,7 +234,7 @@ TEST(ReportPage, LeavesOutTheShopTablesThatItHasNoRoomFor) {
     const auto shown = static_cast<std::size_t>(std::count_if(
         rows.begin(), rows.end(), [](const auto& row) { return row.text == "Walker"; }));
     EXPECT_GE(shown, std::min<std::size_t>(count, 7));
-    const auto left_out = numbers(page, "and # more: result.json, or as printed");
+    const auto left_out = numbers(page, "and # more, in result.json or printed");
     ASSERT_EQ(left_out.size(), shown == count ? 1U : 2U);  // the notes' own is the last
     if (shown < count) {
       EXPECT_EQ(shown + static_cast<std::size_t>(left_out[0]), count);
