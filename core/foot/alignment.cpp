@@ -13,6 +13,7 @@
 #include "core/foot/shoe_last.h"
 #include "core/foot/side_from_shape.h"
 #include "core/foot/standing_body.h"
+#include "core/foot/unseen_half.h"
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
@@ -97,6 +98,17 @@ Result<void> check_beside(const StandingBody& body) {
               "move them apart and scan again, or give the points of one foot alone");
 }
 
+/// Where cameras look from one side only, a foot has no end that tells its axis.
+Result<void> check_ends(const FootScan& foot) {
+  if (!foot.cloud.stands_on_platform()) return {};
+  const auto half = unseen_half(foot);
+  if (!half) return {};
+  return fail(ErrorCode::kInsufficientData,
+              "the foot was seen from one side only, with nothing of " + *half +
+                  ", so that nobody can tell which way it points",
+              "let cameras on both sides see it, and give all that they saw");
+}
+
 std::string beside(const StandingBody& body) {
   if (body.is_gap_seen) {
     return "something stands " + in_millimetres(body.gap_beside_mm) +
@@ -173,6 +185,7 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                             to_string(guess.side) + " one: check the side");
   }
   if (is_sole_open(foot)) close_open_sole(foot);
+  if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
   return foot;
 }
 

@@ -1,0 +1,65 @@
+#include "core/foot/unseen_half.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kEndShare = 0.2;     ///< of the length, to either end of it
+constexpr double kLowShare = 0.15;    ///< of the length: below the ankle
+constexpr double kMostUpward = 0.5;   ///< of a normal; above, it is the foot's back
+constexpr double kLeastAside = 10.0;  ///< degrees off the axis that a half of an end faces,
+constexpr double kMostAside = 70.0;   ///< and that its side does not
+constexpr std::size_t kClearly = 15;  ///< points show a half
+// Of the points of one half to those of the other. Of 52 simulated feet before two neighbouring
+// cameras no point shows the hidden half; of 132 before others 0.066 and more of a toe's, 0.5 and
+// more of a heel's.
+constexpr double kLeastShare = 0.02;
+
+/// Points whose skin faces outwards and to the left, and to the right.
+struct Halves {
+  std::size_t left = 0;
+  std::size_t right = 0;
+};
+
+/// Of the heel, or with `forwards` of the toes.
+Halves halves_of_end(const FootScan& foot, bool forwards) {
+  const double length = foot.landmarks.at("acropodion").position_mm.x();
+  Halves halves;
+  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
+    const Vector3d& point = foot.cloud.positions[i];
+    const Vector3d& normal = foot.cloud.normals[i];
+    const double from_end = forwards ? length - point.x() : point.x();
+    if (from_end > kEndShare * length || point.z() > kLowShare * length) continue;
+    if (normal.z() > kMostUpward || !foot.cloud.was_seen(i)) continue;
+    const double outwards = forwards ? normal.x() : -normal.x();
+    const double aside = std::atan2(std::abs(normal.y()), outwards) * 180.0 / std::numbers::pi;
+    if (aside < kLeastAside || aside > kMostAside) continue;
+    ++(normal.y() > 0.0 ? halves.left : halves.right);
+  }
+  return halves;
+}
+
+bool is_hidden_beside(std::size_t half, std::size_t other) {
+  return other >= kClearly && static_cast<double>(half) < kLeastShare * static_cast<double>(other);
+}
+
+}  // namespace
+
+std::optional<std::string> unseen_half(const FootScan& foot) {
+  if (!foot.cloud.has_normals()) return std::nullopt;
+  for (const bool forwards : {false, true}) {
+    const auto [left, right] = halves_of_end(foot, forwards);
+    const std::string end = forwards ? " half of its toes" : " half of its heel";
+    if (is_hidden_beside(left, right)) return "the left" + end;
+    if (is_hidden_beside(right, left)) return "the right" + end;
+  }
+  return std::nullopt;
+}
+
+}  // namespace instep
