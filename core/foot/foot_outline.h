@@ -45,15 +45,14 @@ class FootOutline {
   double distance_to_seen(const Eigen::Vector3d& place) const;
 
   /// Reach towards medial, and towards lateral, at each x, of the skin up to
-  /// kLandmarkOutlineHeightMm; only where it is a wall that was seen, or goes on from one below. A
-  /// foot that was seen from one side ends at the horizon of that view, and nothing tells how much
-  /// further out its other wall lies.
+  /// kLandmarkOutlineHeightMm. Of a closed scan only where a wall was seen, or lies under one that
+  /// was: what a view over the foot's back shows last may lie far inside its other wall.
   const SkinBorder& medial() const { return medial_; }
   const SkinBorder& lateral() const { return lateral_; }
 
  private:
   Eigen::Vector3d on_foot(const Eigen::Vector3d& place) const;
-  SkinBorder border_towards(double medial, const PointCloud& cloud) const;  ///< -1: lateral
+  SkinBorder border_towards(double medial, const FootScan& foot) const;  ///< -1: lateral
 
   double factor_;
   double medial_sign_;

@@ -9,6 +9,7 @@
 #include "core/fusion/pose_check.h"
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
+#include "core/in_percent.h"
 #include "core/median.h"
 #include "core/noticed.h"
 
@@ -20,6 +21,11 @@ using Eigen::Vector3d;
 constexpr int kPlatformStride = 3;      // every so many pixels, both ways, for finding the platform
 constexpr double kLowestShare = 0.002;  // of a scene's points below which they are taken for noise
 constexpr int kSectors = 72;
+// Of what one view saw of the feet, what others see through. By poses that fit it is 0.002 at the
+// most; by some turned by 20 to 180 degrees, shifted by 80 mm or swapped, 0.14 or more of at least
+// one view, or the foot is measured as well as without it.
+constexpr double kMostSeenThrough = 0.1;
+constexpr std::size_t kClearlySeenThrough = 100;  ///< points
 constexpr double kLeastCoverage = 0.9;
 
 /// Who does the work, and who is told of it.
@@ -120,14 +126,45 @@ bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings&
   return true;
 }
 
-/// The points of the feet, of all views.
+/// The view that others contradict most, if any: where it saw the feet, they see through.
+struct Contradiction {
+  std::string camera;
+  double share = 0.0;  ///< of what it saw of the feet
+};
+
+std::optional<Contradiction> contradiction_of(const std::vector<WorkingView>& views,
+                                              const std::vector<FootPoints>& found) {
+  std::optional<Contradiction> worst;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (found[i].seen_through < kClearlySeenThrough) continue;
+    const auto denied = static_cast<double>(found[i].seen_through);
+    const double share = denied / (denied + static_cast<double>(found[i].points.cloud.size()));
+    if (share > (worst ? worst->share : kMostSeenThrough)) worst = {views[i].id, share};
+  }
+  return worst;
+}
+
+Error contradicted(const Contradiction& contradiction) {
+  return fail(ErrorCode::kInsufficientData,
+              "the cameras contradict each other: others see through " +
+                  in_percent(contradiction.share) + " of what camera " + contradiction.camera +
+                  " saw of the feet",
+              "scan again, and keep still; where that does not help, a camera was moved, or has "
+              "another one's pose: calibrate the station (instep calibrate)")
+      .value();
+}
+
+/// The points of the feet, of all views. Fails if these contradict each other, and says so.
 Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
-                                const FusionSettings& settings, const Work& work,
-                                FusedScene& scene) {
+                                const FusionSettings& settings, const Work& work, FusedScene& scene,
+                                std::optional<Contradiction>& contradiction) {
   std::vector<FootPoints> found(views.size());
   const bool done = work.for_each_view(
       views.size(), [&](std::size_t i) { found[i] = foot_points(views, i, settings, scene); });
-  if (!done || !drop_overruled(views, settings, work, scene, found)) return cancelled();
+  if (!done) return cancelled();
+  contradiction = contradiction_of(views, found);
+  if (contradiction) return tl::make_unexpected(contradicted(*contradiction));
+  if (!drop_overruled(views, settings, work, scene, found)) return cancelled();
   ViewedCloud gathered;
   for (const auto& [points, platform_pixels, grazing_pixels, seen_through] : found) {
     gathered.cloud.append(points.cloud);
@@ -234,14 +271,10 @@ Error no_foot(const PointCloud& points, const FusedScene& scene) {
   return points.empty() ? failure.value() : with_what_was_noticed(failure.value(), scene.warnings);
 }
 
-}  // namespace
-
-Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings,
-                              const Workers& workers, const GoOn& go_on) {
-  if (views.empty()) {
-    return fail(ErrorCode::kInvalidInput, "there is no view to fuse", "connect a camera");
-  }
-  const Work work{workers, go_on};
+/// If it fails for a contradiction, says which.
+Result<FusedScene> fuse(const std::vector<View>& views, const FusionSettings& settings,
+                        const Work& work, std::optional<Contradiction>& contradiction) {
+  const auto& [workers, go_on] = work;
   FusedScene scene;
   auto opened = open_views(views, settings, work, scene);
   if (!opened) return tl::make_unexpected(opened.error());
@@ -256,7 +289,7 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   scene.diagnostics.views_used = working.size();
   find_standing_plane(working, settings, scene);
   if (!go_on()) return cancelled();
-  auto points = gather_feet(working, settings, work, scene);
+  auto points = gather_feet(working, settings, work, scene, contradiction);
   if (!points) return tl::make_unexpected(points.error());
   drop_outliers(settings, *points, scene);
   if (!go_on()) return cancelled();
@@ -271,6 +304,38 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
     if (!go_on()) return cancelled();
   }
   return scene;
+}
+
+/// Where three or more views are there, the one that is contradicted most is left out.
+Result<FusedScene> fuse_without(const Contradiction& odd, std::vector<View> views,
+                                const FusionSettings& settings, const Work& work) {
+  std::erase_if(views, [&](const View& view) { return view.geometry.id == odd.camera; });
+  std::optional<Contradiction> still;
+  auto scene = fuse(views, settings, work, still);
+  if (still) return tl::make_unexpected(contradicted(odd));
+  if (scene) {
+    scene->warnings.push_back(
+        "camera " + odd.camera +
+        " does not agree with the others and was left out: they see through " +
+        in_percent(odd.share) +
+        " of what it saw of the feet; calibrate the station (instep "
+        "calibrate)");
+  }
+  return scene;
+}
+
+}  // namespace
+
+Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings,
+                              const Workers& workers, const GoOn& go_on) {
+  if (views.empty()) {
+    return fail(ErrorCode::kInvalidInput, "there is no view to fuse", "connect a camera");
+  }
+  const Work work{workers, go_on};
+  std::optional<Contradiction> contradiction;
+  auto scene = fuse(views, settings, work, contradiction);
+  if (!contradiction || views.size() < 3) return scene;
+  return fuse_without(*contradiction, views, settings, work);
 }
 
 }  // namespace instep

@@ -78,9 +78,9 @@ std::map<std::string, double> truth_of(const Capture& capture, const FootScan& f
 Error of_scan(Error failure) {
   failure.advice =
       "stand with the whole foot flat on the platform, two feet a hand's breadth apart and nothing "
-      "else on it, then scan again; where that does not help, see that no camera is missing, "
-      "covered or turned away, check platform_height_mm and calibrate the cameras (instep "
-      "calibrate)";
+      "else on it, then scan again; where that does not help, scan one foot alone, see that no "
+      "camera is missing, covered or turned away, check platform_height_mm and calibrate the "
+      "cameras (instep calibrate)";
   return failure;
 }
 

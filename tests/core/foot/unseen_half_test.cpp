@@ -76,6 +76,21 @@ TEST(UnseenHalf, IsUnknownWithoutNormals) {
   EXPECT_FALSE(unseen_half(foot));
 }
 
+/// The side beside it was seen: views met there, and some of their pixels had no depth.
+TEST(UnseenHalf, IsNoHole) {
+  for (const double along : {8.0, kLength - 8.0}) {
+    FootScan foot = seen_from({0, 90, 180, -90});
+    std::vector<std::size_t> left;
+    for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
+      const Vector3d place(along, 25.0, 20.0);
+      if ((foot.cloud.positions[i] - place).norm() > 35.0) left.push_back(i);
+    }
+    ASSERT_LT(left.size(), foot.cloud.size() - 100);
+    foot.cloud = foot.cloud.subset(left);
+    EXPECT_FALSE(unseen_half(foot));
+  }
+}
+
 /// What ends before the heel or the toes does so on both sides.
 TEST(UnseenHalf, IsNoneOfAnEndThatWasNotSeenAtAll) {
   const FootScan whole = seen_from({0, 90, 180, -90});

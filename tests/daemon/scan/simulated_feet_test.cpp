@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/foot/alignment.h"
@@ -304,6 +305,42 @@ TEST(SimulatedFoot, ThatOneSideOfWasHardlySeenIsMeasuredWithinItsIntervals) {
   }
   EXPECT_GT(known, 40);
   EXPECT_GE(held, known - 3);
+}
+
+/// The views of what stands there agree on nothing then; the long heel girth was 15 times further
+/// off than its interval.
+TEST(SimulatedFoot, IsMeasuredWithoutACameraThatStandsElsewhere) {
+  SimulationSettings settings;
+  settings.seed = 7;
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  RigidTransform& left = scan->capture.cameras[1].geometry.station_from_camera;
+  left = RigidTransform(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ())) * left;
+  const auto records = measure_capture(scan->capture, {}, {});
+  ASSERT_TRUE(records) << records.error().line();
+  const ScanRecord& record = records->front();
+  EXPECT_TRUE(
+      is_said("camera left does not agree with the others and was left out", record.warnings));
+  const int known = number_known(record.measures, scan->truth.front().measures);
+  EXPECT_GE(known, 8);
+  EXPECT_EQ(number_held(record.measures, scan->truth.front().measures), known);
+}
+
+/// Breadths were up to eight intervals off.
+TEST(SimulatedFoot, IsRefusedWhereTwoCamerasHaveEachOthersPose) {
+  SimulationSettings settings;
+  settings.seed = 7;
+  auto scan = scan_of(settings);
+  ASSERT_TRUE(scan);
+  for (const std::size_t first : {0U, 1U}) {
+    Capture swapped = scan->capture;
+    std::swap(swapped.cameras[first].geometry.station_from_camera,
+              swapped.cameras[first + 2].geometry.station_from_camera);
+    const auto records = measure_capture(swapped, {}, {});
+    ASSERT_FALSE(records) << first;
+    EXPECT_NE(records.error().line().find("the cameras contradict each other"), std::string::npos)
+        << records.error().line();
+  }
 }
 
 TEST(SimulatedFoot, IsMeasuredByTheRulesOfTheSettings) {
