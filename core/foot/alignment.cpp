@@ -98,9 +98,10 @@ Result<void> check_beside(const StandingBody& body) {
               "move them apart and scan again, or give the points of one foot alone");
 }
 
-/// Where cameras look from one side only, an end of the foot does not tell its axis.
+/// Where cameras look from one side only, an end of the foot does not tell its axis. Of a scan, to
+/// which points were put where no camera saw any; normals in other files need not point outwards.
 Result<void> check_ends(const FootScan& foot) {
-  if (!foot.is_closed_scan) return {};
+  if (!foot.cloud.stands_on_platform()) return {};
   const auto half = unseen_half(foot);
   if (!half) return {};
   return fail(ErrorCode::kInsufficientData,
@@ -184,7 +185,6 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                             " foot, as asked for, but its shape is that of a " +
                             to_string(guess.side) + " one: check the side");
   }
-  foot.is_closed_scan = foot.cloud.stands_on_platform() && foot.cloud.has_normals();
   if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
   if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
@@ -268,7 +268,6 @@ FootScan aligned_as(const FootScan& foot, PointCloud cloud) {
   other.side = foot.side;
   other.side_confidence = foot.side_confidence;
   other.is_floor_known = foot.is_floor_known;
-  other.is_closed_scan = foot.is_closed_scan;
   other.rules = foot.rules;
   for (const char* name : {"pternion", "acropodion", "toe2_tip"}) {
     const auto found = foot.landmarks.find(name);

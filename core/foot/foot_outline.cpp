@@ -6,11 +6,6 @@ namespace instep {
 namespace {
 
 constexpr double kBorderSmoothingMm = 9.0;
-// Of the skin that was seen nearest to a border. Beside a wall that no camera looked at it is the
-// other wall, which faces away, or the last of the foot's back that a view over it shows, at 0.53
-// to 0.94; between two feet that stand together, whose walls were seen down to 30 mm, 0.49 at most.
-constexpr double kMostUpward = 0.5;
-constexpr double kMostBackwards = 0.3;  ///< the tips of heel and toes face along the foot
 
 double length_of(const FootScan& foot) {
   return foot.landmarks.at("acropodion").position_mm.x() -
@@ -48,19 +43,8 @@ FootOutline::FootOutline(const FootScan& foot)
       points_(as_right_foot(foot, factor_)),
       seen_points_(those_seen(points_, foot.cloud)),
       seen_skin_(seen_points_.empty() ? std::nullopt : std::optional<SeenSkin>(foot.cloud)),
-      medial_(border_towards(1.0, foot)),
-      lateral_(border_towards(-1.0, foot)) {}
-
-SkinBorder FootOutline::border_towards(double medial, const FootScan& foot) const {
-  SkinBorder border(points_, from_above(medial), kBorderSmoothingMm);
-  if (!seen_skin_ || !foot.is_closed_scan) return border;
-  return border.where([&](const SkinBorder::Place& place) {
-    const auto nearest = seen_skin_->nearest(on_foot(border.position(place)));
-    if (!nearest) return false;
-    const Eigen::Vector3d& normal = foot.cloud.normals[nearest->index];
-    return normal.z() < kMostUpward && medial * medial_sign_ * normal.y() > -kMostBackwards;
-  });
-}
+      medial_(points_, from_above(1.0), kBorderSmoothingMm),
+      lateral_(points_, from_above(-1.0), kBorderSmoothingMm) {}
 
 Eigen::Vector3d FootOutline::on_foot(const Eigen::Vector3d& place) const {
   return Eigen::Vector3d(place.x(), medial_sign_ * place.y(), place.z()) / factor_;

@@ -45,14 +45,12 @@ class FootOutline {
   double distance_to_seen(const Eigen::Vector3d& place) const;
 
   /// Reach towards medial, and towards lateral, at each x, of the skin up to
-  /// kLandmarkOutlineHeightMm. Of a closed scan only where a wall was seen, or lies under one that
-  /// was: what a view over the foot's back shows last may lie far inside its other wall.
+  /// kLandmarkOutlineHeightMm.
   const SkinBorder& medial() const { return medial_; }
   const SkinBorder& lateral() const { return lateral_; }
 
  private:
   Eigen::Vector3d on_foot(const Eigen::Vector3d& place) const;
-  SkinBorder border_towards(double medial, const FootScan& foot) const;  ///< -1: lateral
 
   double factor_;
   double medial_sign_;

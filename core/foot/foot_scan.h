@@ -72,10 +72,7 @@ struct FootScan {
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();
   bool is_floor_known = false;  ///< given with the cloud, not found from it
-  /// The cloud came with points put where no camera saw any: it is a scan's, and its normals all
-  /// point outwards, which those of other files need not.
-  bool is_closed_scan = false;
-  MeasuringRules rules;  ///< by which it is aligned, marked and measured
+  MeasuringRules rules;         ///< by which it is aligned, marked and measured
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;

@@ -1,6 +1,5 @@
 #include "core/foot/unseen_half.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>

@@ -104,8 +104,10 @@ struct FusedScene {
 /// thread. `go_on` hears of each view, each iteration of the registration, and each stage.
 ///
 /// Fails with kInvalidInput where a pose or lens is not sound or there is no view, kCorruptData
-/// where a depth image does not fit its camera, kInsufficientData where no camera saw anything or
-/// no foot stands there, kCancelled. A camera that saw nothing while others did is a warning.
+/// where a depth image does not fit its camera, kInsufficientData where no camera saw anything,
+/// where views see through each other's feet even without the one that is contradicted most, or no
+/// foot stands there, kCancelled. A camera that saw nothing while others did, or was left out so,
+/// is a warning.
 Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettings& settings = {},
                               const Workers& workers = one_after_the_other,
                               const GoOn& go_on = always);
