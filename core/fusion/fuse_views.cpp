@@ -129,7 +129,8 @@ bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings&
 /// The view that others contradict most, if any: where it saw the feet, they see through.
 struct Contradiction {
   std::string camera;
-  double share = 0.0;  ///< of what it saw of the feet
+  double share = 0.0;     ///< of what it saw of the feet
+  std::size_t views = 0;  ///< that were asked: of two, nobody knows which one errs
 };
 
 std::optional<Contradiction> contradiction_of(const std::vector<WorkingView>& views,
@@ -139,7 +140,8 @@ std::optional<Contradiction> contradiction_of(const std::vector<WorkingView>& vi
     if (found[i].seen_through < kClearlySeenThrough) continue;
     const auto denied = static_cast<double>(found[i].seen_through);
     const double share = denied / (denied + static_cast<double>(found[i].points.cloud.size()));
-    if (share > (worst ? worst->share : kMostSeenThrough)) worst = {views[i].id, share};
+    if (share > (worst ? worst->share : kMostSeenThrough))
+      worst = {views[i].id, share, views.size()};
   }
   return worst;
 }
@@ -318,8 +320,7 @@ Result<FusedScene> fuse_without(const Contradiction& odd, std::vector<View> view
         "camera " + odd.camera +
         " does not agree with the others and was left out: they see through " +
         in_percent(odd.share) +
-        " of what it saw of the feet; calibrate the station (instep "
-        "calibrate)");
+        " of what it saw of the feet; calibrate the station (instep calibrate)");
   }
   return scene;
 }
@@ -334,7 +335,7 @@ Result<FusedScene> fuse_views(const std::vector<View>& views, const FusionSettin
   const Work work{workers, go_on};
   std::optional<Contradiction> contradiction;
   auto scene = fuse(views, settings, work, contradiction);
-  if (!contradiction || views.size() < 3) return scene;
+  if (!contradiction || contradiction->views < 3) return scene;
   return fuse_without(*contradiction, views, settings, work);
 }
 
