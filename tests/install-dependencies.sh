@@ -5,6 +5,7 @@ set -euo pipefail
 
 packages=(
   cmake g++ ninja-build pkg-config
+  ccache  # no compiling twice; a build without it is the same
   libeigen3-dev libnanoflann-dev libexpected-dev
   libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
   libpng-dev libassimp-dev libsystemd-dev
