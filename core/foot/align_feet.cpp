@@ -11,10 +11,10 @@ constexpr double kSameWay = 0.5;
 /// From here on a shape is trusted enough to speak against the foot's place.
 constexpr double kClearShape = 0.85;
 
-Eigen::Vector3d centre(const FootScan& foot) {
+Eigen::Vector3d centre(const PointCloud& cloud) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& position : foot.cloud.positions) sum += position;
-  return sum / static_cast<double>(foot.cloud.size());
+  for (const auto& position : cloud.positions) sum += position;
+  return sum / static_cast<double>(cloud.size());
 }
 
 /// Aligns again if the place of the foot overrules its shape.
@@ -47,6 +47,25 @@ void doubt_one_side(std::vector<FootScan>& feet) {
   feet[1].side_confidence = std::max(0.5, second / (first + second));
 }
 
+/// Of two that stand there whoever has to put it right must know which one is meant: where it
+/// stands beside the other shows that, as long as the other is a foot.
+Error of_two(const std::vector<Result<FootScan>>& found, const std::vector<PointCloud>& clouds) {
+  const std::size_t failed = found[0] ? 1 : 0;
+  Error error = found[failed].error();
+  const auto& other = found[1 - failed];
+  if (other) {
+    const bool is_left =
+        (other->foot_from_input * centre(clouds[failed])).y() > centre(other->cloud).y();
+    error.message =
+        std::string("the ") + (is_left ? "left" : "right") + " one of two feet: " + error.message;
+  } else if (other.error().message == error.message) {
+    error.message = "both feet: " + error.message;
+  } else {
+    error.message = "one foot: " + error.message + "; the other: " + other.error().message;
+  }
+  return error;
+}
+
 }  // namespace
 
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
@@ -54,10 +73,15 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
   AlignmentOptions each = options;
   each.is_one_foot = true;
   if (clouds.size() > 1) each.side.reset();
+  std::vector<Result<FootScan>> found;
+  for (const auto& cloud : clouds) found.push_back(align_foot(cloud, each));
+  const auto failed =
+      std::find_if(found.begin(), found.end(), [](const auto& foot) { return !foot; });
+  if (failed != found.end()) {
+    return tl::make_unexpected(found.size() == 2 ? of_two(found, clouds) : failed->error());
+  }
   std::vector<FootScan> feet;
-  for (const auto& cloud : clouds) {
-    auto foot = align_foot(cloud, each);
-    if (!foot) return tl::make_unexpected(foot.error());
+  for (auto& foot : found) {
     foot->cloud_number = feet.size();
     feet.push_back(std::move(*foot));
   }
@@ -66,7 +90,8 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
   const RigidTransform first_from_second =
       feet[0].foot_from_input * feet[1].foot_from_input.inverse();
   if (first_from_second.linear()(0, 0) >= kSameWay) {
-    const bool second_is_left = (first_from_second * centre(feet[1])).y() > centre(feet[0]).y();
+    const bool second_is_left =
+        (first_from_second * centre(feet[1].cloud)).y() > centre(feet[0].cloud).y();
     for (std::size_t i = 0; i < 2; ++i) {
       const Side side = (i == 1) == second_is_left ? Side::kLeft : Side::kRight;
       auto settled = with_side(std::move(feet[i]), clouds[i], side, each);

@@ -17,7 +17,8 @@ namespace instep {
 /// surer than the shape of either; where the shape clearly says otherwise (crossed feet) that is a
 /// warning. Two feet of one side, pointing different ways, keep what their shapes say, with a
 /// warning: one of them is wrong, and each is as sure as its shape is against the other's. A forced
-/// side applies to a single foot only. Fails as align_foot() does, for the first cloud that fails.
+/// side applies to a single foot only. Fails as align_foot() does, if it fails for one of them; of
+/// two the message says which.
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
                                          const AlignmentOptions& options = {});
 

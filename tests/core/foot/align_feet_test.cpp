@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "tests/support/foot_body.h"
 
@@ -107,11 +109,35 @@ PointCloud box() {
   return cloud;
 }
 
+std::string why_not(const std::vector<PointCloud>& clouds) {
+  const auto feet = align_feet(clouds, on_the_floor());
+  return feet ? "measured" : feet.error().message;
+}
+
 TEST(AlignFeet, FailsForWhatIsNoFoot) {
-  const auto feet = align_feet({right_foot(), at(box(), 120.0)}, on_the_floor());
-  ASSERT_FALSE(feet);
-  EXPECT_NE(feet.error().message.find("not a foot"), std::string::npos);
+  EXPECT_NE(why_not({right_foot(), at(box(), 120.0)}).find("not a foot"), std::string::npos);
   EXPECT_TRUE(align_feet({})->empty());
+}
+
+/// A person looks along +x, and along -x once all is turned.
+TEST(AlignFeet, SaysWhichOfTwoFailsByWhereItStands) {
+  const std::vector<PointCloud> there{right_foot(), at(box(), 120.0)};
+  EXPECT_EQ(why_not(there).find("the left one of two feet: "), 0U);
+  EXPECT_EQ(why_not({there[1], there[0]}).find("the left one of two feet: "), 0U);
+  EXPECT_EQ(why_not({left_foot(), at(box(), -180.0)}).find("the right one of two feet: "), 0U);
+  const double half_turn = std::acos(-1.0);
+  EXPECT_EQ(
+      why_not({at(there[0], 0.0, half_turn), at(there[1], 0.0, half_turn)}).find("the left one"),
+      0U);
+}
+
+TEST(AlignFeet, SaysOfTwoThatBothFail) {
+  EXPECT_EQ(why_not({box(), at(box(), 120.0)}).find("both feet: "), 0U);
+  PointCloud few;
+  few.positions.assign(3, Vector3d::Zero());
+  const std::string both = why_not({box(), few});
+  EXPECT_NE(both.find("not a foot"), std::string::npos);
+  EXPECT_NE(both.find("points"), std::string::npos);
 }
 
 }  // namespace
