@@ -13,6 +13,7 @@
 #include "core/geometry/stray_points.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_probe.h"
+#include "core/girth/sure_noise.h"
 #include "core/median.h"
 #include "core/surface/cell_normals.h"
 #include "core/surface/normal_trust.h"
@@ -284,8 +285,8 @@ void set_points(const PointCloud& cloud, const TapePlane& plane, PlaneBand& band
     const double sigma = std::max(band.sigma_of(cloud, band.sources[i], band.share_of(i),
                                                 band.error_of(i), band.index.points()[i]),
                                   least);
-    const bool told = slopes && is_harmless(sigma * sigma, band.spacing);
-    band.points.push_back({band.index.points()[i], normals[i], sigma * sigma, told});
+    const bool told = slopes && is_harmless(sigma * sigma, band.spacing, false);
+    band.points.push_back({band.index.points()[i], normals[i], sigma * sigma, told, false});
   }
 }
 
@@ -358,6 +359,8 @@ Result<PlaneBand> band_at(SlabSource& slabs, bool strays_near_skin) {
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
   set_points(cloud, slabs.plane(), band);
+  const bool is_sure = band.own_sigma || slabs.sigma_mm() || shows_sure_noise(band, cloud);
+  for (auto& point : band.points) point.surely_noise = is_sure;
   return std::move(band);
 }
 

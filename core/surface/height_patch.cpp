@@ -59,7 +59,7 @@ constexpr double kEven = 1e-10;
 bool are_exact(const std::vector<OrientedPoint>& points, double radius) {
   const double spacing = spacing_within(radius, points.size());
   return std::all_of(points.begin(), points.end(), [&](const OrientedPoint& point) {
-    return is_harmless(point.variance, spacing);
+    return is_harmless(point, spacing);
   });
 }
 

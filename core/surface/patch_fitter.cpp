@@ -162,7 +162,7 @@ std::optional<SurfacePatch> PatchFitter::fit_in_space(const Surroundings& surrou
   // What little looks like noise is shape: where a flat side is the smoothest part of all,
   // smoothing by it would leave the other side's bends out, and put this side off its points.
   for (auto& point : points) {
-    if (is_harmless(point.variance, surroundings.spacing)) point.variance = 0.0;
+    if (is_harmless(point, surroundings.spacing)) point.variance = 0.0;
   }
   double roughness = kAllowanceInSpace * surroundings.roughness;
   auto field = HermitePatch::fit(points, place, radius, roughness);

@@ -147,7 +147,8 @@ PatchPoints::Surroundings PatchPoints::surroundings_of(const Eigen::Vector3d& pl
   here.spacing = spacing_within(here.reach, here.nearest.size());
   here.noise_area = variance * here.spacing * here.spacing;
   here.roughness = roughness_at(roughness_, place);
-  here.exact = is_harmless(variance, here.spacing);
+  here.exact =
+      is_harmless(variance, here.spacing, points_[here.nearest.front().index].surely_noise);
   here.quiet = variance <= std::pow(kQuiet * here.spacing, 2);
   return here;
 }
