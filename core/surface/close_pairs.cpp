@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <utility>
 
 #include "core/median.h"
 #include "core/stride.h"
@@ -16,21 +19,18 @@ constexpr std::size_t kMostAsked = 2000;
 constexpr double kNearest = 0.02;
 constexpr double kFurthest = 0.4;
 constexpr std::size_t kFewestPairs = 20;
-/// Of pairs that differ by more than so many robust deviations, as over an edge or to a stray.
-constexpr double kFarOff = 5.0;
-/// Constants that are tried, against what slopes make of one spacing; the least stands for none.
-constexpr double kLeastRatio = 1e-6;
-constexpr double kMostRatio = 1e2;
-constexpr double kRatioStep = 1.5;
-/// Of twice the log likelihood.
-constexpr double kPlainGain = 8.0;
-/// The constant, a standard deviation, against the noise in question.
+/// Pairs so near show how much noise there is, whatever slopes there are.
+constexpr double kNear = 0.15;
+constexpr std::size_t kFewestNear = 5;
+/// Standard deviations of a rank correlation that chance does not make.
+constexpr double kPlain = 4.0;
+/// What near pairs show, against the noise in question.
 constexpr double kLeastShare = 0.5;
 
-/// What two points differ by in height, squared and halved, and their distance squared.
+/// How far two points are apart, and what they differ by in height.
 struct Pair {
-  double height;
   double distance;
+  double height;
 };
 
 /// In spacings.
@@ -45,55 +45,61 @@ std::vector<Pair> close_pairs(const std::vector<OrientedPoint>& points, const Po
       const double distance = std::sqrt(neighbour.squared_distance) / spacing;
       if (!(distance > kNearest && distance < kFurthest)) continue;
       const Eigen::Vector3d outward = 0.5 * (one.normal + other.normal);
-      const double height = outward.dot(one.position - other.position) / spacing;
-      pairs.push_back({0.5 * height * height, distance * distance});
+      pairs.push_back({distance, std::abs(outward.dot(one.position - other.position)) / spacing});
     }
   }
   return pairs;
 }
 
-void drop_far_off(std::vector<Pair>& pairs) {
-  std::vector<double> heights;
-  for (const auto& pair : pairs) heights.push_back(std::sqrt(pair.height));
-  const double most = kFarOff * kSigmaInMedians * median(std::move(heights));
-  std::erase_if(pairs, [&](const Pair& pair) { return pair.height > most * most; });
+/// Of each value among all of them, less the middle one.
+std::vector<double> ranks_of(const std::vector<double>& values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  const double middle = 0.5 * static_cast<double>(values.size() - 1);
+  std::vector<double> ranks(values.size());
+  for (std::size_t i = 0; i < order.size(); ++i) ranks[order[i]] = static_cast<double>(i) - middle;
+  return ranks;
 }
 
-/// Variances of the heights: of slopes over one spacing, and how likely all are so.
-struct Variogram {
-  double slopes = 0.0;
-  double misfit = 0.0;  ///< twice the negative log likelihood
-};
-
-Variogram variogram_of(const std::vector<Pair>& pairs, double ratio) {
-  const auto count = static_cast<double>(pairs.size());
-  Variogram variogram;
+/// By how many of its standard deviations pairs are the less steep the further apart they are
+/// (Spearman's rank correlation). Slopes of whatever distribution do not depend on the distance.
+double fall_of_slopes(const std::vector<Pair>& pairs) {
+  std::vector<double> distances;
+  std::vector<double> slopes;
   for (const auto& pair : pairs) {
-    variogram.slopes += pair.height / (ratio + pair.distance) / count;
-    variogram.misfit += std::log(ratio + pair.distance);
+    distances.push_back(pair.distance);
+    slopes.push_back(pair.height / pair.distance);
   }
-  variogram.misfit += count * std::log(variogram.slopes);
-  return variogram;
+  const auto by_distance = ranks_of(distances);
+  const auto by_slope = ranks_of(slopes);
+  double product = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    product += by_distance[i] * by_slope[i];
+    square += by_distance[i] * by_distance[i];
+  }
+  return -product / square * std::sqrt(static_cast<double>(pairs.size() - 1));
+}
+
+/// The noise that near pairs would show if it were all; nothing of too few.
+double noise_of_near(const std::vector<Pair>& pairs) {
+  std::vector<double> heights;
+  for (const auto& pair : pairs) {
+    if (pair.distance < kNear) heights.push_back(pair.height);
+  }
+  if (heights.size() < kFewestNear) return 0.0;
+  return kSigmaInMedians * median(std::move(heights)) / std::numbers::sqrt2;
 }
 
 }  // namespace
 
 bool is_noise_between_pairs(const std::vector<OrientedPoint>& points, const PointIndex& index,
                             double spacing, double sigma) {
-  auto pairs = close_pairs(points, index, spacing);
+  const auto pairs = close_pairs(points, index, spacing);
   if (pairs.size() < kFewestPairs) return false;
-  drop_far_off(pairs);
-  const Variogram without = variogram_of(pairs, kLeastRatio);
-  double likeliest = 0.0;
-  Variogram best = without;
-  for (double ratio = kLeastRatio; ratio < kMostRatio; ratio *= kRatioStep) {
-    const Variogram here = variogram_of(pairs, ratio);
-    if (!(here.misfit < best.misfit)) continue;
-    best = here;
-    likeliest = ratio;
-  }
-  const double shown = std::sqrt(likeliest * best.slopes) * spacing;
-  return without.misfit - best.misfit > kPlainGain && shown >= kLeastShare * sigma;
+  return noise_of_near(pairs) * spacing >= kLeastShare * sigma && fall_of_slopes(pairs) > kPlain;
 }
 
 }  // namespace instep
