@@ -1,6 +1,8 @@
 #include "core/foot/align_feet.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 
 namespace instep {
@@ -47,23 +49,27 @@ void doubt_one_side(std::vector<FootScan>& feet) {
   feet[1].side_confidence = std::max(0.5, second / (first + second));
 }
 
-/// Of two that stand there whoever has to put it right must know which one is meant: where it
-/// stands beside the other shows that, as long as the other is a foot.
+/// Of two that stand there whoever has to put it right must know which one is meant.
+Error of_one(Error error, Side side) {
+  error.message = std::string("the ") + to_string(side) + " one of two feet: " + error.message;
+  return error;
+}
+
+/// Where it stands beside the other shows which one failed, as long as the other is a foot.
 Error of_two(const std::vector<Result<FootScan>>& found, const std::vector<PointCloud>& clouds) {
   const std::size_t failed = found[0] ? 1 : 0;
   Error error = found[failed].error();
   const auto& other = found[1 - failed];
-  if (other) {
-    const bool is_left =
-        (other->foot_from_input * centre(clouds[failed])).y() > centre(other->cloud).y();
-    error.message =
-        std::string("the ") + (is_left ? "left" : "right") + " one of two feet: " + error.message;
-  } else if (other.error().message == error.message) {
-    error.message = "both feet: " + error.message;
-  } else {
-    error.message = "one foot: " + error.message + "; the other: " + other.error().message;
+  if (!other) {
+    error.message = other.error().message == error.message
+                        ? "both feet: " + error.message
+                        : "one foot: " + error.message + "; the other: " + other.error().message;
+    return error;
   }
-  return error;
+  const double aside =
+      (other->foot_from_input * centre(clouds[failed])).y() - centre(other->cloud).y();
+  if (!std::isfinite(aside)) return error;
+  return of_one(std::move(error), aside > 0.0 ? Side::kLeft : Side::kRight);
 }
 
 }  // namespace
@@ -95,7 +101,7 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
     for (std::size_t i = 0; i < 2; ++i) {
       const Side side = (i == 1) == second_is_left ? Side::kLeft : Side::kRight;
       auto settled = with_side(std::move(feet[i]), clouds[i], side, each);
-      if (!settled) return tl::make_unexpected(settled.error());
+      if (!settled) return tl::make_unexpected(of_one(settled.error(), side));
       settled->cloud_number = i;
       feet[i] = std::move(*settled);
     }

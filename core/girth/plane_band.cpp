@@ -359,7 +359,7 @@ Result<PlaneBand> band_at(SlabSource& slabs, bool strays_near_skin) {
   band.roughness = std::move(noise.roughness);
   for (const std::size_t source : band.sources) band.seen.push_back(cloud.was_seen(source));
   set_points(cloud, slabs.plane(), band);
-  const bool is_sure = band.own_sigma || slabs.sigma_mm() || shows_sure_noise(band, cloud);
+  const bool is_sure = is_surely_noise(band, cloud, band.own_sigma || slabs.sigma_mm());
   for (auto& point : band.points) point.surely_noise = is_sure;
   return std::move(band);
 }

@@ -12,8 +12,10 @@ namespace {
 /// Noise, against the spacing, that matters nowhere, and that no shape is taken for.
 constexpr double kHarmless = 5e-4;
 constexpr double kPlain = 0.03;
-/// Of the noise, what rounding has to explain.
+/// What rounding makes, against the noise that it has to explain: where it is not rounding but a
+/// lattice that exact points lie on, it would be far more.
 constexpr double kExplained = 0.5;
+constexpr double kFarMore = 4.0;
 
 /// In millimetres.
 double noise_of_rounding(const PlaneBand& band, const PointCloud& cloud) {
@@ -25,10 +27,12 @@ double noise_of_rounding(const PlaneBand& band, const PointCloud& cloud) {
 
 }  // namespace
 
-bool shows_sure_noise(const PlaneBand& band, const PointCloud& cloud) {
+bool is_surely_noise(const PlaneBand& band, const PointCloud& cloud, bool is_told) {
+  if (is_told && band.told_scale == 1.0 && band.uneven.empty()) return true;
   const double relative = band.sigma / band.spacing;
   if (!(relative > kHarmless && relative < kPlain)) return false;
-  return noise_of_rounding(band, cloud) > kExplained * band.unit_mm * band.sigma ||
+  const double explained = noise_of_rounding(band, cloud) / band.noise_mm();
+  return (explained > kExplained && explained < kFarMore) ||
          is_noise_between_pairs(band.points, band.index, band.spacing, band.sigma);
 }
 

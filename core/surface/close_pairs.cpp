@@ -22,8 +22,8 @@ constexpr std::size_t kFewestPairs = 20;
 /// Pairs so near show how much noise there is, whatever slopes there are.
 constexpr double kNear = 0.15;
 constexpr std::size_t kFewestNear = 5;
-/// Standard deviations of a rank correlation that chance does not make.
-constexpr double kPlain = 4.0;
+/// Standard deviations of a rank correlation that chance hardly makes.
+constexpr double kPlain = 3.0;
 /// What near pairs show, against the noise in question.
 constexpr double kLeastShare = 0.5;
 
@@ -33,33 +33,48 @@ struct Pair {
   double height;
 };
 
+/// Numbers of points and their nearest ones, each two once.
+std::vector<std::pair<std::size_t, std::size_t>> nearest_neighbours(
+    const std::vector<OrientedPoint>& points, const PointIndex& index) {
+  std::vector<std::pair<std::size_t, std::size_t>> neighbours;
+  const std::size_t stride = stride_to_at_most(kMostAsked, points.size());
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    for (const auto& neighbour : index.nearest(points[i].position, 2)) {
+      neighbours.push_back(std::minmax(i, neighbour.index));
+    }
+  }
+  std::sort(neighbours.begin(), neighbours.end());
+  neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  return neighbours;
+}
+
 /// In spacings.
 std::vector<Pair> close_pairs(const std::vector<OrientedPoint>& points, const PointIndex& index,
                               double spacing) {
   std::vector<Pair> pairs;
-  const std::size_t stride = stride_to_at_most(kMostAsked, points.size());
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    for (const auto& neighbour : index.nearest(points[i].position, 2)) {
-      const auto& one = points[i];
-      const auto& other = points[neighbour.index];
-      const double distance = std::sqrt(neighbour.squared_distance) / spacing;
-      if (!(distance > kNearest && distance < kFurthest)) continue;
-      const Eigen::Vector3d outward = 0.5 * (one.normal + other.normal);
-      pairs.push_back({distance, std::abs(outward.dot(one.position - other.position)) / spacing});
-    }
+  for (const auto& [i, j] : nearest_neighbours(points, index)) {
+    const Eigen::Vector3d way = (points[j].position - points[i].position) / spacing;
+    const double distance = way.norm();
+    if (!(distance > kNearest && distance < kFurthest)) continue;
+    const Eigen::Vector3d outward = 0.5 * (points[i].normal + points[j].normal);
+    pairs.push_back({distance, std::abs(outward.dot(way))});
   }
   return pairs;
 }
 
-/// Of each value among all of them, less the middle one.
+/// Of each value among all of them, less the middle one; of equal ones the mean.
 std::vector<double> ranks_of(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
-  const double middle = 0.5 * static_cast<double>(values.size() - 1);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   std::vector<double> ranks(values.size());
-  for (std::size_t i = 0; i < order.size(); ++i) ranks[order[i]] = static_cast<double>(i) - middle;
+  for (std::size_t from = 0, to = 0; from < order.size(); from = to) {
+    while (to < order.size() && values[order[to]] == values[order[from]]) ++to;
+    const double mean =
+        0.5 * static_cast<double>(from + to) - 0.5 * static_cast<double>(order.size());
+    for (std::size_t i = from; i < to; ++i) ranks[order[i]] = mean;
+  }
   return ranks;
 }
 
@@ -74,13 +89,13 @@ double fall_of_slopes(const std::vector<Pair>& pairs) {
   }
   const auto by_distance = ranks_of(distances);
   const auto by_slope = ranks_of(slopes);
-  double product = 0.0;
-  double square = 0.0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    product += by_distance[i] * by_slope[i];
-    square += by_distance[i] * by_distance[i];
-  }
-  return -product / square * std::sqrt(static_cast<double>(pairs.size() - 1));
+  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  const double spread = std::sqrt(product(by_distance, by_distance) * product(by_slope, by_slope));
+  if (!(spread > 0.0)) return 0.0;
+  return -product(by_distance, by_slope) / spread *
+         std::sqrt(static_cast<double>(pairs.size() - 1));
 }
 
 /// The noise that near pairs would show if it were all; nothing of too few.

@@ -44,7 +44,7 @@ TEST(ClosePairs, ShowNoise) {
   }
 }
 
-/// Facets as wide as the points are apart, which lean every way: as much unevenness as noise.
+/// Facets as wide as the points are apart, which lean four ways: as much unevenness as noise.
 TEST(ClosePairs, ShowThatFacetsAreNoNoise) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const double sigma = 5e-3 * kSpacing;
@@ -63,7 +63,7 @@ TEST(ClosePairs, ThatScatterFarLessThanTheNoiseInQuestionAreNotOfIt) {
   EXPECT_FALSE(is_noise(over_square(noise, 1), 1e-2 * kSpacing));
 }
 
-/// As of copies, which share their noise.
+/// What copies differ by is no noise of theirs.
 TEST(ClosePairs, OfCopiesTellNothing) {
   test::RandomNumbers random(7);
   const double sigma = 5e-3 * kSpacing;
@@ -71,9 +71,31 @@ TEST(ClosePairs, OfCopiesTellNothing) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3d place(kSpacing * (i % 32), kSpacing * (i / 32), sigma * random.normal());
     points.push_back({place, Vector3d::UnitZ()});
-    points.push_back({place + Vector3d(1e-6 * kSpacing, 0.0, 0.0), Vector3d::UnitZ()});
+    const Vector3d rounding(1e-6 * kSpacing, 0.0, sigma * random.normal());
+    points.push_back({place + rounding, Vector3d::UnitZ()});
   }
   EXPECT_FALSE(is_noise(points, sigma));
+}
+
+/// Pairs all along one body, whose slopes change from end to end and distances hardly do.
+TEST(ClosePairs, OfOneDistanceTellNothing) {
+  std::vector<OrientedPoint> points;
+  const double sigma = 5e-3 * kSpacing;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d place(0.0, kSpacing * i, 0.0);
+    points.push_back({place, Vector3d::UnitZ()});
+    points.push_back(
+        {place + Vector3d(0.125 * kSpacing, 0.0, 0.004 * sigma * i), Vector3d::UnitZ()});
+  }
+  EXPECT_FALSE(is_noise(points, sigma));
+}
+
+TEST(ClosePairs, TellTheSameInAnyOrder) {
+  test::RandomNumbers random(7);
+  const double sigma = 5e-3 * kSpacing;
+  const auto points = over_square([&](double, double) { return sigma * random.normal(); }, 1);
+  EXPECT_TRUE(is_noise(points, sigma));
+  EXPECT_TRUE(is_noise(test::in_another_order(points, 1), sigma));
 }
 
 TEST(ClosePairs, AreMissingWherePointsAreEven) {
