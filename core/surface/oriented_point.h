@@ -26,8 +26,8 @@ struct OrientedPoint {
 /// smoothing. What bends at the points' own scale, as the facets of a mesh do, looks like noise and
 /// must not be smoothed: of exact points on scanned feet girths were 0.17 mm short in place of
 /// 0.05. Noise that is surely some lengthens lines through points, though, as few may come to lie
-/// much nearer to each other than as a rule: of random points, by 5 parts in 10,000 and more where
-/// it is a hundredth of the spacing, by 3 in a million where it is a thousandth.
+/// much nearer to each other than as a rule: of random points, by a part in 1,000 where it is a
+/// hundredth of the spacing, by 3 in 100,000 where it is a thousandth.
 inline bool is_harmless(double noise, double spacing, bool surely_noise) {
   constexpr double kHarmlessIfShape = 0.01;
   constexpr double kHarmless = 0.0005;
