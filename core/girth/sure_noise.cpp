@@ -9,8 +9,7 @@
 namespace instep {
 namespace {
 
-/// Noise, against the spacing, that matters nowhere, and that no shape is taken for.
-constexpr double kHarmless = 5e-4;
+/// Noise, against the spacing, that no shape is taken for.
 constexpr double kPlain = 0.03;
 /// What rounding makes, against the noise that it has to explain: where it is not rounding but a
 /// lattice that exact points lie on, it would be far more.
@@ -29,8 +28,8 @@ double noise_of_rounding(const PlaneBand& band, const PointCloud& cloud) {
 
 bool is_surely_noise(const PlaneBand& band, const PointCloud& cloud, bool is_told) {
   if (is_told && band.told_scale == 1.0 && band.uneven.empty()) return true;
-  const double relative = band.sigma / band.spacing;
-  if (!(relative > kHarmless && relative < kPlain)) return false;
+  const bool matters = !is_harmless(band.sigma * band.sigma, band.spacing, true);
+  if (!matters || band.sigma >= kPlain * band.spacing) return false;
   const double explained = noise_of_rounding(band, cloud) / band.noise_mm();
   return (explained > kExplained && explained < kFarMore) ||
          is_noise_between_pairs(band.points, band.index, band.spacing, band.sigma);

@@ -30,6 +30,17 @@ std::vector<OrientedPoint> over_square(const std::function<double(double x, doub
   return points;
 }
 
+/// None near to another, each with noise of its own.
+std::vector<OrientedPoint> on_grid(double sigma) {
+  test::RandomNumbers random(7);
+  std::vector<OrientedPoint> points;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d place(kSpacing * (i % 32), kSpacing * (i / 32), sigma * random.normal());
+    points.push_back({place, Vector3d::UnitZ()});
+  }
+  return points;
+}
+
 bool is_noise(const std::vector<OrientedPoint>& points, double sigma) {
   return is_noise_between_pairs(points, PointIndex(test::positions_of(points)), kSpacing, sigma);
 }
@@ -44,14 +55,15 @@ TEST(ClosePairs, ShowNoise) {
   }
 }
 
-/// Facets as wide as the points are apart, which lean four ways: as much unevenness as noise.
+/// Facets as wide as the points are apart, which lean four ways: as uneven as by noise, near points
+/// too.
 TEST(ClosePairs, ShowThatFacetsAreNoNoise) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const double sigma = 5e-3 * kSpacing;
     const auto facets = [&](double x, double y) {
       const double wave = 2.0 * kSpacing;
       const auto zigzag = [&](double at) { return std::abs(at / wave - std::round(at / wave)); };
-      return 5.0 * sigma * (zigzag(x) + zigzag(y));
+      return 20.0 * sigma * (zigzag(x) + zigzag(y));
     };
     EXPECT_FALSE(is_noise(over_square(facets, seed), sigma)) << seed;
   }
@@ -65,27 +77,25 @@ TEST(ClosePairs, ThatScatterFarLessThanTheNoiseInQuestionAreNotOfIt) {
 
 /// What copies differ by is no noise of theirs.
 TEST(ClosePairs, OfCopiesTellNothing) {
-  test::RandomNumbers random(7);
+  test::RandomNumbers random(8);
   const double sigma = 5e-3 * kSpacing;
-  std::vector<OrientedPoint> points;
-  for (int i = 0; i < 1000; ++i) {
-    const Vector3d place(kSpacing * (i % 32), kSpacing * (i / 32), sigma * random.normal());
-    points.push_back({place, Vector3d::UnitZ()});
-    const Vector3d rounding(1e-6 * kSpacing, 0.0, sigma * random.normal());
-    points.push_back({place + rounding, Vector3d::UnitZ()});
+  auto points = on_grid(sigma);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    const Vector3d off(kSpacing * random.uniform(0.0, 0.01), 0.0, 1e-3 * sigma * random.normal());
+    points.push_back({points[i].position + off, Vector3d::UnitZ()});
   }
-  EXPECT_FALSE(is_noise(points, sigma));
+  EXPECT_FALSE(is_noise(points, 1e-3 * sigma));
 }
 
-/// Pairs all along one body, whose slopes change from end to end and distances hardly do.
+/// Pairs along a body that is steep at one end, all equally far apart.
 TEST(ClosePairs, OfOneDistanceTellNothing) {
-  std::vector<OrientedPoint> points;
   const double sigma = 5e-3 * kSpacing;
+  std::vector<OrientedPoint> points;
   for (int i = 0; i < 1000; ++i) {
     const Vector3d place(0.0, kSpacing * i, 0.0);
-    points.push_back({place, Vector3d::UnitZ()});
-    points.push_back(
-        {place + Vector3d(0.125 * kSpacing, 0.0, 0.004 * sigma * i), Vector3d::UnitZ()});
+    const Vector3d normal = Vector3d(0.2 - 1e-4 * i, 0.0, 1.0).normalized();
+    points.push_back({place, normal});
+    points.push_back({place + Vector3d(0.125 * kSpacing, 0.0, 0.0), normal});
   }
   EXPECT_FALSE(is_noise(points, sigma));
 }
@@ -99,14 +109,8 @@ TEST(ClosePairs, TellTheSameInAnyOrder) {
 }
 
 TEST(ClosePairs, AreMissingWherePointsAreEven) {
-  test::RandomNumbers random(7);
   const double sigma = 5e-3 * kSpacing;
-  std::vector<OrientedPoint> points;
-  for (int i = 0; i < 1000; ++i) {
-    const Vector3d place(kSpacing * (i % 32), kSpacing * (i / 32), sigma * random.normal());
-    points.push_back({place, Vector3d::UnitZ()});
-  }
-  EXPECT_FALSE(is_noise(points, sigma));
+  EXPECT_FALSE(is_noise(on_grid(sigma), sigma));
   EXPECT_FALSE(is_noise({}, sigma));
 }
 
