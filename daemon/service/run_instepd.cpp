@@ -20,6 +20,7 @@
 #include "config/settings_search.h"
 #include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/loop/caught.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/service/log.h"
 #include "daemon/service/station_service.h"
@@ -80,7 +81,7 @@ int serve(const std::filesystem::path& file, const Settings& settings) {
   auto service = StationService::create(
       settings, [file] { return read_settings(file); }, measure_capture);
   if (!service) return complain(service.error());
-  const auto left_cleanly = (*service)->run();
+  const auto left_cleanly = caught("the daemon", [&] { return (*service)->run(); });
   const int code = left_cleanly ? 0 : complain(left_cleanly.error());
   // A thread that hangs cannot be waited for, and what it uses must not be torn down under it. The
   // log has no buffer.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/go_on.h"
+#include "daemon/loop/caught.h"
 #include "daemon/loop/task_thread.h"
 
 namespace instep {
@@ -262,8 +263,10 @@ std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& 
       if (settings.one_at_a_time && !gathering->wait_for_turn(i, progress)) {
         return gathering->bring(i, cancelled());
       }
-      Result<Frames> frames = camera->start().and_then(
-          [&] { return take_frames(*camera, *tally, settings, gathering->cancelled, progress); });
+      Result<Frames> frames = caught("the capture", [&] {
+        return camera->start().and_then(
+            [&] { return take_frames(*camera, *tally, settings, gathering->cancelled, progress); });
+      });
       camera->stop();
       gathering->bring(i, std::move(frames));
     });
@@ -308,8 +311,10 @@ void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
     worker.thread->post([i, settings, zero_frames, look = worker.look, camera = worker.camera,
                          tally = worker.tally, id = worker.id()](TaskProgress& progress) {
       const Report tell = look->begin();
-      const auto outcome = camera->start().and_then(
-          [&] { return look_at(*camera, *tally, settings, zero_frames, progress); });
+      const auto outcome = caught("the look at it", [&] {
+        return camera->start().and_then(
+            [&] { return look_at(*camera, *tally, settings, zero_frames, progress); });
+      });
       camera->stop();
       outcome ? tell(i, {}) : tell(i, tl::make_unexpected(named_after_camera(id, outcome.error())));
     });

@@ -1,12 +1,11 @@
 #include "daemon/station/scan_session.h"
 
-#include <fmt/format.h>
 #include <malloc.h>
 
-#include <exception>
 #include <utility>
 
 #include "core/go_on.h"
+#include "daemon/loop/caught.h"
 
 namespace instep {
 namespace {
@@ -131,11 +130,6 @@ class ScanSession {
   double told_done_ = 0.0;
 };
 
-Error bug(const char* what) {
-  return {ErrorCode::kInternal, Remedy::kBug, fmt::format("the scan broke off: {}", what),
-          "scan again; if it happens again, report it"};
-}
-
 }  // namespace
 
 ScanOutcome run_scan(const ScanTools& tools, const std::atomic<bool>& cancelled,
@@ -143,11 +137,8 @@ ScanOutcome run_scan(const ScanTools& tools, const std::atomic<bool>& cancelled,
   ScanOutcome outcome;
   try {
     outcome = ScanSession(tools, cancelled, progress, listener).run();
-  } catch (const std::bad_alloc&) {
-    outcome.error = Error{ErrorCode::kInternal, Remedy::kRetry, "there is not enough memory",
-                          "close other programs, or lower capture.frames_per_camera"};
-  } catch (const std::exception& error) {
-    outcome.error = bug(error.what());
+  } catch (...) {
+    outcome.error = error_of_thrown("the scan");
   }
   // The frames of a scan are most of this process: they go back to the system at once.
   malloc_trim(0);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/warnings_of_poses.h"
+#include "daemon/loop/caught.h"
 
 namespace instep {
 namespace {
@@ -197,7 +198,7 @@ void Station::work_out_truth() {
   truth_ = promise->get_future().share();
   truth_thread_.post([promise, work = devices_.work_out_truth](TaskProgress&) {
     // A subject whose truth cannot be told is measured all the same.
-    promise->set_value(work().value_or(std::map<std::string, double>()));
+    promise->set_value(caught("the truth", work).value_or(std::map<std::string, double>()));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -15,7 +16,19 @@ namespace instep::test {
 /// A camera that does what its script says, one entry a call of next_frame(); then good frames.
 class ScriptedCamera : public DepthCamera {
  public:
-  enum class Step { kGood, kCorrupt, kShort, kStale, kEmpty, kZero, kLost, kTimeout, kGone, kHang };
+  enum class Step {
+    kGood,
+    kCorrupt,
+    kShort,
+    kStale,
+    kEmpty,
+    kZero,
+    kLost,
+    kTimeout,
+    kGone,
+    kHang,
+    kNoMemory,
+  };
 
   ScriptedCamera(const std::string& id, std::deque<Step> script) : script_(std::move(script)) {
     description_.geometry.id = id;
@@ -46,6 +59,7 @@ class ScriptedCamera : public DepthCamera {
       if (interrupted_) return fail(ErrorCode::kCancelled, "interrupted", "");
       return fail(ErrorCode::kTimeout, "no frame came", "");
     }
+    if (step == Step::kNoMemory) throw std::bad_alloc();
     if (step == Step::kGone) return fail(ErrorCode::kDeviceGone, "it left", "plug it in");
     return frame_of(step);
   }

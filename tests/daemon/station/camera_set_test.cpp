@@ -163,6 +163,16 @@ TEST(CameraSet, CountsWhatIsWrongWithTheFramesOfEachCamera) {
   EXPECT_EQ(right.error_flagged + right.short_of_pixels + right.stale + right.empty, 0U);
 }
 
+/// On the thread of its camera, where nobody caught it, it ended the daemon.
+TEST(CameraSet, SaysThatThereIsNotEnoughMemory) {
+  const auto set = cameras({Step::kGood, Step::kNoMemory, Step::kNoMemory}, {});
+  const auto frames = set->capture(settings(), go_on);
+  ASSERT_FALSE(frames);
+  EXPECT_THAT(frames.error().line(), testing::HasSubstr("not enough memory"));
+  EXPECT_THAT(frames.error().line(), testing::HasSubstr("frames_per_camera"));
+  EXPECT_TRUE(set->capture(settings(), go_on)) << "there is enough again";
+}
+
 TEST(CameraSet, GivesUpOnACameraThatSendsDamagedFramesOnly) {
   const auto set = cameras({}, std::deque<Step>(100, Step::kCorrupt));
   const auto frames = set->capture(settings(), go_on);
