@@ -95,6 +95,28 @@ double extent_of_most(const std::vector<Eigen::Vector3d>& positions) {
   return longest;
 }
 
+/// What stands in the same columns: none of it is negative, and only by chance of length 1.
+bool are_colours(const std::vector<Eigen::Vector3d>& guessed) {
+  constexpr double kOffOne = 0.02;  // of normals of two decimals
+  constexpr double kFew = 0.1;
+  const auto of_another_length = std::count_if(
+      guessed.begin(), guessed.end(),
+      [](const Eigen::Vector3d& normal) { return std::abs(normal.norm() - 1.0) > kOffOne; });
+  const bool any_negative =
+      std::any_of(guessed.begin(), guessed.end(),
+                  [](const Eigen::Vector3d& normal) { return normal.minCoeff() < 0.0; });
+  return !any_negative &&
+         static_cast<double>(of_another_length) > kFew * static_cast<double>(guessed.size());
+}
+
+void drop_colours(const RawCloud& raw, CloudFile& read) {
+  if (!raw.are_normals_guessed || !are_colours(read.cloud.normals)) return;
+  read.cloud.normals.clear();
+  read.notes.emplace_back(
+      "columns 4 to 6 look like colours and were not used: if they are normals, give the file a "
+      "heading, x y z nx ny nz");
+}
+
 /// Brings normals to unit length; drops them all, with a note, if one is none.
 void settle_normals(CloudFile& read) {
   for (auto& normal : read.cloud.normals) {
@@ -207,6 +229,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
     const double most = extent_of_most(read.cloud.positions) / scale;
     if (const auto doubt = doubt_of_size(*settled, *extent, most)) read.notes.push_back(*doubt);
   }
+  drop_colours(*raw, read);
   settle_normals(read);
   if (!read.cloud.has_normals())
     drop_errors_along_normals(read, "they lie along normals, which it lacks; give these too");

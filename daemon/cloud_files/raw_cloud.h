@@ -18,7 +18,8 @@ struct RawCloud {
   PointCloud cloud;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::string format;
-  std::size_t surplus_bytes = 0;  ///< after all that its header names, without blanks at the end
+  bool are_normals_guessed = false;  ///< from columns that nobody named
+  std::size_t surplus_bytes = 0;     ///< after all that its header names, without blanks at the end
 };
 
 /// More points or faces than these are refused.

@@ -105,11 +105,17 @@ class Columns {
     return true;
   }
 
+  /// Nobody named them.
+  bool are_guessed() const { return guessed_; }
+
   /// Of a line of so many numbers.
   Result<TextColumns> of(std::size_t words, const std::string& file, std::size_t number) {
     if (!columns_ && named_) columns_ = named_;
     if (!columns_ && remarked_ && remarked_->count == words) columns_ = remarked_;
-    if (!columns_) columns_ = usual_columns(words);
+    if (!columns_) {
+      columns_ = usual_columns(words);
+      guessed_ = true;
+    }
     if (!columns_) return bad_line(file, number, "is no point");
     if (columns_->count == words) return *columns_;
     return bad_line(file, number,
@@ -122,6 +128,7 @@ class Columns {
   std::optional<TextColumns> named_;
   std::optional<TextColumns> remarked_;
   bool heading_seen_ = false;
+  bool guessed_ = false;
 };
 
 /// How the commas of a file are meant: alike in all its lines that have commas or points.
@@ -185,6 +192,7 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
     }
     add_point(row, *own, raw.cloud);
   }
+  raw.are_normals_guessed = columns.are_guessed() && raw.cloud.has_normals();
   return raw;
 }
 

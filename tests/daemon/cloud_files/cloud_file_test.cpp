@@ -157,6 +157,25 @@ TEST_F(CloudFiles, ReadsBinaryPlyOfBothByteOrders) {
   }
 }
 
+/// A foot lost its ball girth by them.
+TEST_F(CloudFiles, ColoursAreNoNormals) {
+  for (const char* text :
+       {"0 0 0 200 150 130\n9 0 0 190 150 120\n", "0 0 0 .7 .5 .4\n9 0 0 0 0 0\n",
+        "# a comment\n0 0 0 255 255 255\n9 0 0 0 0 1\n"}) {
+    const auto file = read("c.xyz", text);
+    ASSERT_TRUE(file) << file.error().line();
+    EXPECT_FALSE(file->cloud.has_normals()) << text;
+    ASSERT_FALSE(file->notes.empty()) << text;
+    EXPECT_NE(file->notes.back().find("colours"), std::string::npos) << file->notes.back();
+  }
+  for (const char* text : {"0 0 0 .71 .71 0\n9 0 0 0 .6 .8\n", "0 0 0 0 0 -5\n9 0 0 0 3 0\n",
+                           "x y z nx ny nz\n0 0 0 2 2 2\n9 0 0 3 3 3\n"}) {
+    const auto file = read("n.xyz", text);
+    ASSERT_TRUE(file) << file.error().line();
+    EXPECT_TRUE(file->cloud.has_normals()) << text;
+  }
+}
+
 TEST_F(CloudFiles, ReadsTextWithAnySeparator) {
   for (const char* text : {"0 0 0\n10 0.5 0\n0 20.25 3\n-1 2 30",
                            "x,y,z\n0,0,0\r\n10,0.5,0\r\n0,20.25,3\r\n-1,2,30\r\n",
@@ -167,7 +186,7 @@ TEST_F(CloudFiles, ReadsTextWithAnySeparator) {
     ASSERT_TRUE(file) << file.error().line();
     EXPECT_EQ(file->cloud.positions, kPoints) << text;
   }
-  const auto normals = read("n.csv", "0,0,0,0,0,2\n10,0,0,0,1,0\n");
+  const auto normals = read("n.csv", "0,0,0,0,0,2\n10,0,0,0,-1,0\n");
   ASSERT_TRUE(normals);
   EXPECT_EQ(normals->cloud.normals[0], Vector3d::UnitZ());
 }
