@@ -75,12 +75,15 @@ Error of_two(const std::vector<Result<FootScan>>& found, const std::vector<Point
 }  // namespace
 
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
-                                         const AlignmentOptions& options) {
+                                         const AlignmentOptions& options, const GoOn& go_on) {
   AlignmentOptions each = options;
   each.is_one_foot = true;
   if (clouds.size() > 1) each.side.reset();
   std::vector<Result<FootScan>> found;
-  for (const auto& cloud : clouds) found.push_back(align_foot(cloud, each));
+  for (const auto& cloud : clouds) {
+    found.push_back(align_foot(cloud, each));
+    if (!go_on()) return cancelled();
+  }
   const auto failed =
       std::find_if(found.begin(), found.end(), [](const auto& foot) { return !foot; });
   if (failed != found.end()) {

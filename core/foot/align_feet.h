@@ -5,6 +5,7 @@
 #include "core/foot/alignment.h"
 #include "core/foot/foot_scan.h"
 #include "core/geometry/point_cloud.h"
+#include "core/go_on.h"
 #include "core/result.h"
 
 namespace instep {
@@ -20,6 +21,7 @@ namespace instep {
 /// side applies to a single foot only. Fails as align_foot() does, if it fails for one of them; of
 /// two the message says which.
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
-                                         const AlignmentOptions& options = {});
+                                         const AlignmentOptions& options = {},
+                                         const GoOn& go_on = always);
 
 }  // namespace instep

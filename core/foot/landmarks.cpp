@@ -1,6 +1,8 @@
 #include "core/foot/landmarks.h"
 
 #include <algorithm>
+#include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +41,17 @@ class Marking {
   const FootOutline& outline_;
   FootScan& foot_;
 };
+
+/// As long as `go_on` allows it, which is asked after each job; the jobs left over are not done.
+Workers while_wanted(const Workers& workers, const GoOn& go_on, std::atomic<bool>& wanted) {
+  return [&](std::size_t count, const std::function<void(std::size_t job)>& work) {
+    workers(count, [&](std::size_t job) {
+      if (!wanted) return;
+      work(job);
+      if (!go_on()) wanted = false;
+    });
+  };
+}
 
 void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landmark& fibulare,
                Marking& marking) {
@@ -106,12 +119,14 @@ Result<FootScan> find_landmarks(FootScan foot) {
   return find_landmarks_by(one_after_the_other, std::move(foot));
 }
 
-Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot) {
+Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot, const GoOn& go_on) {
   if (!foot.landmarks.contains("pternion") || !foot.landmarks.contains("acropodion")) {
     return fail(ErrorCode::kInvalidInput, "the foot has not been aligned", "align it first");
   }
   mark(foot);
-  foot.redraws = redraw_landmarks(foot, workers);
+  std::atomic<bool> wanted = true;
+  foot.redraws = redraw_landmarks(foot, while_wanted(workers, go_on, wanted));
+  if (!wanted) return cancelled();
   foot.redraws.of_other_side = landmarks_of_other_side(foot);
   if (foot.redraws.of_other_side) {
     foot.warnings.push_back(

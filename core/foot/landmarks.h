@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/foot/foot_scan.h"
+#include "core/go_on.h"
 #include "core/result.h"
 #include "core/workers.h"
 
@@ -55,8 +56,10 @@ namespace instep {
 /// align_foot(). O(n), most of it for the redraws; tests/bench/feet prints the time.
 Result<FootScan> find_landmarks(FootScan foot);
 
-/// The same, of which `workers` do the redraws; with any of them the landmarks are the same.
-Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot);
+/// The same, of which `workers` do the redraws, some milliseconds each; with any of them the
+/// landmarks are the same.
+Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot,
+                                   const GoOn& go_on = always);
 
 /// The rules alone, without redraws and radii.
 void mark(FootScan& foot);

@@ -355,11 +355,17 @@ void keep(MeasureSet& set, const FootScan& foot, const std::string& id, bool is_
 
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options,
                                 const GoOn& go_on) {
-  for (const char* name : {"pternion", "acropodion", "instep_point"}) {
+  for (const char* name : {"pternion", "acropodion"}) {
     if (!foot.landmarks.contains(name)) {
       return fail(ErrorCode::kInvalidInput, std::string("the foot has no landmark ") + name,
-                  "align it and find its landmarks first, and scan again if one is missing");
+                  "align it and find its landmarks first");
     }
+  }
+  if (!foot.landmarks.contains("instep_point")) {
+    return fail(
+        ErrorCode::kInsufficientData, "the back of the foot was not seen at half its length",
+        "scan again with the whole foot in view, and see that no camera is missing, covered "
+        "or turned away");
   }
   MeasureSet set;
   const bool is_last = is_shoe_last(foot);

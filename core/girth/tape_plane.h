@@ -16,8 +16,8 @@ namespace instep {
 class TapePlane {
  public:
   /// Fails with kInvalidInput if a coordinate is not finite or exceeds kLargestCoordinateMm, or if
-  /// the points are nearer to a line than a hundred-thousandth of their spread (no plane is meant
-  /// by such points).
+  /// the point nearest to the line through the two others is nearer than a hundredth of the longest
+  /// distance between two: it hardly tells how the plane is turned round that line.
   static Result<TapePlane> through(const Eigen::Vector3d& c1, const Eigen::Vector3d& c2,
                                    const Eigen::Vector3d& c3);
 

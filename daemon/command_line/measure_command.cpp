@@ -78,7 +78,8 @@ Result<void> run(const MeasureCommand& command) {
   MeasureOptions measuring;
   measuring.workers = on_all_processors;
   auto measures = measure_foot(*foot, measuring);
-  if (!measures) return tl::make_unexpected(measures.error());
+  if (!measures)
+    return tl::make_unexpected(with_what_was_noticed(measures.error(), foot->warnings));
 
   ScanRecord record;
   record.foot = std::move(*foot);

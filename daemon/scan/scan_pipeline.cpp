@@ -167,7 +167,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   };
 
   if (!clock.begin("align", 0.6)) return cancelled();
-  auto feet = align_feet(scene->feet, alignment_of(*scene, settings));
+  auto feet = align_feet(scene->feet, alignment_of(*scene, settings), go_on);
   if (!feet) return noticed(of_scan(feet.error()));
 
   std::vector<ScanRecord> records;
@@ -175,14 +175,14 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
     const auto& own = scene->foot_warnings.at(aligned.cloud_number);
     aligned.warnings.insert(aligned.warnings.begin(), own.begin(), own.end());
     if (!clock.begin("landmarks", 0.7)) return cancelled();
-    auto foot = find_landmarks_by(on_all_processors, std::move(aligned));
+    auto foot = find_landmarks_by(on_all_processors, std::move(aligned), go_on);
     if (!foot) return noticed(foot.error());
 
     if (!clock.begin("girths", 0.7)) return cancelled();
     MeasureOptions options;
     options.workers = on_all_processors;
     auto measures = measure_foot(*foot, options, go_on);
-    if (!measures) return tl::make_unexpected(measures.error());
+    if (!measures) return noticed(measures.error());
     records.push_back(record_of(capture, settings, std::move(*foot), std::move(*measures)));
   }
   clock.end();

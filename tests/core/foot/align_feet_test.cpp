@@ -140,5 +140,14 @@ TEST(AlignFeet, SaysOfTwoThatBothFail) {
   EXPECT_NE(both.find("points"), std::string::npos);
 }
 
+TEST(AlignFeet, EndsAfterTheFootAtWhichItIsNoLongerWanted) {
+  int asked = 0;
+  const auto cloud = test::FootBody{}.points();
+  const auto ended = align_feet({cloud, cloud}, {}, [&] { return ++asked < 1; });
+  ASSERT_FALSE(ended);
+  EXPECT_EQ(ended.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(asked, 1);
+}
+
 }  // namespace
 }  // namespace instep

@@ -39,7 +39,8 @@ TEST(TapePlane, RefusesPointsNearlyOnALine) {
     EXPECT_FALSE(TapePlane::through({0, 0, 0}, {50, 0, 0}, {25, beside, 0})) << beside;
     EXPECT_FALSE(TapePlane::through({0, 0, 0}, {25, beside, 0}, {50, 0, 0})) << beside;
   }
-  EXPECT_TRUE(TapePlane::through({0, 0, 0}, {50, 0, 0}, {25, 1, 0}));
+  EXPECT_FALSE(TapePlane::through({0, 0, 0}, {50, 0, 0}, {25, 0.499, 0}));
+  EXPECT_TRUE(TapePlane::through({0, 0, 0}, {50, 0, 0}, {25, 0.501, 0}));
 }
 
 TEST(TapePlane, RefusesEqualPoints) {
