@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/median.h"
-#include "core/stride.h"
+#include "core/surface/asked_places.h"
 #include "core/surface/local_log_mean.h"
 #include "core/surface/neighbourhood.h"
 #include "core/surface/tangent_view.h"
@@ -14,7 +14,6 @@
 namespace instep {
 namespace {
 
-constexpr std::size_t kNeighbourhoods = 24;
 /// Every third of them is asked first: if all of those are of exact points, the others are too.
 constexpr std::array<std::size_t, 3> kTurns = {1, 0, 2};
 /// What is told of the points is too little where so small a share of the neighbourhoods shows less
@@ -28,21 +27,14 @@ constexpr double kPlainlyMore = 1.25;
 /// not believed in places without this, nearly all of 800 points, and 2 with it.
 constexpr double kTooWideToAccuse = 0.2;
 constexpr std::size_t kFewestOutvoted = 4;
-constexpr double kPlainlyWider = 2.0;
+constexpr double kPlainlyWider = 1.5;
 constexpr double kLeastRoughness = 1e-12;
 constexpr double kLeastVariance = 1e-24;
-
-/// The places that are asked, if all are.
-std::vector<std::size_t> chosen_of(const std::vector<std::size_t>& places) {
-  const std::size_t stride = stride_to_at_least(kNeighbourhoods, places.size());
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = stride / 2; i < places.size(); i += stride) chosen.push_back(places[i]);
-  return chosen;
-}
 
 /// A place, and what the points round it show.
 struct Asked {
   Eigen::Vector3d place;
+  bool between;          ///< AskedPlace::between
   double told_variance;  ///< of the noise of those points, on average; 0 where none is told
   Neighbourhood shown;
 };
@@ -58,19 +50,19 @@ double told_variance_in(const TangentView& view, const std::vector<double>& told
 /// Of some of the places, in their order.
 std::vector<Asked> asked_of(const PointIndex& index, const std::vector<std::size_t>& places,
                             const std::vector<double>& told) {
-  const auto chosen = chosen_of(places);
+  const auto chosen = asked_places(index, places);
   std::vector<std::optional<Asked>> looked(chosen.size());
   bool found = false;
   bool exact = true;
   for (const std::size_t turn : kTurns) {
     for (std::size_t i = turn; i < looked.size(); i += kTurns.size()) {
-      const auto& place = index.points()[chosen[i]];
+      const auto& place = index.points()[chosen[i].point];
       const TangentView view = flattest_view(index, place);
       auto shown = neighbourhood_of(view);
       if (!shown) continue;
       found = true;
       exact = exact && shown->is_exact();
-      looked[i] = Asked{place, told_variance_in(view, told), std::move(*shown)};
+      looked[i] = Asked{place, chosen[i].between, told_variance_in(view, told), std::move(*shown)};
     }
     if (found && exact) break;
   }
@@ -79,6 +71,16 @@ std::vector<Asked> asked_of(const PointIndex& index, const std::vector<std::size
     if (one) asked.push_back(std::move(*one));
   }
   return asked;
+}
+
+/// Of `values`, one of each, those that tell what is usual: of the even places, unless none of them
+/// could be looked at.
+std::vector<double> even_among(const std::vector<double>& values, const std::vector<Asked>& asked) {
+  std::vector<double> even;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!asked[i].between) even.push_back(values[i]);
+  }
+  return even.empty() ? values : even;
 }
 
 /// By what to raise what is told, from how many times as much each neighbourhood shows.
@@ -238,18 +240,18 @@ NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::siz
   const auto asked = asked_of(index, places, told);
   std::vector<double> variances;
   std::vector<double> excesses;
-  for (const auto& [place, told_variance, shown] : asked) {
-    variances.push_back(shown.variance);
-    if (!told.empty()) excesses.push_back(std::sqrt(shown.variance / told_variance));
+  for (const auto& one : asked) {
+    variances.push_back(one.shown.variance);
+    if (!told.empty()) excesses.push_back(std::sqrt(one.shown.variance / one.told_variance));
   }
   NoiseEstimate estimate;
-  estimate.told_scale = scale_of_told(excesses);
+  estimate.told_scale = scale_of_told(even_among(excesses, asked));
   if (!told.empty()) estimate.sigma = estimate.told_scale * median(told);
   if (asked.empty()) return estimate;
-  estimate.shown = std::sqrt(median(std::move(variances)));
+  estimate.shown = std::sqrt(median(even_among(variances, asked)));
   if (told.empty()) estimate.sigma = estimate.shown;
   auto [noise, roughness] = set_noise(index, places, asked, told, estimate);
-  const double usual = std::max(median(std::move(roughness)), 1e-300);
+  const double usual = std::max(median(even_among(roughness, asked)), 1e-300);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     estimate.roughness.push_back(
         {asked[i].place, asked[i].shown.likely_roughness(noise[i], usual)});
@@ -259,10 +261,10 @@ NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::siz
 
 std::optional<NoiseEstimate> estimate_if_exact(const PointIndex& index,
                                                const std::vector<std::size_t>& places) {
-  const auto chosen = chosen_of(places);
+  const auto chosen = asked_places(index, places);
   NoiseEstimate estimate;
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const auto& place = index.points()[chosen[i]];
+    const auto& place = index.points()[chosen[i].point];
     if (i % kTurns.size() == kTurns.front()) {
       const auto roughness = roughness_if_exact(index, place);
       if (!roughness) return std::nullopt;

@@ -31,14 +31,14 @@ struct NoiseEstimate {
   std::vector<LocalRoughness> roughness;
 };
 
-/// Estimates both from the neighbourhoods of some of the points (`places`, some 24 to 47 of them
-/// are used, or every third of those where these are all of exact points), each taken as
-/// heights over its own tangent plane: restricted maximum likelihood with the kernel r^3, which
-/// tells white noise from wandering shape by its scale. The noise is the middle one over the
-/// neighbourhoods, so that creases and a few stray ones do not count. Where they plainly contradict
-/// one noise for all (uneven_noise()), each has its own, and the one to use for all is their root
-/// mean square; so where a dense part that is exact has most of the points. That needs `places` in
-/// the order in which they lie round the body.
+/// Estimates both from the neighbourhoods of some of the points (asked_places() of `places`, or
+/// every third of those where these are all of exact points), each taken as heights over its own
+/// tangent plane: restricted maximum likelihood with the kernel r^3, which tells white noise from
+/// wandering shape by its scale. The noise is the middle one over the neighbourhoods, so that
+/// creases and a few stray ones do not count. Where they plainly contradict one noise for all
+/// (uneven_noise()), each has its own, and the one to use for all is their root mean square; so
+/// where an exact part that was seen from near has most of them. That needs `places` in the order
+/// in which they lie round the body.
 ///
 /// Of a crowd that is exact as a rule a single neighbourhood can tell that its points are not; more
 /// of them are asked then (scattered_places()).

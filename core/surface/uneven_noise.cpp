@@ -30,6 +30,8 @@ constexpr double kTexture = 2e-4;
 constexpr double kOutOfTexture = 3.0;
 /// Standard deviation of the logarithm of the noise over a body, where it is uneven.
 constexpr double kSpread = 0.7;
+/// Of logarithms: half as much again.
+constexpr double kPlainStep = 0.4;
 /// No place scatters so many times as much as usual, or as little: a zero is a guess.
 constexpr double kMostTimes = 10.0;
 
@@ -76,12 +78,24 @@ double drawn_to_expected(double ratio, double contradiction) {
   return prior > 0.0 ? ratio * prior / (prior + ratio * ratio) : 0.0;
 }
 
+/// Where a noise ends between two places is not known: too little noise there leaves it in the
+/// surface, too much smooths what is smooth already. So the larger one reaches over a plain step.
+std::vector<double> reaching_over_steps(const std::vector<double>& ratios) {
+  const std::size_t count = ratios.size();
+  std::vector<double> reaching;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double beside = std::max(ratios[(i + 1) % count], ratios[(i + count - 1) % count]);
+    reaching.push_back(beside > ratios[i] + kPlainStep ? beside : ratios[i]);
+  }
+  return reaching;
+}
+
 std::vector<LocalNoise> noise_of_each(const std::vector<NoiseWitness>& witnesses) {
   std::vector<double> ratios;
   for (const auto& witness : witnesses) {
     ratios.push_back(drawn_to_expected(log_ratio(witness), witness.contradiction));
   }
-  ratios = middles(ratios);
+  ratios = reaching_over_steps(middles(ratios));
   std::vector<LocalNoise> known;
   for (std::size_t i = 0; i < witnesses.size(); ++i) {
     known.push_back({witnesses[i].place, std::exp(ratios[i])});
