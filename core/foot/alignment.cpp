@@ -10,6 +10,7 @@
 #include "core/foot/normals_of_shape.h"
 #include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
+#include "core/foot/seen_floor.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/side_from_shape.h"
 #include "core/foot/standing_body.h"
@@ -221,44 +222,67 @@ StandingPlane floor_again(const FootScan& foot) {
   return sole;
 }
 
+void warn_of(const StandingBody& body, std::vector<std::string>& warnings) {
+  if (body.parts > 1) {
+    warnings.push_back(
+        "the foot comes in " + std::to_string(body.parts) +
+        " parts: no camera saw what joins them, and what lies between is guessed; turn one to it");
+  }
+  if (body.next_share > kLargePieceShare) {
+    warnings.push_back("the cloud holds more than one body: the largest is measured, " +
+                       std::to_string(std::lround(100.0 * body.apart_share)) +
+                       " % of the points are left out");
+  }
+}
+
+/// Leaves out a floor that nobody told of, near to the plane that was found under all points; from
+/// then on it is known. False if none was seen.
+bool take_off_floor(const StandingPlane& plane, PointCloud& cloud, AlignmentOptions& options) {
+  if (options.standing_plane || options.up) return false;
+  const auto floor = seen_floor(cloud.positions, plane);
+  if (!floor) return false;
+  options.standing_plane = floor->plane;
+  cloud = cloud.subset(floor->above);
+  return true;
+}
+
 }  // namespace
 
-Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options) {
+Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& told) {
   if (auto checked = check_cloud(cloud); !checked) return tl::unexpected(checked.error());
-  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_options(told); !checked) return tl::unexpected(checked.error());
   FootScan foot;
   // Files of triangles name a corner once for each face.
   foot.cloud = cloud.subset(distinct_points(cloud));
-  if (foot.cloud.size() < kFewestPoints) {
-    return too_few(foot.cloud.size());
-  }
+  if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
+  AlignmentOptions options = told;
+  auto plane = standing_plane(foot.cloud, options);
+  const bool is_floor_seen = plane && take_off_floor(*plane, foot.cloud, options);
+  if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const StandingBody body = standing_body(foot.cloud.positions, options.is_one_foot);
   if (auto checked = check_beside(body); !checked) return tl::unexpected(checked.error());
+  const bool is_plane_of_body = !is_floor_seen && body.points.size() == foot.cloud.size();
   foot.cloud = foot.cloud.subset(body.points);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const bool drops_normals = normals_contradict_shape(foot.cloud);
   if (drops_normals) foot.cloud.drop_normals();
-  const auto plane = standing_plane(foot.cloud, options);
+  if (!is_plane_of_body) plane = standing_plane(foot.cloud, options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
   if (may_be_last && !options.standing_plane && !options.up)
     found = as_last(foot, options, std::move(found));
-  if (found && body.parts > 1) {
-    found->warnings.push_back(
-        "the foot comes in " + std::to_string(body.parts) +
-        " parts: no camera saw what joins them, and what lies between is guessed; turn one to it");
+  if (!found) return found;
+  if (is_floor_seen) {
+    found->warnings.emplace_back(
+        "the floor round the foot was left out; heights are taken over it");
   }
-  if (found && body.next_share > kLargePieceShare) {
-    found->warnings.push_back("the cloud holds more than one body: the largest is measured, " +
-                              std::to_string(std::lround(100.0 * body.apart_share)) +
-                              " % of the points are left out");
-  }
-  if (found && drops_normals) {
+  warn_of(body, found->warnings);
+  if (drops_normals) {
     found->warnings.emplace_back(
         "the normals that came with the points contradict the shape or point inwards, and were not "
         "used: have them made anew, or leave them out of the file");
   }
-  if (found && body.gap_beside_mm > 0.0) found->warnings.push_back(beside(body));
+  if (body.gap_beside_mm > 0.0) found->warnings.push_back(beside(body));
   return found;
 }
 

@@ -85,7 +85,7 @@ TEST(Landmarks, TellOfEachRedrawAndEndWhenTheyAreNoLongerWanted) {
   const auto foot = align_foot(FootBody{}.points()).value();
   int told = 0;
   ASSERT_TRUE(find_landmarks_by(one_after_the_other, foot, [&] { return ++told > 0; }));
-  EXPECT_GT(told, 10);
+  EXPECT_GE(told, 10);
   int asked = 0;
   const auto ended = find_landmarks_by(one_after_the_other, foot, [&] { return ++asked < 3; });
   ASSERT_FALSE(ended);
