@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <libevdev/libevdev.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <system_error>
+#include <utility>
 #include <vector>
+
+#include "drivers/files/folder_entries.h"
 
 namespace instep {
 namespace {
@@ -39,16 +41,11 @@ Error not_opened(int error_number, const fs::path& node) {
 
 /// None where there is no such folder, as on a machine without any input device.
 Result<std::vector<fs::path>> nodes_in(const fs::path& folder) {
-  std::vector<fs::path> nodes;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    if (entry.path().filename().native().starts_with("event")) nodes.push_back(entry.path());
+  FolderEntries nodes = entries_of(folder, "event");
+  if (nodes.failure && nodes.failure != std::errc::no_such_file_or_directory) {
+    return tl::make_unexpected(not_opened(nodes.failure.value(), folder));
   }
-  if (failed && failed != std::errc::no_such_file_or_directory) {
-    return tl::make_unexpected(not_opened(failed.value(), folder));
-  }
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
+  return std::move(nodes.paths);
 }
 
 std::optional<int> hexadecimal(std::string_view text) {

@@ -2,9 +2,9 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <system_error>
 
+#include "drivers/files/folder_entries.h"
 #include "drivers/usb/sysfs.h"
 
 namespace instep {
@@ -17,13 +17,9 @@ constexpr const char* kUsb = "0003";
 
 /// The name in by-id whose link leads to `node`.
 std::string name_by_id(const fs::path& dev, const std::string& node) {
-  std::error_code unreadable;
-  for (auto link = fs::directory_iterator(dev / "input/by-id", unreadable);
-       !unreadable && link != fs::end(link); link.increment(unreadable)) {
+  for (const auto& link : entries_of(dev / "input/by-id").paths) {
     std::error_code broken;
-    if (fs::read_symlink(link->path(), broken).filename() == node) {
-      return link->path().filename().string();
-    }
+    if (fs::read_symlink(link, broken).filename() == node) return link.filename().string();
   }
   return {};
 }
@@ -38,15 +34,10 @@ bool has_keys(const fs::path& device) {
 
 std::vector<InputNode> list_input_nodes(const fs::path& sysfs, const fs::path& dev) {
   std::vector<InputNode> nodes;
-  std::error_code unreadable;
-  for (auto entry = fs::directory_iterator(sysfs / "class/input", unreadable);
-       !unreadable && entry != fs::end(entry); entry.increment(unreadable)) {
-    const std::string name = entry->path().filename().string();
-    const fs::path device = entry->path() / "device";
-    if (!name.starts_with("event") || sysfs_line(device / "id/bustype") != kUsb ||
-        !has_keys(device)) {
-      continue;
-    }
+  for (const auto& folder : entries_of(sysfs / "class/input", "event").paths) {
+    const std::string name = folder.filename().string();
+    const fs::path device = folder / "device";
+    if (sysfs_line(device / "id/bustype") != kUsb || !has_keys(device)) continue;
     InputNode node;
     node.path = dev / "input" / name;
     node.name = sysfs_line(device / "name");
@@ -55,8 +46,6 @@ std::vector<InputNode> list_input_nodes(const fs::path& sysfs, const fs::path& d
     node.may_read = ::access(node.path.c_str(), R_OK) == 0;
     nodes.push_back(std::move(node));
   }
-  std::sort(nodes.begin(), nodes.end(),
-            [](const auto& a, const auto& b) { return a.path < b.path; });
   return nodes;
 }
 

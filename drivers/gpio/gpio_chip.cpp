@@ -2,8 +2,7 @@
 
 #include <gpiod.h>
 
-#include <algorithm>
-#include <system_error>
+#include "drivers/files/folder_entries.h"
 
 namespace instep {
 
@@ -18,14 +17,7 @@ GpioChipHandle open_gpio_chip(const fs::path& node) {
 }
 
 std::vector<fs::path> gpio_chip_nodes(const fs::path& devices) {
-  std::vector<fs::path> nodes;
-  std::error_code unreadable;
-  for (auto entry = fs::directory_iterator(devices, unreadable);
-       !unreadable && entry != fs::end(entry); entry.increment(unreadable)) {
-    if (entry->path().filename().native().starts_with("gpiochip")) nodes.push_back(entry->path());
-  }
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
+  return entries_of(devices, "gpiochip").paths;
 }
 
 std::string text_or_empty(const char* text) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <string>
-#include <system_error>
 
+#include "drivers/files/folder_entries.h"
 #include "drivers/usb/sysfs.h"
 
 namespace instep {
@@ -22,10 +22,7 @@ std::string three_digits(const std::string& number) {
 
 std::vector<PluggedUsbDevice> list_usb_devices(const fs::path& sysfs, const fs::path& dev) {
   std::vector<PluggedUsbDevice> devices;
-  std::error_code unreadable;
-  for (auto entry = fs::directory_iterator(sysfs / "bus/usb/devices", unreadable);
-       !unreadable && entry != fs::end(entry); entry.increment(unreadable)) {
-    const fs::path& folder = entry->path();
+  for (const auto& folder : entries_of(sysfs / "bus/usb/devices").paths) {
     // Interfaces stand here too, as 1-2:1.0.
     if (folder.filename().native().find(':') != std::string::npos) continue;
     if (sysfs_line(folder / "bDeviceClass") == kHub) continue;

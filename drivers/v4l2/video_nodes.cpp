@@ -6,6 +6,7 @@
 #include <charconv>
 #include <set>
 
+#include "drivers/files/folder_entries.h"
 #include "drivers/usb/sysfs.h"
 
 namespace instep {
@@ -44,16 +45,13 @@ std::string list_devices(const std::vector<VideoNode>& nodes) {
 
 std::vector<VideoNode> list_video_nodes(const DeviceFolders& folders) {
   std::vector<std::pair<int, VideoNode>> found;
-  std::error_code absent;
-  const fs::path nodes = folders.sysfs / "class/video4linux";
-  for (auto entry = fs::directory_iterator(nodes, absent); !absent && entry != fs::end(entry);
-       entry.increment(absent)) {
-    const std::string name = entry->path().filename().string();
+  for (const auto& folder : entries_of(folders.sysfs / "class/video4linux").paths) {
+    const std::string name = folder.filename().string();
     const auto number = number_of(name);
-    const auto device = number ? read_usb_device(entry->path() / "device") : std::nullopt;
+    const auto device = number ? read_usb_device(folder / "device") : std::nullopt;
     if (!device) continue;
     found.emplace_back(*number,
-                       VideoNode{folders.dev / name, sysfs_line(entry->path() / "name"), *device});
+                       VideoNode{folders.dev / name, sysfs_line(folder / "name"), *device});
   }
   std::sort(found.begin(), found.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });

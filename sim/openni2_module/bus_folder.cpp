@@ -2,7 +2,8 @@
 
 #include <fstream>
 #include <sstream>
-#include <system_error>
+
+#include "drivers/files/folder_entries.h"
 
 namespace instep {
 namespace {
@@ -38,11 +39,10 @@ bool is_whole(const BusDevice& device) {
 
 std::map<std::string, BusDevice> read_bus(const std::filesystem::path& folder) {
   std::map<std::string, BusDevice> devices;
-  std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
-    if (entry.path().extension() != ".device") continue;
-    BusDevice device = read_device(entry.path());
-    if (is_whole(device)) devices.emplace(entry.path().filename().string(), std::move(device));
+  for (const auto& file : entries_of(folder).paths) {
+    if (file.extension() != ".device") continue;
+    BusDevice device = read_device(file);
+    if (is_whole(device)) devices.emplace(file.filename().string(), std::move(device));
   }
   return devices;
 }
