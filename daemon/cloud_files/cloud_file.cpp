@@ -46,7 +46,8 @@ Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::
   const std::string file = path.string();
   const std::string extension = lower_extension(path);
   const std::string_view start = bytes.substr(0, 4096);
-  if (start.substr(0, 3) == "ply" && start.size() > 3 && std::isspace(start[3]) != 0) {
+  if (start.substr(0, 3) == "ply" && start.size() > 3 &&
+      std::isspace(static_cast<unsigned char>(start[3])) != 0) {
     return read_ply(bytes, file);
   }
   if (extension == ".ply") {

@@ -36,9 +36,11 @@ struct PcdHeader {
   std::size_t size_bytes = 0;
 };
 
+/// Of a line that is too long one more than it may have, so that it is not taken for a shorter one.
 std::vector<std::string_view> words_of(std::string_view line) {
+  constexpr std::size_t kMostWords = 1 + kMostFields + 1;  // the key, the fields, one too many
   std::vector<std::string_view> words;
-  for (auto word = take_word(line); !word.empty() && words.size() <= kMostFields;
+  for (auto word = take_word(line); !word.empty() && words.size() < kMostWords;
        word = take_word(line)) {
     words.push_back(word);
   }

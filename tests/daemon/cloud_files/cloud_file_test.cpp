@@ -211,6 +211,29 @@ TEST_F(CloudFiles, ReadsPcd) {
   expect_fault("d.pcd", bytes.substr(0, bytes.size() - 1), ErrorCode::kCorruptData, "short");
 }
 
+/// Of two points, with nothing but zeros beside x, y and z.
+std::string pcd_of_fields(std::size_t fields) {
+  std::string names = "FIELDS x y z";
+  std::string sizes = "SIZE";
+  std::string types = "TYPE";
+  for (std::size_t i = 0; i < fields; ++i) {
+    if (i >= 3) names += " f" + std::to_string(i);
+    sizes += " 4";
+    types += " F";
+  }
+  return "# .PCD v0.7\n" + names + "\n" + sizes + "\n" + types +
+         "\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA binary\n" + std::string(4 * fields, '\0') +
+         raw(10.0F) + std::string(4 * (fields - 1), '\0');
+}
+
+// Read as one of fewer fields it gave a wrong place to each point but the first.
+TEST_F(CloudFiles, RefusesPcdOfMoreFieldsThanItKnows) {
+  const auto file = read("most.pcd", pcd_of_fields(256));
+  EXPECT_TRUE(file) << file.error().line();
+  expect_fault("more.pcd", pcd_of_fields(257), ErrorCode::kCorruptData, "makes no sense");
+  expect_fault("many.pcd", pcd_of_fields(1000), ErrorCode::kCorruptData, "makes no sense");
+}
+
 TEST_F(CloudFiles, SettlesTheUnit) {
   const std::string foot = "0 0 0\n0.25 0 0\n0.1 0.1 0.05\n";
   const auto metres = read("foot.xyz", foot, LengthUnit::kMetre);
