@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <system_error>
 
 #include "drivers/files/descriptor.h"
@@ -23,6 +25,31 @@ constexpr const char* kSearchPath = "LD_LIBRARY_PATH";
 std::string searched_first(const std::filesystem::path& folder) {
   const char* others = std::getenv(kSearchPath);
   return others == nullptr ? folder.string() : folder.string() + ":" + others;
+}
+
+/// Until its writers have closed it.
+Result<std::string> read_list(const Descriptor& from, steady_clock::time_point deadline) {
+  constexpr std::size_t kLongestList = 1024 * 1024;
+  std::string text;
+  while (true) {
+    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
+    pollfd waited{from.number(), POLLIN, 0};
+    const int ready = left.count() <= 0 ? 0 : ::poll(&waited, 1, static_cast<int>(left.count()));
+    if (ready == 0) {
+      return fail(ErrorCode::kTimeout, "OpenNI2 did not list its sensors in time",
+                  "unplug the sensors, plug them in one by one and look which one hangs");
+    }
+    if (ready < 0) {  // to read all the same could wait for ever
+      if (errno == EINTR) continue;
+      return fail(ErrorCode::kIo, Remedy::kRetry,
+                  std::string("waiting for instep-openni failed: ") + std::strerror(errno),
+                  "check the limits on open files and memory");
+    }
+    std::array<char, 4096> block;
+    const ssize_t got = ::read(from.number(), block.data(), block.size());
+    if (got <= 0 || text.size() > kLongestList) return text;
+    text.append(block.data(), static_cast<std::size_t>(got));
+  }
 }
 
 }  // namespace
@@ -44,7 +71,6 @@ Result<ChildProgram> OpenniProgram::with(std::vector<std::string> arguments) con
 
 Result<std::vector<OpenniDevice>> list_openni_devices(const OpenniProgram& program,
                                                       milliseconds limit) {
-  constexpr std::size_t kLongestList = 1024 * 1024;
   const auto deadline = steady_clock::now() + limit;
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -60,20 +86,9 @@ Result<std::vector<OpenniDevice>> list_openni_devices(const OpenniProgram& progr
   if (!process) return tl::make_unexpected(process.error());
   to.close();
 
-  std::string text;
-  while (true) {
-    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
-    pollfd waited{from.number(), POLLIN, 0};
-    if (left.count() <= 0 || ::poll(&waited, 1, static_cast<int>(left.count())) == 0) {
-      return fail(ErrorCode::kTimeout, "OpenNI2 did not list its sensors in time",
-                  "unplug the sensors, plug them in one by one and look which one hangs");
-    }
-    std::array<char, 4096> block;
-    const ssize_t got = ::read(from.number(), block.data(), block.size());
-    if (got <= 0 || text.size() > kLongestList) break;
-    text.append(block.data(), static_cast<std::size_t>(got));
-  }
-  if (!text.empty()) return parse_device_list(text);
+  const auto text = read_list(from, deadline);
+  if (!text) return tl::make_unexpected(text.error());
+  if (!text->empty()) return parse_device_list(*text);
   const auto end = process->wait(milliseconds(500));
   return fail(ErrorCode::kDeviceGone, Remedy::kRetry,
               "instep-openni " + end.value_or("closed its output"),

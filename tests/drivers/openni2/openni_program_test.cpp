@@ -1,7 +1,13 @@
+#include "drivers/openni2/openni_program.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "tests/support/run_program.h"
+#include "tests/support/signal_rain.h"
+#include "tests/support/temporary_folder.h"
 
 namespace instep {
 namespace {
@@ -22,6 +28,18 @@ TEST(OpenniProgram, SaysWhyItCannotCaptureForWhoIsNotInstepd) {
   const auto run = test::run_program("instep-openni", {"--capture", "--size", "640x480"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.errors, HasSubstr("the shared memory is not that of a frame ring"));
+}
+
+// A signal led past the limit, into reading what nobody writes.
+TEST(OpenniProgram, ListsNoLongerThanItsLimitHoweverManySignalsCome) {
+  const test::TemporaryFolder folder;
+  const auto silent = folder.path() / "silent";
+  std::ofstream(silent) << "#!/bin/sh\nexec sleep 2\n";
+  std::filesystem::permissions(silent, std::filesystem::perms::owner_all);
+  const test::SignalRain rain;
+  const auto list = list_openni_devices({silent, {}}, std::chrono::milliseconds(200));
+  ASSERT_FALSE(list);
+  EXPECT_EQ(list.error().code, ErrorCode::kTimeout) << list.error().line();
 }
 
 }  // namespace
