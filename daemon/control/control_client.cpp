@@ -27,6 +27,39 @@ tl::unexpected<Error> ended() {
               "see its log: journalctl -u instepd");
 }
 
+/// Until the connection takes or gives bytes.
+Result<void> wait_until(steady_clock::time_point deadline, int descriptor, short events) {
+  while (true) {
+    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
+    pollfd waiting{descriptor, events, 0};
+    const int ready =
+        ::poll(&waiting, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30)));
+    if (ready > 0) return {};
+    if (ready == 0) {
+      return fail(ErrorCode::kTimeout, "the daemon did not answer in time",
+                  "see what it does: systemctl status instepd");
+    }
+    if (errno == EINTR) continue;
+    return fail(ErrorCode::kIo,
+                std::string("waiting for the daemon failed: ") + std::strerror(errno),
+                "check the limits on open files and memory");
+  }
+}
+
+Result<void> send_all(int descriptor, std::string_view text, steady_clock::time_point deadline) {
+  while (!text.empty()) {
+    const auto sent = ::send(descriptor, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(sent));
+    } else if (errno == EAGAIN) {  // a daemon that hangs does not read
+      if (auto ready = wait_until(deadline, descriptor, POLLOUT); !ready) return ready;
+    } else if (errno != EINTR) {
+      return ended();
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<ControlClient> ControlClient::connect(const std::filesystem::path& socket) {
@@ -53,16 +86,14 @@ ControlClient::ControlClient(ControlClient&& other) noexcept
 
 Result<nlohmann::json> ControlClient::ask(const std::string& verb, const std::string& id,
                                           milliseconds limit) {
+  const auto deadline = steady_clock::now() + limit;
   nlohmann::json request = {{"verb", verb}};
   if (!id.empty()) request["id"] = id;
-  std::string line = request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  while (!line.empty()) {
-    const auto sent = ::send(descriptor_, line.data(), line.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent < 0) return ended();
-    line.erase(0, static_cast<std::size_t>(sent));
+  const std::string line =
+      request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (const auto sent = send_all(descriptor_, line, deadline); !sent) {
+    return tl::make_unexpected(sent.error());
   }
-  const auto deadline = steady_clock::now() + limit;
   while (true) {
     auto answer = next(std::chrono::ceil<milliseconds>(deadline - steady_clock::now()));
     if (!answer) return answer;
@@ -86,19 +117,8 @@ Result<nlohmann::json> ControlClient::next(milliseconds limit) {
       return tl::make_unexpected(answer_not_understood());
     }
     looked_at = input_.size();
-    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now()).count();
-    pollfd waiting{descriptor_, POLLIN, 0};
-    const int ready =
-        ::poll(&waiting, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30)));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready < 0) {
-      return fail(ErrorCode::kIo,
-                  std::string("waiting for the daemon failed: ") + std::strerror(errno),
-                  "check the limits on open files and memory");
-    }
-    if (ready == 0) {
-      return fail(ErrorCode::kTimeout, "the daemon did not answer in time",
-                  "see what it does: systemctl status instepd");
+    if (const auto ready = wait_until(deadline, descriptor_, POLLIN); !ready) {
+      return tl::make_unexpected(ready.error());
     }
     std::array<char, 65536> block;
     const auto got = ::recv(descriptor_, block.data(), block.size(), 0);

@@ -20,7 +20,8 @@ class ControlClient {
   ControlClient& operator=(ControlClient&&) = delete;
 
   /// Sends {"verb", "id"} and returns the answer; events that come before it are passed over. An
-  /// answer that is an error is returned as that error.
+  /// answer that is an error is returned as that error. Fails like next() too; then connect again,
+  /// for half of the request may have been sent, and a late answer would be taken for the next.
   Result<nlohmann::json> ask(const std::string& verb, const std::string& id = {},
                              std::chrono::milliseconds limit = std::chrono::seconds(10));
 

@@ -43,5 +43,17 @@ TEST(ControlClient, SaysThatTheDaemonEndedTheConnection) {
   EXPECT_EQ(line.error().code, ErrorCode::kDeviceGone) << line.error().line();
 }
 
+// It waited for longer than asked, and then said that the daemon had ended.
+TEST(ControlClient, SaysThatAHungDaemonReadsNothing) {
+  const test::TemporaryFolder folder;
+  const auto socket = folder.path() / "control.sock";
+  const auto listening = ListeningSocket::open(socket).value();
+  auto client = ControlClient::connect(socket).value();
+  const std::string more_than_is_buffered(std::size_t{4} << 20, 'x');
+  const auto answer = client.ask("show", more_than_is_buffered, std::chrono::milliseconds(50));
+  ASSERT_FALSE(answer);
+  EXPECT_EQ(answer.error().code, ErrorCode::kTimeout) << answer.error().line();
+}
+
 }  // namespace
 }  // namespace instep
