@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "core/error_names.h"
 #include "daemon/report/json_fields.h"
 #include "daemon/report/json_number.h"
 
@@ -45,13 +46,6 @@ std::string with(const json& content, const char* key, const json& value) {
   json object = content.is_object() ? content : json::object();
   object[key] = value;
   return dump(object);
-}
-
-ErrorCode code_from(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(ErrorCode::kInternal); ++i) {
-    if (name == to_string(static_cast<ErrorCode>(i))) return static_cast<ErrorCode>(i);
-  }
-  return ErrorCode::kInternal;
 }
 
 json to_json(const FrameCounts& frames) {
@@ -153,12 +147,9 @@ Result<void> answer_outcome(const json& answer) {
   if (!answer.is_object()) return tl::make_unexpected(answer_not_understood());
   if (answer.value("ok", json(false)) == json(true)) return {};
   const json error = answer.value("error", json::object());
-  const auto text = [&](const char* key) {
-    return error.is_object() && error.contains(key) && error[key].is_string()
-               ? error[key].get<std::string>()
-               : std::string();
-  };
-  return fail(code_from(text("code")), text("message"), text("advice"));
+  const auto code = error_code_from(string_at(error, "code")).value_or(ErrorCode::kInternal);
+  const auto remedy = remedy_from(string_at(error, "remedy")).value_or(usual_remedy(code));
+  return fail(code, remedy, string_at(error, "message"), string_at(error, "advice"));
 }
 
 }  // namespace instep

@@ -27,7 +27,7 @@ namespace instep {
 /// | list     |      | scans: [{id}, ...], newest first                                         |
 /// | show     | id   | id, folder, result: what result.json holds                               |
 /// | export   | id   | id, folder, files: names in it, for the caller to copy                   |
-/// | delete   | id   | id                                                                       |
+/// | delete   | id   | id, pair: the scan whose other foot it was, if it was of a pair          |
 ///
 /// `id` may be "latest", but not for delete. Every request is answered by one line:
 /// {"ok": true, ...} or {"ok": false, "error": {"code", "remedy", "message", "advice"}}. The

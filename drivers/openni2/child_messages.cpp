@@ -1,30 +1,13 @@
 #include "drivers/openni2/child_messages.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
-#include <optional>
+
+#include "core/error_names.h"
 
 namespace instep {
 namespace {
 
 using nlohmann::json;
-
-constexpr std::array kCodes = {
-    ErrorCode::kInvalidInput, ErrorCode::kNotFound,    ErrorCode::kPermissionDenied,
-    ErrorCode::kCorruptData,  ErrorCode::kUnsupported, ErrorCode::kInsufficientData,
-    ErrorCode::kNoSpace,      ErrorCode::kNoBandwidth, ErrorCode::kBusy,
-    ErrorCode::kTimeout,      ErrorCode::kDeviceGone,  ErrorCode::kCancelled,
-    ErrorCode::kIo,           ErrorCode::kInternal};
-constexpr std::array kRemedies = {Remedy::kRetry, Remedy::kReopen, Remedy::kReset,
-                                  Remedy::kOperator, Remedy::kBug};
-
-template <typename T, std::size_t N>
-T from_word(const std::array<T, N>& all, const std::string& word, T otherwise) {
-  for (const T one : all) {
-    if (word == to_string(one)) return one;
-  }
-  return otherwise;
-}
 
 /// A device may call itself anything, UTF-8 or not.
 std::string dump(const json& object) {
@@ -74,8 +57,8 @@ json to_json(const Error& error) {
 }
 
 Error error_from(const json& object) {
-  return {from_word(kCodes, object.at("code").get<std::string>(), ErrorCode::kInternal),
-          from_word(kRemedies, object.at("remedy").get<std::string>(), Remedy::kBug),
+  return {error_code_from(object.at("code").get<std::string>()).value_or(ErrorCode::kInternal),
+          remedy_from(object.at("remedy").get<std::string>()).value_or(Remedy::kBug),
           object.at("message").get<std::string>(), object.at("advice").get<std::string>()};
 }
 

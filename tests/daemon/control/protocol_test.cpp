@@ -29,25 +29,62 @@ TEST(Protocol, RefusesWhatIsNoRequest) {
   }
 }
 
+/// A line is refused as documented, or means the same when what was understood is sent again.
+void expect_refused_or_whole(const std::string& line) {
+  const auto request = parse_request(line);
+  if (!request) {
+    EXPECT_EQ(request.error().code, ErrorCode::kInvalidInput) << line;
+    return;
+  }
+  nlohmann::json again = {{"verb", request->verb}};
+  if (!request->id.empty()) again["id"] = request->id;
+  const auto read = parse_request(again.dump());
+  ASSERT_TRUE(read) << line;
+  EXPECT_EQ(read->verb, request->verb) << line;
+  EXPECT_EQ(read->id, request->id) << line;
+}
+
 TEST(Protocol, NeverThrowsOnGarbage) {
   std::mt19937_64 random(3);
   const std::string alphabet = "{}[]\",:\\u0verbscanid \x80\xff\n";
   for (int i = 0; i < 20000; ++i) {
     std::string line(random() % 60, ' ');
     for (auto& letter : line) letter = alphabet[random() % alphabet.size()];
-    (void)parse_request(line);
+    expect_refused_or_whole(line);
   }
-  (void)parse_request(std::string(kLongestRequest, '['));
+  expect_refused_or_whole(std::string(kLongestRequest, '['));
+}
+
+TEST(Protocol, SurvivesDamage) {
+  const std::string sound = R"({"verb":"show","id":"20260102T030405-left"})";
+  std::mt19937_64 random(4);
+  for (int i = 0; i < 20000; ++i) {
+    std::string line = sound;
+    line[random() % line.size()] = static_cast<char>(random() % 256);
+    expect_refused_or_whole(line);
+  }
 }
 
 TEST(Protocol, CarriesErrorsWhole) {
-  const Error error{ErrorCode::kNoSpace, Remedy::kOperator, "full", "make room"};
-  const auto outcome = answer_outcome(nlohmann::json::parse(error_answer(error)));
-  ASSERT_FALSE(outcome);
-  EXPECT_EQ(outcome.error().code, error.code);
-  EXPECT_EQ(outcome.error().line(), error.line());
+  for (const auto remedy : {Remedy::kRetry, Remedy::kReopen, Remedy::kReset, Remedy::kOperator}) {
+    const Error error{ErrorCode::kNoSpace, remedy, "full", "make room"};
+    const auto outcome = answer_outcome(nlohmann::json::parse(error_answer(error)));
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().code, error.code);
+    EXPECT_EQ(outcome.error().remedy, error.remedy);
+    EXPECT_EQ(outcome.error().message, error.message);
+    EXPECT_EQ(outcome.error().advice, error.advice);
+  }
   EXPECT_TRUE(answer_outcome(nlohmann::json::parse(ok_answer({}))));
   EXPECT_FALSE(answer_outcome(nlohmann::json::parse("[]")));
+}
+
+TEST(Protocol, TakesTheUsualRemedyWhereTheAnswerNamesNone) {
+  const auto outcome =
+      answer_outcome(nlohmann::json::parse(R"({"ok":false,"error":{"code":"busy","remedy":3}})"));
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error().code, ErrorCode::kBusy);
+  EXPECT_EQ(outcome.error().remedy, usual_remedy(ErrorCode::kBusy));
 }
 
 TEST(Protocol, TellsHowMuchIsDoneToAThousandth) {
