@@ -2,8 +2,6 @@
 
 #include <gpiod.h>
 
-#include "drivers/files/folder_entries.h"
-
 namespace instep {
 
 namespace fs = std::filesystem;
@@ -16,8 +14,8 @@ GpioChipHandle open_gpio_chip(const fs::path& node) {
   return GpioChipHandle(gpiod_chip_open(node.c_str()));
 }
 
-std::vector<fs::path> gpio_chip_nodes(const fs::path& devices) {
-  return entries_of(devices, "gpiochip").paths;
+FolderEntries gpio_chip_nodes(const fs::path& devices) {
+  return entries_of(devices, "gpiochip");
 }
 
 std::string text_or_empty(const char* text) {

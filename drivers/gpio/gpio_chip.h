@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <vector>
+
+#include "drivers/files/folder_entries.h"
 
 struct gpiod_chip;
 
@@ -21,7 +22,7 @@ GpioChipHandle open_gpio_chip(const std::filesystem::path& node);
 
 /// The nodes of chips in `devices` (/dev), by name. libgpiod's own search gives up at the first
 /// chip that this user may not open.
-std::vector<std::filesystem::path> gpio_chip_nodes(const std::filesystem::path& devices);
+FolderEntries gpio_chip_nodes(const std::filesystem::path& devices);
 
 /// What libgpiod says of names: null where there is none.
 std::string text_or_empty(const char* text);

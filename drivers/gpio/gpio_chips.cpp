@@ -27,7 +27,7 @@ std::vector<GpioLineState> lines_of(gpiod_chip* chip) {
 
 std::vector<GpioChipState> list_gpio_chips(const std::filesystem::path& devices) {
   std::vector<GpioChipState> chips;
-  for (const auto& node : gpio_chip_nodes(devices)) {
+  for (const auto& node : gpio_chip_nodes(devices).paths) {
     GpioChipState state;
     state.node = node;
     if (const auto chip = open_gpio_chip(node)) {

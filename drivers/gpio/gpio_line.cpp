@@ -13,6 +13,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+tl::unexpected<Error> not_looked_at(const fs::path& node, int reason) {
+  return fail(ErrorCode::kIo,
+              fmt::format("{} cannot be opened: {}", node.string(), std::strerror(reason)),
+              "check the limits on open files and memory");
+}
+
+/// Not of a chip that has just left, nor of a node that is none.
+bool fails_the_system(int reason) {
+  return reason == EMFILE || reason == ENFILE || reason == ENOMEM || reason == EIO;
+}
+
 tl::unexpected<Error> not_found(const std::string& line, const std::vector<fs::path>& chips) {
   // The same of every line: one cause, which a board with several of them has to say but once.
   if (chips.empty()) {
@@ -44,13 +55,18 @@ Result<GpioLine> GpioLine::find(const GpioLineAddress& address, const fs::path& 
     return fail(ErrorCode::kInvalidInput, "a GPIO line without a name",
                 "name the line, or its chip's label and its offset");
   }
-  const auto paths = gpio_chip_nodes(devices);
+  const auto nodes = gpio_chip_nodes(devices);
+  if (fails_the_system(nodes.failure.value())) {
+    return not_looked_at(devices, nodes.failure.value());
+  }
   std::optional<GpioLine> found;
   std::string closed;  // the last chip that this user may not open
-  for (const auto& path : paths) {
+  for (const auto& path : nodes.paths) {
     auto chip = open_gpio_chip(path);
     if (!chip) {
-      if (errno == EACCES || errno == EPERM) closed = path.string();
+      const int reason = errno;
+      if (fails_the_system(reason)) return not_looked_at(path, reason);
+      if (reason == EACCES || reason == EPERM) closed = path.string();
       continue;
     }
     gpiod_line* line = line_of(chip.get(), address);
@@ -68,7 +84,7 @@ Result<GpioLine> GpioLine::find(const GpioLineAddress& address, const fs::path& 
     return fail(ErrorCode::kPermissionDenied, "this user may not open " + closed,
                 "sudo usermod -aG plugdev $USER, where the udev rules of Instep are installed");
   }
-  return not_found(address.text(), paths);
+  return not_found(address.text(), nodes.paths);
 }
 
 Result<void> GpioLine::check_free() const {

@@ -30,7 +30,8 @@ class GpioLine {
  public:
   /// Looks through the chips of `devices`, which takes about a millisecond each. Fails with
   /// kNotFound if the line is not there, kPermissionDenied if a chip that may have it cannot be
-  /// opened, kInvalidInput if several lines answer to the address.
+  /// opened, kIo if the system fails at looking, kInvalidInput if several lines answer to the
+  /// address.
   static Result<GpioLine> find(const GpioLineAddress& address,
                                const std::filesystem::path& devices = "/dev");
 

@@ -55,9 +55,11 @@ TEST(PedalsOfAMachineWithout, DescriptorsSayThat) {
   ::setrlimit(RLIMIT_NOFILE, &none);
   const auto opened = InputDevice::open(devices.path() / "event0");
   const auto found = InputDevice::find(devices.path(), "0c45:7403", 1);
+  const auto line = GpioLine::find({"pedal", "", {}}, devices.path());
   ::setrlimit(RLIMIT_NOFILE, &limit);
   EXPECT_EQ(opened.error().code, ErrorCode::kIo);
   EXPECT_EQ(found.error().code, ErrorCode::kIo) << found.error().line();
+  EXPECT_EQ(line.error().code, ErrorCode::kIo) << line.error().line();
   EXPECT_EQ(InputDevice::open(devices.path() / "event1").error().code, ErrorCode::kNotFound);
 }
 

@@ -1,0 +1,45 @@
+#include "drivers/gpio/gpio_line.h"
+
+#include <gpiod.h>
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+/// Why no chip can be opened.
+int failure = ENODEV;
+
+}  // namespace
+
+/// Stands before that of the library: here is no chip that would fail so.
+extern "C" gpiod_chip* gpiod_chip_open(const char*) {
+  errno = failure;
+  return nullptr;
+}
+
+namespace instep {
+namespace {
+
+// A line that is plugged in was said to be missing.
+TEST(GpioLineSearch, SaysWhyAChipCannotBeOpened) {
+  const test::TemporaryFolder devices;
+  std::ofstream(devices.path() / "gpiochip0");
+  const auto code_at = [&](int reason) {
+    failure = reason;
+    return GpioLine::find({"pedal", "", {}}, devices.path()).error().code;
+  };
+  for (const int of_system : {EMFILE, ENFILE, ENOMEM, EIO}) {
+    EXPECT_EQ(code_at(of_system), ErrorCode::kIo) << of_system;
+  }
+  EXPECT_EQ(code_at(EACCES), ErrorCode::kPermissionDenied);
+  for (const int of_none : {ENOENT, ENODEV, ENOTTY}) {
+    EXPECT_EQ(code_at(of_none), ErrorCode::kNotFound) << of_none;
+  }
+}
+
+}  // namespace
+}  // namespace instep
