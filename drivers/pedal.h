@@ -23,8 +23,8 @@ class Pedal {
   /// until reopen().
   virtual int descriptor() const = 0;
 
-  /// All edges that wait, oldest first; empty if none. Never blocks. Fails with kDeviceGone if the
-  /// pedal left.
+  /// The edges that wait, oldest first; empty if none. Never blocks, and returns though more come
+  /// without end: the descriptor is readable then. Fails with kDeviceGone if the pedal left.
   virtual Result<std::vector<PedalEdge>> read_edges() = 0;
 
   /// The contact as it is now. After a burst this settles what lost edges leave open.

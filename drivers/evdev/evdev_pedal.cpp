@@ -9,9 +9,14 @@
 #include <utility>
 
 #include "drivers/evdev/input_device.h"
+#include "drivers/files/wake_up.h"
 
 namespace instep {
 namespace {
+
+/// Most events of one call, more than the kernel keeps: a device that never rests must not keep its
+/// reader for ever.
+constexpr std::size_t kMostEvents = 4096;
 
 PedalEdge edge_of(const input_event& event) {
   return {event.value != 0, std::chrono::seconds(event.input_event_sec) +
@@ -24,9 +29,26 @@ struct EvdevPedal::Connection {
   std::unique_ptr<InputDevice> device;
   /// A device that is gone only hangs up; this becomes readable then.
   Descriptor waiting{epoll_create1(EPOLL_CLOEXEC)};
+  /// Set where a call left events: those that libevdev holds do not make the device readable.
+  WakeUp unread;
+  const int unopened = waiting.is_open() && unread.is_open() ? 0 : errno;
   bool catching_up = false;  ///< the kernel dropped events, and the state is being asked for
 
   explicit Connection(std::unique_ptr<InputDevice> opened) : device(std::move(opened)) {}
+
+  /// The errno value of what fails; 0 if all goes well.
+  int watch() const {
+    if (unopened != 0) return unopened;
+    const int failed = libevdev_set_clock_id(device->get(), CLOCK_MONOTONIC);
+    if (failed < 0) return -failed;
+    return wait_for(device->descriptor()) && wait_for(unread.descriptor()) ? 0 : errno;
+  }
+
+  bool wait_for(int descriptor) const {
+    epoll_event interest{};
+    interest.events = EPOLLIN;
+    return epoll_ctl(waiting.number(), EPOLL_CTL_ADD, descriptor, &interest) == 0;
+  }
 };
 
 EvdevPedal::EvdevPedal(const Settings& settings, unsigned key) : settings_(settings), key_(key) {}
@@ -61,12 +83,9 @@ Result<void> EvdevPedal::connect() {
                 "the pedal " + settings_.device + " is held by another program",
                 "end what else reads the pedal: sudo fuser -v /dev/input/event*");
   }
-  epoll_event interest{};
-  interest.events = EPOLLIN;
-  if (libevdev_set_clock_id(events, CLOCK_MONOTONIC) < 0 ||
-      epoll_ctl(connection->waiting.number(), EPOLL_CTL_ADD, connection->device->descriptor(),
-                &interest) != 0) {
-    return fail(ErrorCode::kIo, std::string("the pedal cannot be watched: ") + strerror(errno),
+  if (const int failed = connection->watch(); failed != 0) {
+    if (failed == ENODEV) return gone();
+    return fail(ErrorCode::kIo, std::string("the pedal cannot be watched: ") + strerror(failed),
                 "raise the limit of open files");
   }
   connection_ = std::move(connection);
@@ -84,8 +103,12 @@ Result<std::vector<PedalEdge>> EvdevPedal::read_edges() {
   if (gone_) return gone();
   std::vector<PedalEdge> edges;
   bool& catching_up = connection_->catching_up;
-  // To the last: what libevdev has taken from the kernel does not make the descriptor readable.
-  while (true) {
+  connection_->unread.clear();
+  for (std::size_t taken = 0;; ++taken) {
+    if (taken == kMostEvents) {
+      connection_->unread.set();
+      break;
+    }
     input_event event{};
     const int status = libevdev_next_event(
         connection_->device->get(),

@@ -43,9 +43,20 @@ struct GpioPedal::Connection {
   GpioLine line;
   Descriptor nodes{inotify_init1(IN_NONBLOCK | IN_CLOEXEC)};
   Descriptor waiting{epoll_create1(EPOLL_CLOEXEC)};
+  const int unopened = nodes.is_open() && waiting.is_open() ? 0 : errno;
   int edges = -1;  ///< owned by the line
 
   explicit Connection(GpioLine found) : line(std::move(found)) {}
+
+  /// The errno value of what fails; 0 if all goes well.
+  int watch(const std::filesystem::path& devices) {
+    if (unopened != 0) return unopened;
+    edges = gpiod_line_event_get_fd(line.get());
+    const bool ready = fcntl(edges, F_SETFL, O_NONBLOCK) == 0 &&
+                       inotify_add_watch(nodes.number(), devices.c_str(), IN_DELETE) >= 0 &&
+                       wait_for(nodes.number()) && wait_for(edges);
+    return ready ? 0 : errno;
+  }
 
   bool wait_for(int descriptor) const {
     epoll_event interest{};
@@ -92,13 +103,9 @@ Result<void> GpioPedal::connect() {
       0) {
     return tl::make_unexpected(connection->line.request_failure(errno));
   }
-  connection->edges = gpiod_line_event_get_fd(found);
-  const bool ready =
-      fcntl(connection->edges, F_SETFL, O_NONBLOCK) == 0 &&
-      inotify_add_watch(connection->nodes.number(), settings_.devices.c_str(), IN_DELETE) >= 0 &&
-      connection->wait_for(connection->nodes.number()) && connection->wait_for(connection->edges);
-  if (!ready) {
-    return fail(ErrorCode::kIo, std::string("the GPIO pedal cannot be watched: ") + strerror(errno),
+  if (const int failed = connection->watch(settings_.devices); failed != 0) {
+    return fail(ErrorCode::kIo,
+                std::string("the GPIO pedal cannot be watched: ") + strerror(failed),
                 "raise the limits of open files and of inotify instances");
   }
   // It may have left before its node was watched.
