@@ -109,6 +109,18 @@ class Surroundings {
   int failure_ = 0;
 };
 
+/// Within the limit, however many signals come.
+bool is_readable(int descriptor, std::chrono::milliseconds limit) {
+  using std::chrono::steady_clock;
+  const auto deadline = steady_clock::now() + limit;
+  pollfd waited{descriptor, POLLIN, 0};
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - steady_clock::now());
+    const int ready = ::poll(&waited, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    if (ready >= 0 || errno != EINTR) return ready > 0;
+  }
+}
+
 Error start_error(int number, const ChildProgram& program) {
   const std::string what = fmt::format("{} cannot be started ({})", program.file.string(),
                                        std::generic_category().message(number));
@@ -160,11 +172,13 @@ ChildProcess::~ChildProcess() {
 
 std::optional<std::string> ChildProcess::wait(std::chrono::milliseconds limit) {
   if (id_ <= 0) return "has ended";
-  pollfd waited{descriptor_, POLLIN, 0};
-  while (::poll(&waited, 1, static_cast<int>(limit.count())) < 0 && errno == EINTR) continue;
   // Readable, it has ended, and waiting for it does not block but for the kernel's last touch.
+  const int how = is_readable(descriptor_, limit) ? 0 : WNOHANG;
   int status = 0;
-  const pid_t reaped = ::waitpid(id_, &status, waited.revents != 0 ? 0 : WNOHANG);
+  pid_t reaped = -1;
+  do {
+    reaped = ::waitpid(id_, &status, how);
+  } while (reaped < 0 && errno == EINTR);
   if (reaped == 0) return std::nullopt;
   id_ = -1;
   if (reaped < 0) return "has ended";  // where this process is set to have no zombies

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "drivers/files/descriptor.h"
+#include "tests/support/signal_rain.h"
 
 namespace instep {
 namespace {
@@ -55,6 +56,14 @@ TEST_F(ChildProcessTest, IsNotStartedWithoutTheDescriptorsThatItIsGiven) {
   const auto closed = ChildProcess::start(without);
   ASSERT_FALSE(closed);
   EXPECT_EQ(closed.error().code, ErrorCode::kIo);
+}
+
+// Each signal let it wait for the whole limit again.
+TEST_F(ChildProcessTest, IsWaitedForNoLongerThanTheLimitHoweverManySignalsCome) {
+  auto child = ChildProcess::start({"/bin/sleep", {"2"}, {}, {}, std::nullopt});
+  ASSERT_TRUE(child) << child.error().line();
+  const test::SignalRain rain;
+  EXPECT_EQ(child->wait(std::chrono::milliseconds(100)), std::nullopt);
 }
 
 }  // namespace
