@@ -8,19 +8,17 @@
 #include <cstring>
 
 #include "drivers/v4l2/depth_format.h"
+#include "drivers/v4l2/video_call.h"
 
 namespace instep {
 namespace {
-
-/// A driver that never ends its list must not keep us.
-constexpr std::uint32_t kMost = 128;
 
 std::vector<std::string> sizes_of(VideoSystem& system, int node, std::uint32_t format) {
   std::vector<std::string> sizes;
   v4l2_frmsizeenum size{};
   size.pixel_format = format;
-  for (; size.index < kMost; ++size.index) {
-    if (system.control(node, VIDIOC_ENUM_FRAMESIZES, &size) != 0) break;
+  for (; size.index < kMostListed; ++size.index) {
+    if (video_call(system, node, VIDIOC_ENUM_FRAMESIZES, &size) != 0) break;
     if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) break;
     sizes.push_back(fmt::format("{}x{}", size.discrete.width, size.discrete.height));
   }
@@ -41,8 +39,8 @@ Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
   std::vector<VideoModes> modes;
   v4l2_fmtdesc format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  for (; format.index < kMost; ++format.index) {
-    if (system.control(node, VIDIOC_ENUM_FMT, &format) != 0) break;
+  for (; format.index < kMostListed; ++format.index) {
+    if (video_call(system, node, VIDIOC_ENUM_FMT, &format) != 0) break;
     modes.push_back(
         {to_string_of_four(format.pixelformat), sizes_of(system, node, format.pixelformat)});
   }

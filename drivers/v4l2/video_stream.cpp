@@ -18,7 +18,6 @@ constexpr std::uint32_t kType = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 /// At 30 frames a second a reader may be late by 0.1 s without a loss.
 constexpr std::uint32_t kBuffersWanted = 4;
 constexpr std::uint32_t kFewestBuffers = 2;
-constexpr std::uint32_t kMostFormats = 256;
 
 FrameOrder::Time monotonic_now() {
   return std::chrono::duration_cast<FrameOrder::Time>(
@@ -95,7 +94,7 @@ Result<void> VideoStream::check_abilities() {
     return fail(ErrorCode::kUnsupported, "it does not stream images", "choose another camera");
   }
   std::string offered;
-  for (std::uint32_t i = 0; i < kMostFormats; ++i) {
+  for (std::uint32_t i = 0; i < kMostListed; ++i) {
     v4l2_fmtdesc description{};
     description.index = i;
     description.type = kType;

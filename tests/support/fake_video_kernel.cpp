@@ -162,6 +162,13 @@ int FakeVideoKernel::answer(Node& node, int descriptor, unsigned long request, v
       format.pixelformat = node.device.formats[format.index];
       return 0;
     }
+    case VIDIOC_ENUM_FRAMESIZES: {
+      auto& size = *static_cast<v4l2_frmsizeenum*>(argument);
+      if (size.index >= node.device.sizes.size()) return refuse(EINVAL);
+      size.type = V4L2_FRMSIZE_TYPE_DISCRETE;
+      size.discrete = node.device.sizes[size.index];
+      return 0;
+    }
     case VIDIOC_S_FMT:
       return node.owner >= 0 ? refuse(EBUSY)
                              : set_format(node, *static_cast<v4l2_format*>(argument));

@@ -20,6 +20,7 @@ namespace instep::test {
 struct FakeVideoDevice {
   std::uint32_t capabilities = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::vector<std::uint32_t> formats{V4L2_PIX_FMT_Z16};
+  std::vector<v4l2_frmsize_discrete> sizes{};  ///< of each format; none = any
   /// What S_FMT answers is what was asked, changed by these.
   std::optional<std::uint32_t> other_code{};
   std::optional<std::uint32_t> other_width{};

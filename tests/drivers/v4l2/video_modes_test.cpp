@@ -1,0 +1,58 @@
+#include "drivers/v4l2/video_modes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cerrno>
+
+#include "tests/support/fake_video_kernel.h"
+
+namespace instep {
+namespace {
+
+using testing::ElementsAre;
+
+class VideoModesTest : public testing::Test {
+ protected:
+  VideoModesTest() {
+    test::FakeVideoDevice device;
+    device.formats = {V4L2_PIX_FMT_Z16, V4L2_PIX_FMT_Y16};
+    device.sizes = {{640, 480}, {320, 240}};
+    kernel_.add(kNode, device);
+  }
+
+  void expect_all() {
+    const auto modes = list_video_modes(kernel_, kNode);
+    ASSERT_TRUE(modes) << modes.error().line();
+    ASSERT_EQ(modes->size(), 2U);
+    for (const auto& mode : *modes) EXPECT_THAT(mode.sizes, ElementsAre("640x480", "320x240"));
+    EXPECT_EQ(modes->front().format, "Z16");
+  }
+
+  static constexpr const char* kNode = "/dev/video0";
+  test::FakeVideoKernel kernel_;
+};
+
+TEST_F(VideoModesTest, AreAllThatTheDriverLists) {
+  expect_all();
+  EXPECT_EQ(kernel_.held(), 0);
+}
+
+// The list ended there.
+TEST_F(VideoModesTest, AreAllThoughASignalCutsACallShort) {
+  const int before = kernel_.calls();
+  expect_all();
+  const int calls = kernel_.calls() - before;
+  for (int k = 2; k <= calls; ++k) {  // the first opens the node
+    SCOPED_TRACE(k);
+    kernel_.fail_call(k, EINTR);
+    expect_all();
+  }
+}
+
+TEST_F(VideoModesTest, OfNoNodeAreNone) {
+  EXPECT_EQ(list_video_modes(kernel_, "/dev/video1").error().code, ErrorCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace instep
