@@ -95,10 +95,11 @@ Result<DepthFrame> RecordingCamera::read_next() {
   const std::size_t place = sequence_ % frames_.size();
   const auto round = static_cast<microseconds::rep>(sequence_ / frames_.size());
   const auto& recorded = recording_->frames[frames_[place]];
-  auto frame = read_recorded_frame(*recording_, frames_[place]);
+  auto frame = read_recorded_frame(*recording_, frames_[place], sequence_);
   if (!frame && frame.error().code == ErrorCode::kCorruptData) {
     frame = DepthFrame{};
     frame->camera = recorded.camera;
+    frame->sequence = sequence_;
     frame->width = description_.geometry.intrinsics.width;
     frame->height = description_.geometry.intrinsics.height;
     frame->depth_unit_mm = description_.depth_unit_mm;
@@ -106,7 +107,7 @@ Result<DepthFrame> RecordingCamera::read_next() {
   } else if (!frame) {
     return fail(ErrorCode::kDeviceGone, frame.error().message, frame.error().advice);
   }
-  frame->sequence = sequence_++;
+  ++sequence_;
   frame->device_time = recorded.time + round * period_;
   frame->host_time = steady_clock::now();
   return frame;

@@ -29,32 +29,6 @@ Result<void> check_inside(const Recording& recording, const std::filesystem::pat
               "copy the image into the folder");
 }
 
-Result<DepthFrame> read_frame(const Recording& recording, const RecordedFrame& recorded,
-                              std::uint64_t sequence) {
-  const CameraDescription* camera = recording.find_camera(recorded.camera);
-  const auto file = recording.folder / recorded.file;
-  if (auto good = check_inside(recording, file); !good) return tl::make_unexpected(good.error());
-  auto image = read_depth_png(file);
-  if (!image) return tl::make_unexpected(image.error());
-
-  const auto& lens = camera->geometry.intrinsics;
-  if (image->width != lens.width || image->height != lens.height) {
-    return fail(ErrorCode::kCorruptData,
-                fmt::format("{} has {} x {} pixels, its camera {} x {}", file.string(),
-                            image->width, image->height, lens.width, lens.height),
-                "correct the camera's size or record again");
-  }
-  DepthFrame frame;
-  frame.camera = recorded.camera;
-  frame.sequence = sequence;
-  frame.width = image->width;
-  frame.height = image->height;
-  frame.depth_unit_mm = camera->depth_unit_mm;
-  frame.raw = std::move(image->raw);
-  frame.device_time = recorded.time;
-  return frame;
-}
-
 /// PNG packs an empty image a thousandfold, so a small folder can hold more than any memory.
 Result<void> check_fits_memory(const Recording& recording) {
   std::size_t bytes = 0;
@@ -85,13 +59,31 @@ Result<Recording> read_recording(const std::filesystem::path& folder) {
   return recording_from_json(*text, file);
 }
 
-Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t index) {
-  const auto& recorded = recording.frames[index];
-  const auto place = recording.frames.begin() + static_cast<std::ptrdiff_t>(index);
-  const auto earlier =
-      std::count_if(recording.frames.begin(), place,
-                    [&](const RecordedFrame& frame) { return frame.camera == recorded.camera; });
-  return read_frame(recording, recorded, static_cast<std::uint64_t>(earlier));
+Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t index,
+                                       std::uint64_t sequence) {
+  const RecordedFrame& recorded = recording.frames[index];
+  const CameraDescription* camera = recording.find_camera(recorded.camera);
+  const auto file = recording.folder / recorded.file;
+  if (auto good = check_inside(recording, file); !good) return tl::make_unexpected(good.error());
+  auto image = read_depth_png(file);
+  if (!image) return tl::make_unexpected(image.error());
+
+  const auto& lens = camera->geometry.intrinsics;
+  if (image->width != lens.width || image->height != lens.height) {
+    return fail(ErrorCode::kCorruptData,
+                fmt::format("{} has {} x {} pixels, its camera {} x {}", file.string(),
+                            image->width, image->height, lens.width, lens.height),
+                "correct the camera's size or record again");
+  }
+  DepthFrame frame;
+  frame.camera = recorded.camera;
+  frame.sequence = sequence;
+  frame.width = image->width;
+  frame.height = image->height;
+  frame.depth_unit_mm = camera->depth_unit_mm;
+  frame.raw = std::move(image->raw);
+  frame.device_time = recorded.time;
+  return frame;
 }
 
 Result<std::vector<DepthFrame>> read_recorded_frames(const Recording& recording) {
@@ -99,8 +91,8 @@ Result<std::vector<DepthFrame>> read_recorded_frames(const Recording& recording)
   std::map<std::string, std::uint64_t> sequence;
   std::vector<DepthFrame> frames;
   frames.reserve(recording.frames.size());
-  for (const auto& recorded : recording.frames) {
-    auto frame = read_frame(recording, recorded, sequence[recorded.camera]++);
+  for (std::size_t i = 0; i < recording.frames.size(); ++i) {
+    auto frame = read_recorded_frame(recording, i, sequence[recording.frames[i].camera]++);
     if (!frame) return tl::make_unexpected(frame.error());
     frames.push_back(std::move(*frame));
   }

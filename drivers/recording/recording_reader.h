@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -19,14 +20,15 @@ namespace instep {
 /// kMostRecordingCameras and kMostRecordingFrames are taken.
 Result<Recording> read_recording(const std::filesystem::path& folder);
 
-/// Reads the pixels of one frame (`index` < frames.size()). DepthFrame::sequence is the frame's
-/// place among those of its camera and host_time is left at its default. Fails like
-/// read_depth_png(), with kCorruptData if the image has another size than its camera, and with
-/// kInvalidInput if a symbolic link leads out of the recording.
-Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t index);
+/// Reads the pixels of one frame (`index` < frames.size()). DepthFrame::sequence is as given and
+/// host_time is left at its default. Fails like read_depth_png(), with kCorruptData if the image
+/// has another size than its camera, and with kInvalidInput if a symbolic link leads out of the
+/// recording.
+Result<DepthFrame> read_recorded_frame(const Recording& recording, std::size_t index,
+                                       std::uint64_t sequence);
 
-/// All frames in order; the first fault ends it. Fails with kUnsupported if they need more than 2
-/// GiB.
+/// All frames in order, their sequence being the place among those of their camera; the first fault
+/// ends it. Fails with kUnsupported if they need more than 2 GiB.
 Result<std::vector<DepthFrame>> read_recorded_frames(const Recording& recording);
 
 }  // namespace instep

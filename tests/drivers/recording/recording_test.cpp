@@ -56,7 +56,7 @@ TEST(Recording, ComesBackBitByBit) {
     EXPECT_EQ((*frames)[i].camera, written[i].camera);
     EXPECT_EQ((*frames)[i].sequence, written[i].sequence);
     EXPECT_EQ((*frames)[i].device_time, written[i].device_time);
-    EXPECT_EQ(read_recorded_frame(*read, i)->sequence, written[i].sequence);
+    EXPECT_EQ(read_recorded_frame(*read, i, 7)->sequence, 7U);
   }
 }
 
@@ -212,7 +212,7 @@ TEST(RecordingReader, RefusesImagesOfAnotherSize) {
   ASSERT_TRUE(read);
   std::ofstream(place / read->frames[0].file, std::ios::binary)
       << *encode_depth_png({32, 32, std::vector<std::uint16_t>(1024)});
-  const auto frame = read_recorded_frame(*read, 0);
+  const auto frame = read_recorded_frame(*read, 0, 0);
   ASSERT_FALSE(frame);
   EXPECT_EQ(frame.error().code, ErrorCode::kCorruptData);
   EXPECT_NE(frame.error().message.find("32 x 32"), std::string::npos);
@@ -227,7 +227,7 @@ TEST(RecordingReader, RefusesLinksThatLeadOut) {
   const auto image = place / read->frames[0].file;
   fs::rename(image, folder.path() / "outside.png");
   fs::create_symlink(folder.path() / "outside.png", image);
-  const auto frame = read_recorded_frame(*read, 0);
+  const auto frame = read_recorded_frame(*read, 0, 0);
   ASSERT_FALSE(frame);
   EXPECT_NE(frame.error().message.find("leads out"), std::string::npos);
 }

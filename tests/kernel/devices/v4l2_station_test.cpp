@@ -43,7 +43,7 @@ class ThreeUsbCameras {
  public:
   ThreeUsbCameras() : recording_(read_recording(INSTEP_KERNEL_RECORDING).value()) {
     for (std::size_t i = 0; i < recording_.frames.size(); ++i) {
-      const auto frame = read_recorded_frame(recording_, i).value();
+      const auto frame = read_recorded_frame(recording_, i, 0).value();
       UsbDepthCamera::Settings settings;
       settings.port = static_cast<int>(i);
       settings.serial = "S" + frame.camera;
