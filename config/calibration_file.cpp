@@ -10,6 +10,7 @@
 
 #include "config/pose_matrix.h"
 #include "config/settings_table.h"
+#include "core/fusion/camera_limits.h"
 
 namespace instep {
 namespace {
@@ -163,8 +164,8 @@ StationCalibration read_all(std::string_view text, const std::string& file,
     calibration.time = read_time(root, faults);
     calibration.cameras = read_cameras(root, *version, faults);
     if (*version == kVersion) {
-      root.read("platform_height_mm", calibration.platform_height_mm, -kFarthestCamera_mm,
-                kFarthestCamera_mm);
+      root.read("platform_height_mm", calibration.platform_height_mm, -kFarthestCameraMm,
+                kFarthestCameraMm);
       require(root, "platform_height_mm", faults);
     }
     root.finish();

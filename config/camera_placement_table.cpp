@@ -6,6 +6,7 @@
 
 #include "config/pose_matrix.h"
 #include "config/tape_measured_pose.h"
+#include "core/fusion/camera_limits.h"
 
 namespace instep {
 namespace {
@@ -37,8 +38,8 @@ std::optional<CameraIntrinsics> read_intrinsics(SettingsTable& camera, SettingsF
   constexpr double kLargest_px = 1e6;  // check_intrinsics() judges more closely
   SettingsTable table(*found, "camera.intrinsics", faults);
   CameraIntrinsics lens;
-  table.read("width", lens.width, 16, 8192);
-  table.read("height", lens.height, 16, 8192);
+  table.read("width", lens.width, kSmallestImageSide, kLargestImageSide);
+  table.read("height", lens.height, kSmallestImageSide, kLargestImageSide);
   table.read("fx", lens.fx, 0.0, kLargest_px);
   table.read("fy", lens.fy, 0.0, kLargest_px);
   table.read("cx", lens.cx, -kLargest_px, kLargest_px);

@@ -1,5 +1,6 @@
 #include "config/pose_matrix.h"
 
+#include "core/fusion/camera_limits.h"
 #include "core/geometry/pose_rows.h"
 
 namespace instep {
@@ -23,15 +24,8 @@ std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFau
   const auto numbers = table.numbers(key, 16);
   if (numbers.empty()) return std::nullopt;
   const Eigen::Matrix4d matrix = matrix_from_rows(numbers);
-  if (!is_rigid(matrix)) {
-    faults.add(table.line(key), table.full(key) +
-                                    " is no rotation and shift: write the rows of a rigid 4x4 "
-                                    "matrix, the last of them 0, 0, 0, 1");
-    return std::nullopt;
-  }
-  if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kFarthestCamera_mm) {
-    faults.add(table.line(key),
-               table.full(key) + " puts the camera more than 100 m away: write millimetres");
+  if (const auto fault = fault_of_pose(matrix)) {
+    faults.add(table.line(key), table.full(key) + ' ' + *fault);
     return std::nullopt;
   }
   return without_rounding(matrix);

@@ -8,17 +8,13 @@
 
 namespace instep {
 
-/// No camera of a station stands further from its origin, along any axis: whoever writes more did
-/// not write millimetres.
-inline constexpr double kFarthestCamera_mm = 1e5;
-
 /// Reads where a camera stands, the 16 numbers of a 4x4 matrix, row by row, in millimetres:
 ///
 ///     station_from_camera = [ 1, 0, 0, 0,   0, -1, 0, 0,   0, 0, -1, 500,   0, 0, 0, 1 ]
 ///
 /// The rounding of decimals is taken out of the rotation; one that is written to the last digit
 /// stays as it is, bit by bit. Nothing if the key is not there, or if it leaves a fault: no list of
-/// 16 finite numbers, no rotation and shift, or more than kFarthestCamera_mm away.
+/// 16 finite numbers, or fault_of_pose().
 std::optional<RigidTransform> read_pose_matrix(SettingsTable& table, SettingsFaults& faults,
                                                const std::string& key = "station_from_camera");
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "config/pose_matrix.h"
+#include "core/fusion/camera_limits.h"
 
 namespace instep {
 namespace {
@@ -28,8 +28,9 @@ std::optional<Vector3d> read_place(SettingsTable& table, const char* key, Settin
   const auto numbers = table.numbers(key, 3);
   if (numbers.empty()) return std::nullopt;
   const Vector3d place(numbers[0], numbers[1], numbers[2]);
-  if (place.cwiseAbs().maxCoeff() <= kFarthestCamera_mm) return place;
-  faults.add(table.line(key), table.full(key) + " is more than 100 m away: write millimetres");
+  if (place.cwiseAbs().maxCoeff() <= kFarthestCameraMm) return place;
+  faults.add(table.line(key), fmt::format("{} is more than {} m away: write millimetres",
+                                          table.full(key), kFarthestCameraMm / 1000.0));
   return std::nullopt;
 }
 

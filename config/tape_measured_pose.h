@@ -37,7 +37,7 @@ bool has_tape_measured_pose(const SettingsTable& table);
 ///     roll_deg = 180
 ///
 /// Nothing if there is none, or if it leaves a fault: one place without the other, places nearer
-/// than kNearestSight_mm to each other or more than kFarthestCamera_mm away, a roll out of its
+/// than kNearestSight_mm to each other or more than kFarthestCameraMm away, a roll out of its
 /// range.
 std::optional<RigidTransform> read_tape_measured_pose(SettingsTable& table, SettingsFaults& faults);
 

@@ -17,7 +17,7 @@ struct V4l2Settings {
   std::string serial;    ///< 1 to 64 characters
   std::string bus_path;  ///< such as "usb-0000:00:14.0-2.3"; 1 to 128 characters
   V4l2Format format = V4l2Format::kZ16;
-  double depth_unit_mm = 0.0;  ///< 0.001 to 100
+  double depth_unit_mm = 0.0;  ///< is_depth_unit()
 
   struct Control {
     std::string name;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "config/camera_placement_table.h"
+#include "core/fusion/camera_limits.h"
 
 namespace instep {
 namespace {
@@ -54,7 +55,7 @@ V4l2Settings read_v4l2_settings(SettingsTable& table, SettingsFaults& faults) {
   table.read("bus_path", camera.bus_path, 128);
   table.choose("format", camera.format,
                {{"Z16", V4l2Format::kZ16}, {"Y16", V4l2Format::kY16}, {"INZI", V4l2Format::kInzi}});
-  table.read("depth_unit_mm", camera.depth_unit_mm, 0.001, 100);
+  table.read("depth_unit_mm", camera.depth_unit_mm, kSmallestDepthUnitMm, kLargestDepthUnitMm);
   for (const toml::table* control : table.tables("controls")) {
     SettingsTable one(*control, "camera.controls", faults);
     camera.controls.push_back(read_control(one, faults));

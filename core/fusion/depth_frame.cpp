@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fusion/camera_limits.h"
 #include "core/fusion/lens.h"
 
 namespace instep {
 namespace {
 
-constexpr int kSmallestSide = 16;
-constexpr int kLargestSide = 8192;
 constexpr int kProbesOnASide = 16;  // a fold shows along the image border first, and between
 
 bool sound_focal(double focal, int width) {
@@ -53,9 +52,11 @@ tl::unexpected<Error> bad_lens(const std::string& what) {
 
 Result<void> check_intrinsics(const CameraIntrinsics& intrinsics) {
   const auto [smaller, larger] = std::minmax(intrinsics.width, intrinsics.height);
-  if (smaller < kSmallestSide || larger > kLargestSide) {
+  if (smaller < kSmallestImageSide || larger > kLargestImageSide) {
     return bad_lens("the image size " + std::to_string(intrinsics.width) + " x " +
-                    std::to_string(intrinsics.height) + " is outside 16 to 8192 pixels");
+                    std::to_string(intrinsics.height) + " is outside " +
+                    std::to_string(kSmallestImageSide) + " to " +
+                    std::to_string(kLargestImageSide) + " pixels");
   }
   if (!sound_focal(intrinsics.fx, intrinsics.width) ||
       !sound_focal(intrinsics.fy, intrinsics.width)) {

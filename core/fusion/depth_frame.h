@@ -24,9 +24,9 @@ struct CameraIntrinsics {
   std::array<double, 5> distortion{};
 };
 
-/// Fails with kInvalidInput on what no camera has: sizes outside 16..8192, focal lengths that are
-/// not finite or outside a tenth to a hundred times the width, a principal point further than one
-/// image size outside the image, distortion that is not finite or folds the image.
+/// Fails with kInvalidInput on what no camera has: sizes beyond camera_limits.h, focal lengths that
+/// are not finite or outside a tenth to a hundred times the width, a principal point further than
+/// one image size outside the image, distortion that is not finite or folds the image.
 Result<void> check_intrinsics(const CameraIntrinsics& intrinsics);
 
 /// A camera as the fusion needs it: its lens and where it stands.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/fusion/camera_limits.h"
 #include "core/in_millimetres.h"
 #include "core/median.h"
 
@@ -117,15 +118,14 @@ Result<void> TemporalFusion::check(const DepthFrame& frame) const {
                 "check its cable");
   };
   if (frame.status != FrameStatus::kGood) return corrupt("came damaged");
-  if (frame.width < 1 || frame.height < 1 || frame.width > 8192 || frame.height > 8192) {
+  if (frame.width < 1 || frame.height < 1 || frame.width > kLargestImageSide ||
+      frame.height > kLargestImageSide) {
     return corrupt("has no sound size");
   }
   const auto pixels =
       static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   if (frame.raw.size() != pixels) return corrupt("does not hold one value for each pixel");
-  if (!(frame.depth_unit_mm >= 1e-3 && frame.depth_unit_mm <= 100.0)) {
-    return corrupt("has no sound depth unit");
-  }
+  if (!is_depth_unit(frame.depth_unit_mm)) return corrupt("has no sound depth unit");
   if (frames_used_ == 0) return {};
   if (frame.width != width_ || frame.height != height_ || frame.depth_unit_mm != unit_mm_) {
     return corrupt("differs in size or unit from those before");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fusion/camera_limits.h"
+
 namespace instep {
 namespace {
 
@@ -20,8 +22,7 @@ bool stands_above_platform(const WorkingView& view, std::size_t pixel, const Vec
 
 Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings) {
   const auto& [geometry, depth, rays] = view;
-  if (!is_rigid(geometry.station_from_camera.matrix()) ||
-      geometry.station_from_camera.translation().cwiseAbs().maxCoeff() > kLargestCoordinateMm) {
+  if (fault_of_pose(geometry.station_from_camera.matrix())) {
     return fail(ErrorCode::kInvalidInput, "the pose of camera " + geometry.id + " is not sound",
                 "correct it, or have it found: instep calibrate");
   }

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/fusion/camera_limits.h"
 #include "drivers/files/file_bytes.h"
 
 // libpng reports errors by a long jump. The functions between setjmp and the jump (this file's
@@ -140,7 +141,7 @@ Result<void> check_header(const PngReader& reader, const std::string& name) {
                             png_get_channels(reader.png, reader.info)),
                 "store raw depth as 16-bit grey, one channel");
   }
-  constexpr auto kLargest = static_cast<png_uint_32>(kLargestDepthImageSide_px);
+  constexpr auto kLargest = static_cast<png_uint_32>(kLargestImageSide);
   if (width > kLargest || height > kLargest) {
     return fail(ErrorCode::kUnsupported, fmt::format("{} has {} x {} pixels", name, width, height),
                 fmt::format("a depth image has at most {0} x {0}", kLargest));
@@ -185,8 +186,8 @@ Result<DepthImage> read_depth_png(const std::filesystem::path& path) {
 Result<std::string> encode_depth_png(const DepthImage& image) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
-  if (image.width < 1 || image.height < 1 || image.width > kLargestDepthImageSide_px ||
-      image.height > kLargestDepthImageSide_px || image.raw.size() != width * height) {
+  if (image.width < 1 || image.height < 1 || image.width > kLargestImageSide ||
+      image.height > kLargestImageSide || image.raw.size() != width * height) {
     return fail(ErrorCode::kInvalidInput,
                 fmt::format("a depth image of {} x {} pixels holds {} values", image.width,
                             image.height, image.raw.size()),

@@ -17,12 +17,9 @@ struct DepthImage {
   std::vector<std::uint16_t> raw;  ///< width * height values, row by row
 };
 
-/// The largest side of a depth image that is read, in pixels: that of check_intrinsics().
-inline constexpr int kLargestDepthImageSide_px = 8192;
-
 /// Reads the bytes of a PNG file. `name` is used in messages. Fails with kCorruptData (no PNG,
 /// truncated, a wrong checksum, too short) or kUnsupported (not 16-bit grey, or larger than
-/// kLargestDepthImageSide_px, which is checked before memory is taken).
+/// kLargestImageSide, which is checked before memory is taken).
 Result<DepthImage> decode_depth_png(std::string_view bytes, const std::string& name);
 
 /// The same from a file; also fails as read_file_bytes() does.

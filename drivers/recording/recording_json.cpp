@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/fusion/camera_limits.h"
 #include "core/geometry/pose_rows.h"
-#include "drivers/recording/depth_png.h"
 #include "drivers/recording/json_fields.h"
 
 namespace instep {
@@ -21,9 +21,6 @@ using nlohmann::json;
 constexpr const char* kFormat = "instep-recording";
 constexpr int kVersion = 1;
 constexpr const char* kAdvice = "correct the file or record again";
-
-/// The largest distance of a camera from the station's origin, and the largest truth.
-constexpr double kLargestLength_mm = 1e5;
 
 json camera_to_json(const CameraDescription& camera) {
   const auto& lens = camera.geometry.intrinsics;
@@ -52,12 +49,7 @@ bool is_plain_name(const std::string& name) {
 RigidTransform take_pose(JsonFields& fields) {
   const Eigen::Matrix4d matrix = matrix_from_rows(fields.numbers("station_from_camera", 16));
   if (fields.first_fault()) return RigidTransform::Identity();
-  if (!is_rigid(matrix)) {
-    fields.fault("station_from_camera",
-                 "is no rotation and shift (rows of a rigid 4x4 matrix, millimetres)");
-  } else if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kLargestLength_mm) {
-    fields.fault("station_from_camera", "puts the camera more than 100 m away");
-  }
+  if (const auto fault = fault_of_pose(matrix)) fields.fault("station_from_camera", *fault);
   return fields.first_fault() ? RigidTransform::Identity() : nearest_rigid(matrix);
 }
 
@@ -69,9 +61,9 @@ Result<CameraDescription> camera_from_json(const json& object, const std::string
   camera.geometry.id = fields.text("id");
   camera.model = fields.text("model");
   if (fields.has("serial")) camera.serial = fields.text("serial");
-  lens.width = static_cast<int>(fields.integer("width", 1, kLargestDepthImageSide_px));
-  lens.height = static_cast<int>(fields.integer("height", 1, kLargestDepthImageSide_px));
-  camera.depth_unit_mm = fields.number("depth_unit_mm", 1e-4, 100.0);
+  lens.width = static_cast<int>(fields.integer("width", kSmallestImageSide, kLargestImageSide));
+  lens.height = static_cast<int>(fields.integer("height", kSmallestImageSide, kLargestImageSide));
+  camera.depth_unit_mm = fields.number("depth_unit_mm", kSmallestDepthUnitMm, kLargestDepthUnitMm);
   lens.fx = fields.number("fx", -kLargest, kLargest);
   lens.fy = fields.number("fy", -kLargest, kLargest);
   lens.cx = fields.number("cx", -kLargest, kLargest);
@@ -114,7 +106,7 @@ void take_platform(JsonFields& fields, const json& root, const std::string& wher
   if (!root.contains("platform")) return;
   JsonFields platform(root["platform"], where + ": platform");
   recording.platform_height_mm =
-      platform.number("height_mm", -kLargestLength_mm, kLargestLength_mm);
+      platform.number("height_mm", -kLargestCoordinateMm, kLargestCoordinateMm);
   if (platform.first_fault()) fields.fault(platform.first_fault()->substr(where.size() + 2));
 }
 
@@ -123,7 +115,7 @@ void take_truth(JsonFields& fields, const json& root, Recording& recording) {
   const auto& truth = root["truth"];
   if (!truth.is_object()) return fields.fault("truth", "must be an object of numbers");
   for (const auto& [id, value] : truth.items()) {
-    if (!value.is_number() || !(std::abs(value.get<double>()) <= kLargestLength_mm)) {
+    if (!value.is_number() || !(std::abs(value.get<double>()) <= kLargestCoordinateMm)) {
       return fields.fault("truth", "must hold numbers only");
     }
     recording.truth[id] = value.get<double>();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/fusion/camera_limits.h"
 #include "drivers/v4l2/video_error.h"
 
 namespace instep {
@@ -16,13 +17,12 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr double kLargestUnitMm = 100.0;
-
 Result<void> check(const V4l2Camera::Settings& settings) {
   const std::string& name = settings.geometry.id;
-  if (!(settings.depth_unit_mm > 0.0 && settings.depth_unit_mm <= kLargestUnitMm)) {
+  if (!is_depth_unit(settings.depth_unit_mm)) {
     return fail(ErrorCode::kInvalidInput,
-                fmt::format("camera {} has no depth unit above 0 to {} mm", name, kLargestUnitMm),
+                fmt::format("camera {} has no depth unit of {} to {} mm", name,
+                            kSmallestDepthUnitMm, kLargestDepthUnitMm),
                 "set depth_unit_mm: 1.0 for most RealSense, 0.1 for the D405, 0.125 for the SR300");
   }
   if (settings.address == UsbAddress{}) {

@@ -125,6 +125,8 @@ INSTANTIATE_TEST_SUITE_P(
                   [](json& r) { r["cameras"][0]["width"] = 18446744073709551615ULL; }, "8192"},
         JsonFault{"WidthSmall", [](json& r) { r["cameras"][0]["width"] = 3; }, "camera 0"},
         JsonFault{"UnitZero", [](json& r) { r["cameras"][0]["depth_unit_mm"] = 0; }, "between"},
+        // No frame of it would be taken.
+        JsonFault{"UnitTiny", [](json& r) { r["cameras"][0]["depth_unit_mm"] = 5e-4; }, "between"},
         JsonFault{"UnitHuge", [](json& r) { r["cameras"][0]["depth_unit_mm"] = 1e30; }, "between"},
         JsonFault{"FocalNull", [](json& r) { r["cameras"][0]["fx"] = nullptr; }, "a number"},
         JsonFault{"FocalHuge", [](json& r) { r["cameras"][0]["fx"] = 1e30; }, "camera 0"},

@@ -66,6 +66,7 @@ TEST_F(V4l2CameraTest, RefusesToGuessWhatV4l2DoesNotSay) {
     return !camera && camera.error().code == ErrorCode::kInvalidInput;
   };
   EXPECT_TRUE(refused([](auto& settings) { settings.depth_unit_mm = 0.0; }));
+  EXPECT_TRUE(refused([](auto& settings) { settings.depth_unit_mm = 0.0005; }));
   EXPECT_TRUE(refused([](auto& settings) { settings.depth_unit_mm = std::nan(""); }));
   EXPECT_TRUE(refused([](auto& settings) { settings.geometry.intrinsics = {}; }));
   EXPECT_TRUE(refused([](auto& settings) { settings.address = {}; }));
