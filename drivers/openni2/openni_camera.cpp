@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/openni2/simulated_vendor.h"
+
 namespace instep {
 namespace {
 
@@ -13,9 +15,6 @@ using std::chrono::steady_clock;
 using Phase = OpenniChild::Phase;
 
 constexpr milliseconds kStartLimit{900};
-
-/// How the driver module of the simulation calls its maker.
-constexpr const char* kSimulatedVendor = "Instep";
 
 /// Focal length of an image of so many pixels that covers a field of view edge to edge.
 double focal_length_px(int pixels, double field_of_view_rad) {

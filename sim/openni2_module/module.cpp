@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "drivers/files/wake_up.h"
+#include "drivers/openni2/simulated_vendor.h"
 #include "sim/openni2_module/module_parts.h"
 
 namespace instep {
@@ -44,7 +45,7 @@ std::filesystem::path bus_folder() {
 OniDeviceInfo info_of(const BusDevice& device) {
   OniDeviceInfo info{};
   std::snprintf(info.uri, sizeof info.uri, "%s", device.uri.c_str());
-  std::snprintf(info.vendor, sizeof info.vendor, "Instep");
+  std::snprintf(info.vendor, sizeof info.vendor, "%s", kSimulatedVendor);
   std::snprintf(info.name, sizeof info.name, "simulated depth sensor");
   return info;
 }
