@@ -180,6 +180,9 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   take_axis(foot, axis, standing_from_input);
   foot.rules = options.rules;
   foot.warnings = doubts(foot);
+  if (foot.rules != MeasuringRules{}) {
+    foot.warnings.push_back("measured by definitions of one's own choice: " + in_words(foot.rules));
+  }
   settle_for(foot, axis.rule);
   if (foot.side != guess.side && guess.confidence > kSureSide) {
     foot.warnings.push_back("measured as a " + std::string(to_string(foot.side)) +

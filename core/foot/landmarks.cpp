@@ -135,9 +135,6 @@ Result<FootScan> find_landmarks_by(const Workers& workers, FootScan foot, const 
         kSayWhichFoot);
   }
   set_radii(foot);
-  if (foot.rules != MeasuringRules{}) {
-    foot.warnings.push_back("measured by definitions of one's own choice: " + in_words(foot.rules));
-  }
   return foot;
 }
 

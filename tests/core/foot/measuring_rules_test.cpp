@@ -226,6 +226,25 @@ TEST(AxisRule, GivesWayToTheSecondToesWithAWarning) {
   }
 }
 
+bool tells_of_choice(const FootScan& foot) {
+  return std::any_of(foot.warnings.begin(), foot.warnings.end(), [](const auto& warning) {
+    return warning.find("of one's own choice") != std::string::npos;
+  });
+}
+
+/// An axis that gave way to another one was taken for a choice.
+TEST(AxisRule, IsToldOfAsAChoiceOnlyWhereItIsOne) {
+  const PointCloud whole = FootBody{}.points();
+  std::vector<std::size_t> few;
+  for (std::size_t i = 0; i < whole.size(); i += whole.size() / 300) few.push_back(i);
+  const auto gave_way = align_foot(whole.subset(few)).and_then(find_landmarks).value();
+  ASSERT_NE(gave_way.rules, MeasuringRules{});
+  EXPECT_FALSE(tells_of_choice(gave_way));
+  AlignmentOptions options;
+  options.rules.axis = AxisRule::kMedialTangent;
+  EXPECT_TRUE(tells_of_choice(align_foot(whole, options).and_then(find_landmarks).value()));
+}
+
 TEST(AxisRule, ThatIsNotFoundAgainLeavesTheFootAlone) {
   AlignmentOptions options;
   options.rules.axis = AxisRule::kMedialTangent;
