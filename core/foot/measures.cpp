@@ -168,7 +168,7 @@ Result<std::optional<double>> u95_by_landmarks(const Definition& definition, con
 
 Result<Girth> girth_in(const TapePlane& plane, const FootScan& foot,
                        const MeasureOptions& options) {
-  auto girth = options.girth(foot.cloud, plane, options.girth_options);
+  auto girth = options.girth(foot.cloud, plane, {});
   if (!girth || !foot.cloud.stands_on_platform()) return girth;
   return standing_girth(*std::move(girth), plane);
 }

@@ -17,7 +17,6 @@ using GirthMethod =
 
 struct MeasureOptions {
   GirthMethod girth = girth_by_rbf;
-  GirthOptions girth_options;
   Workers workers = one_after_the_other;  ///< does the girths; the measures are the same with any
 };
 

@@ -166,11 +166,6 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
   foot.append(sole);
   foot.append(hidden);
   closure.points_added = sole.size() + hidden.size();
-  const auto cells = std::count(print.begin(), print.end(), 1);
-  std::ptrdiff_t seen_cells = 0;
-  for (std::size_t cell = 0; cell < print.size(); ++cell) seen_cells += print[cell] && seen[cell];
-  closure.seen_share =
-      cells > 0 ? static_cast<double>(seen_cells) / static_cast<double>(cells) : 0.0;
   return closure;
 }
 

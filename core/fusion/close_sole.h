@@ -16,7 +16,6 @@ struct SoleSettings {
 
 struct SoleClosure {
   std::size_t points_added = 0;
-  double seen_share = 0.0;       ///< of the footprint whose sole a camera saw
   double widest_inset_mm = 0.0;  ///< from the lowest seen skin to where contact is guessed
 };
 

@@ -47,8 +47,7 @@ struct Work {
 
 /// Checks and cleans each view; the first that is not sound fails all.
 Result<std::vector<WorkingView>> open_views(const std::vector<View>& views,
-                                            const FusionSettings& settings, const Work& work,
-                                            FusedScene& scene) {
+                                            const FusionSettings& settings, const Work& work) {
   std::vector<std::optional<Result<WorkingView>>> opened(views.size());
   const bool done = work.for_each_view(
       views.size(), [&](std::size_t i) { opened[i] = open_view(views[i], settings.surface); });
@@ -57,9 +56,6 @@ Result<std::vector<WorkingView>> open_views(const std::vector<View>& views,
   for (auto& view : opened) {
     if (!*view) return tl::make_unexpected(view->error());
     working.push_back(std::move(**view));
-    const WorkingView& last = working.back();
-    scene.diagnostics.pixels += last.pixels;
-    scene.diagnostics.flying_pixels += last.flying_pixels;
   }
   return working;
 }
@@ -92,7 +88,6 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
   search.expected_height_mm = settings.platform_height_mm;
   if (const auto platform = find_platform(points, search)) {
     scene.diagnostics.platform_found = true;
-    scene.diagnostics.platform_scatter_mm = platform->scatter_mm;
     scene.diagnostics.platform_tilt_deg =
         std::acos(std::min(1.0, platform->normal.z())) * 180.0 / std::numbers::pi;
     scene.standing_height_mm = platform->height_mm();
@@ -109,7 +104,7 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
 
 /// Where views disagree, keeps the better founded one. False if cancelled.
 bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings& settings,
-                    const Work& work, FusedScene& scene, std::vector<FootPoints>& found) {
+                    const Work& work, std::vector<FootPoints>& found) {
   std::vector<SeenSurface> surfaces(views.size());
   std::vector<std::vector<std::size_t>> kept(views.size());
   const bool looked = work.for_each_view(views.size(), [&](std::size_t i) {
@@ -120,7 +115,6 @@ bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings&
   });
   if (!voted) return false;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    scene.diagnostics.overruled += found[i].points.cloud.size() - kept[i].size();
     found[i].points = subset(found[i].points, kept[i]);
   }
   return true;
@@ -166,13 +160,12 @@ Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
   if (!done) return cancelled();
   contradiction = contradiction_of(views, found);
   if (contradiction) return tl::make_unexpected(contradicted(*contradiction));
-  if (!drop_overruled(views, settings, work, scene, found)) return cancelled();
+  if (!drop_overruled(views, settings, work, found)) return cancelled();
   ViewedCloud gathered;
-  for (const auto& [points, platform_pixels, grazing_pixels, seen_through] : found) {
+  for (const auto& [points, platform_pixels, seen_through] : found) {
     gathered.cloud.append(points.cloud);
     gathered.views.insert(gathered.views.end(), points.views.begin(), points.views.end());
     scene.diagnostics.platform_pixels += platform_pixels;
-    scene.diagnostics.grazing_pixels += grazing_pixels;
     scene.diagnostics.outliers += seen_through;
   }
   return gathered;
@@ -205,7 +198,6 @@ std::vector<ViewedCloud> pick_feet(const ViewedCloud& points, const FusionSettin
                                    FusedScene& scene) {
   const auto separated =
       separate_feet(points.cloud.positions, scene.standing_height_mm, settings.separation);
-  scene.diagnostics.strays = separated.strays;
   scene.warnings.insert(scene.warnings.end(), separated.warnings.begin(), separated.warnings.end());
   std::vector<ViewedCloud> feet;
   for (const auto& indices : separated.feet) feet.push_back(subset(points, indices));
@@ -247,7 +239,6 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   foot.local_errors = local_errors_of(foot, shares, cameras_of(views), scene.diagnostics.bent);
   std::vector<std::string> warnings;
   const double coverage = coverage_of(foot);
-  scene.diagnostics.points.push_back(foot.size());
   scene.diagnostics.coverage.push_back(coverage);
   if (coverage < kLeastCoverage) {
     warnings.emplace_back(
@@ -261,7 +252,6 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
         "no camera saw the sole; it is closed by the platform, which it is taken to meet up to " +
         in_millimetres(closure.widest_inset_mm) + " inside the seen skin");
   }
-  scene.diagnostics.platform_points.push_back(closure.points_added);
   scene.feet.push_back(std::move(foot));
   scene.foot_warnings.push_back(std::move(warnings));
 }
@@ -278,7 +268,7 @@ Result<FusedScene> fuse(const std::vector<View>& views, const FusionSettings& se
                         const Work& work, std::optional<Contradiction>& contradiction) {
   const auto& [workers, go_on] = work;
   FusedScene scene;
-  auto opened = open_views(views, settings, work, scene);
+  auto opened = open_views(views, settings, work);
   if (!opened) return tl::make_unexpected(opened.error());
   auto& working = *opened;
   drop_blind_views(working, settings, scene);

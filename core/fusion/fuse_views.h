@@ -61,15 +61,9 @@ struct FusionSettings {
 /// How the fusion went, in figures.
 struct FusionDiagnostics {
   std::size_t views_used = 0;
-  std::size_t pixels = 0;           ///< with data, of all views
-  std::size_t flying_pixels = 0;    ///< dropped on silhouettes
-  std::size_t grazing_pixels = 0;   ///< dropped for their slant, or for want of a normal
   std::size_t platform_pixels = 0;  ///< taken away with the platform
   std::size_t outliers = 0;
-  std::size_t overruled = 0;  ///< points where a better founded view saw another surface
-  std::size_t strays = 0;     ///< dropped as part of no foot
   bool platform_found = false;
-  double platform_scatter_mm = 0.0;
   double platform_tilt_deg = 0.0;
   double registration_before_mm = 0.0;  ///< median distance between the views by the given poses
   double registration_after_mm = 0.0;   ///< the same by those that were used
@@ -79,9 +73,7 @@ struct FusionDiagnostics {
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
   /// Of the view that was stretched most, by what share; nothing where lenses are trusted.
   std::optional<double> lenses_off;
-  std::vector<std::size_t> points;           ///< of each foot, platform points not counted
-  std::vector<double> coverage;              ///< of each foot: share of directions round it seen
-  std::vector<std::size_t> platform_points;  ///< put under each foot
+  std::vector<double> coverage;  ///< of each foot: share of directions round it seen
 };
 
 /// The feet on the platform. Station frame, levelled: z up, the standing plane level at z =

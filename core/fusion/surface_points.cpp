@@ -179,8 +179,8 @@ class NormalFitter {
 
 }  // namespace
 
-std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
-                               FusedDepth& depth) {
+void drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
+                        FusedDepth& depth) {
   const int width = depth.width;
   const auto rims = rim_pixels(depth, settings);
   const auto steep = static_cast<float>(std::tan(settings.steepest_deg * kDegree) / intrinsics.fx);
@@ -203,16 +203,13 @@ std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const Surface
     }
   }
   for (int i = 0; i < settings.erosion_px; ++i) marked = dilated(marked, width, depth.height);
-  std::size_t dropped = 0;
   for (std::size_t pixel = 0; pixel < marked.size(); ++pixel) {
     const float z = depth.depth_mm[pixel];
     const bool steady = depth.sigma_mm[pixel] <= unsteady * z * z;
     if ((steady && !marked[pixel] && !rims[pixel]) || z == 0.0F) continue;
     depth.depth_mm[pixel] = 0.0F;
     depth.sigma_mm[pixel] = 0.0F;
-    ++dropped;
   }
-  return dropped;
 }
 
 PointCloud surface_points(const Deprojector& deprojector, const FusedDepth& depth,

@@ -27,10 +27,9 @@ struct SurfaceSettings {
 
 /// Takes away the pixels on both sides of a silhouette, where a camera mixes foreground and
 /// background into points that float between them, those on the rim of what it saw, and those
-/// that waver. Returns how
-/// many went.
-std::size_t drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
-                               FusedDepth& depth);
+/// that waver.
+void drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
+                        FusedDepth& depth);
 
 /// The points of the given pixels in the camera frame, with normals, sigma along the normal, and
 /// view directions. A normal comes from the plane that fits the inverse depth of a window best

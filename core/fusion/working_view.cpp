@@ -1,6 +1,5 @@
 #include "core/fusion/working_view.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/fusion/camera_limits.h"
@@ -44,10 +43,7 @@ Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings)
                 "the depth image of camera " + geometry.id + " does not have the camera's size",
                 "check the camera's resolution in the configuration");
   }
-  const auto holds_data = [](float depth_mm) { return depth_mm > 0.0F; };
-  working.pixels = static_cast<std::size_t>(
-      std::count_if(depth.depth_mm.begin(), depth.depth_mm.end(), holds_data));
-  working.flying_pixels = drop_flying_pixels(lens, settings, working.depth);
+  drop_flying_pixels(lens, settings, working.depth);
   return working;
 }
 
@@ -85,7 +81,6 @@ FootPoints foot_points(const std::vector<WorkingView>& views, std::size_t number
   ViewedCloud seen;
   seen.cloud = station_cloud(view, pixels, settings.surface);
   seen.views.assign(seen.cloud.size(), static_cast<std::uint16_t>(number));
-  found.grazing_pixels = pixels.size() - seen.cloud.size();
 
   std::vector<PosedDepth> posed;
   for (const auto& other : views) posed.push_back(other.posed());

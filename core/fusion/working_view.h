@@ -20,8 +20,6 @@ struct WorkingView {
   FusedDepth depth;
   RigidTransform station_from_camera;
   std::vector<ErrorField> errors;  ///< that all of it shares, in the camera's frame
-  std::size_t pixels = 0;          ///< with data, as it came
-  std::size_t flying_pixels = 0;   ///< dropped
 
   Eigen::Vector3d in_station(std::size_t pixel) const {
     const Eigen::Vector3f own = rays->ray(pixel) * depth.depth_mm[pixel];
@@ -60,7 +58,6 @@ PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_
 struct FootPoints {
   ViewedCloud points;  ///< above the platform and below the ceiling, seen through by no other view
   std::size_t platform_pixels = 0;
-  std::size_t grazing_pixels = 0;
   std::size_t seen_through = 0;
 };
 
