@@ -25,9 +25,7 @@ constexpr std::size_t kMostFileBytes = std::size_t{4} << 30;
 constexpr double kPointSpacing_mm = 3.0;
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
+  return lower_case(path.extension().string());
 }
 
 /// By the comment that it begins with ("# .PCD v0.7 - ..."), or by its first word.
@@ -57,7 +55,7 @@ Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::
   if (extension == ".obj") return read_obj(bytes, file);
   if (extension == ".stl") return read_stl(bytes, file);
   if (looks_like_text_cloud(start)) return read_text_cloud(bytes, file);
-  if (start.substr(0, 5) == "solid") return read_stl(bytes, file);
+  if (lower_case(start.substr(0, 5)) == "solid") return read_stl(bytes, file);
   return fail(ErrorCode::kUnsupported, file + " is no cloud or mesh that can be read",
               "give PLY, XYZ or CSV text, PCD, OBJ or STL");
 }
@@ -222,8 +220,8 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   }
   if (raw->surplus_bytes > 0) {
     read.notes.push_back(fmt::format(
-        "the file goes on for {} bytes after the {} points that its header names, which "
-        "were not read: if any are missing, export it again",
+        "the file goes on for {} bytes after all that its header names, which were not read; if "
+        "any are missing of its {} points, export it again",
         raw->surplus_bytes, read.cloud.size()));
   }
   if (doubt_of_unit(*settled, *extent)) {

@@ -78,9 +78,9 @@ Result<RawCloud> import(std::string_view bytes, const char* kind, const std::str
   return raw;
 }
 
-/// A binary STL says how many triangles follow: assimp believes it, so it is compared with the
-/// file's size first. Fails on text as well, which is another matter.
-Result<void> check_binary_stl(std::string_view bytes, const std::string& file) {
+/// The bytes up to the last triangle. A binary STL says how many follow: assimp believes it, so it
+/// is compared with the file's size first; and it takes a file of any other size for text.
+Result<std::string_view> whole_binary_stl(std::string_view bytes, const std::string& file) {
   constexpr std::size_t kHeader_bytes = 84;
   constexpr std::size_t kTriangle_bytes = 50;
   if (bytes.size() < kHeader_bytes) return damaged_file(file, "it ends within its STL header");
@@ -89,20 +89,34 @@ Result<void> check_binary_stl(std::string_view bytes, const std::string& file) {
   if ((bytes.size() - kHeader_bytes) / kTriangle_bytes < count) {
     return damaged_file(file, "it is too short for the triangles that its STL header promises");
   }
-  return {};
+  return bytes.substr(0, kHeader_bytes + kTriangle_bytes * count);
 }
 
 /// Text STL begins with "solid"; some binary ones do too, but have zeros or other bytes no text
 /// has.
 bool is_text_stl(std::string_view bytes) {
-  return bytes.substr(0, 5) == "solid" && bytes.substr(0, 512).find("facet") != bytes.npos &&
-         bytes.substr(0, 512).find('\0') == bytes.npos;
+  const std::string start = lower_case(bytes.substr(0, 512));
+  return start.starts_with("solid") && start.find("facet") != start.npos &&
+         start.find('\0') == start.npos;
 }
 
-/// assimp takes a text that ends anywhere; a whole one has its last word.
-Result<void> check_text_stl(std::string_view bytes, const std::string& file) {
-  if (bytes.rfind("endsolid") == bytes.npos) return damaged_file(file, "it has no endsolid");
-  return {};
+Result<RawCloud> read_text_stl(std::string_view bytes, const std::string& file) {
+  const std::string text = lower_case(bytes);  // assimp knows its words in small letters only
+  // assimp takes a text that ends anywhere; a whole one has its last word.
+  if (text.rfind("endsolid") == text.npos) return damaged_file(file, "it has no endsolid");
+  auto raw = import(text, "stl", file);
+  if (raw) raw->format = "STL, text";
+  return raw;
+}
+
+Result<RawCloud> read_binary_stl(std::string_view bytes, const std::string& file) {
+  const auto whole = whole_binary_stl(bytes, file);
+  if (!whole) return tl::make_unexpected(whole.error());
+  auto raw = import(*whole, "stl", file);
+  if (!raw) return raw;
+  raw->format = "STL, binary";
+  raw->surplus_bytes = without_blanks_at_end(bytes.substr(whole->size())).size();
+  return raw;
 }
 
 /// What of an OBJ file tells its shape, said as plainly as it can be: on what else one may hold
@@ -193,12 +207,7 @@ Result<RawCloud> read_obj(std::string_view bytes, const std::string& file) {
 }
 
 Result<RawCloud> read_stl(std::string_view bytes, const std::string& file) {
-  const bool text = is_text_stl(bytes);
-  const auto good = text ? check_text_stl(bytes, file) : check_binary_stl(bytes, file);
-  if (!good) return tl::make_unexpected(good.error());
-  auto raw = import(bytes, "stl", file);
-  if (raw) raw->format = text ? "STL, text" : "STL, binary";
-  return raw;
+  return is_text_stl(bytes) ? read_text_stl(bytes, file) : read_binary_stl(bytes, file);
 }
 
 }  // namespace instep

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace instep {
@@ -29,6 +30,9 @@ std::size_t words_in_first_row(std::string_view text);
 
 /// Spaces, tabs, ends of lines and bytes of zero.
 std::string_view without_blanks_at_end(std::string_view text);
+
+/// Of A to Z; independent of the locale.
+std::string lower_case(std::string_view text);
 
 /// The number that the whole word is, or nothing. Independent of the locale; knows "nan" and "inf".
 std::optional<double> number_in(std::string_view word);

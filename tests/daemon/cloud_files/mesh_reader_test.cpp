@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
 
 #include "tests/support/cloud_files.h"
 
@@ -13,11 +15,8 @@ using test::kPoints;
 using test::raw;
 using MeshFiles = test::CloudFiles;
 
-TEST_F(MeshFiles, ReadsMeshesAndJoinsTheirCorners) {
-  const auto obj = read("m.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n");
-  ASSERT_TRUE(obj) << obj.error().line();
-  EXPECT_EQ(obj->mesh.triangles.size(), 2U);
-  EXPECT_EQ(obj->mesh.positions.size(), 4U);
+/// Two triangles.
+std::string binary_stl() {
   std::string stl(80, ' ');
   stl += raw(2U);
   for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
@@ -28,12 +27,49 @@ TEST_F(MeshFiles, ReadsMeshesAndJoinsTheirCorners) {
     }
     stl += std::string(2, '\0');
   }
+  return stl;
+}
+
+TEST_F(MeshFiles, ReadsMeshesAndJoinsTheirCorners) {
+  const auto obj = read("m.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3 4\n");
+  ASSERT_TRUE(obj) << obj.error().line();
+  EXPECT_EQ(obj->mesh.triangles.size(), 2U);
+  EXPECT_EQ(obj->mesh.positions.size(), 4U);
+  const std::string stl = binary_stl();
   const auto mesh = read("m.STL", stl);
   ASSERT_TRUE(mesh) << mesh.error().line();
   EXPECT_EQ(mesh->mesh.triangles.size(), 2U);
   EXPECT_EQ(mesh->mesh.positions.size(), 4U);
   expect_fault("cut.stl", stl.substr(0, 150), ErrorCode::kCorruptData, "too short");
   expect_fault("none.obj", "hello\n", ErrorCode::kInsufficientData, "no points");
+}
+
+/// assimp takes a binary file of another size than its header tells for a text.
+TEST_F(MeshFiles, ReadsABinaryStlThatGoesOnAfterItsLastTriangle) {
+  for (const std::string& surplus :
+       {std::string("\n"), std::string("more"), std::string(512, '\0')}) {
+    const auto file = read("m.stl", binary_stl() + surplus);
+    ASSERT_TRUE(file) << file.error().line();
+    EXPECT_EQ(file->mesh.triangles.size(), 2U);
+    const auto is_told = std::any_of(file->notes.begin(), file->notes.end(), [](const auto& note) {
+      return note.find("goes on for 4 bytes") != note.npos;
+    });
+    EXPECT_EQ(is_told, surplus == "more");
+  }
+}
+
+TEST_F(MeshFiles, ReadsATextStlInAnyCase) {
+  std::string text =
+      "SOLID Foot\n FACET NORMAL 0 0 1\n  OUTER LOOP\n   VERTEX 0 0 0\n   VERTEX 1E1 0 0\n"
+      "   VERTEX 10 10 0\n  ENDLOOP\n ENDFACET\n";
+  expect_fault("cut.stl", text, ErrorCode::kCorruptData, "endsolid");
+  text += "ENDSOLID Foot\n";
+  for (const char* name : {"m.stl", "m"}) {
+    const auto file = read(name, text);
+    ASSERT_TRUE(file) << file.error().line();
+    EXPECT_EQ(file->format, "STL, text");
+    EXPECT_EQ(file->mesh.triangles.size(), 1U);
+  }
 }
 
 TEST_F(MeshFiles, OpensNoFileThatAMeshNames) {
