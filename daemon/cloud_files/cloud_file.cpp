@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <utility>
 
 #include "core/geometry/mesh_sampling.h"
 #include "core/median.h"
@@ -218,6 +220,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
     read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
                                      to_string(*settled), *extent * scale));
   }
+  std::move(raw->notes.begin(), raw->notes.end(), std::back_inserter(read.notes));
   if (raw->surplus_bytes > 0) {
     read.notes.push_back(fmt::format(
         "the file goes on for {} bytes after all that its header names, which were not read; if "

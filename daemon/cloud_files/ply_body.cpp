@@ -11,8 +11,10 @@
 namespace instep {
 namespace {
 
-/// A polygon with more corners is damage.
-constexpr double kLongestList = 100000;
+/// A polygon with more corners is damage; a strip of triangles may be the whole mesh.
+double longest_list(const PlyElement& element) {
+  return element.name == "tristrips" ? static_cast<double>(kMostFilePoints) : 100000;
+}
 
 /// What to do with each property while walking through records one by one.
 struct Plan {
@@ -39,8 +41,8 @@ struct Plan {
   }
 };
 
-bool is_list_length(double length) {
-  return length >= 0 && length <= kLongestList &&
+bool is_list_length(double length, double longest) {
+  return length >= 0 && length <= longest &&
          length == static_cast<double>(static_cast<std::uint32_t>(length));
 }
 
@@ -94,6 +96,7 @@ class BinaryBody final : public PlyBody {
       ScalarLoader value, length;
       std::size_t value_size, length_size;
     };
+    const double longest = longest_list(element);
     std::vector<Loaders> loaders;
     for (const auto& property : element.properties) {
       const auto count_type = property.count_type.value_or(ScalarType::kUint8);
@@ -109,7 +112,7 @@ class BinaryBody final : public PlyBody {
           if (rest_.size() < loader.length_size) return ends_early(element);
           length = loader.length(rest_.data());
           rest_.remove_prefix(loader.length_size);
-          if (!is_list_length(length)) return bad_length(element, record);
+          if (!is_list_length(length, longest)) return bad_length(element, record);
         }
         const auto items = static_cast<std::size_t>(length);
         if (rest_.size() / loader.value_size < items) return ends_early(element);
@@ -156,13 +159,14 @@ class AsciiBody final : public PlyBody {
     if (!can_hold(element)) return bad_record(element, element.count);
     if (auto rows = check_columns(element); !rows) return rows;
     Plan plan(element, columns, lists);
+    const double longest = longest_list(element);
     for (std::size_t record = 0; record < element.count; ++record) {
       for (std::size_t p = 0; p < element.properties.size(); ++p) {
         const auto first = number_in(take_word(rest_));
         if (!first) return bad_record(element, record);
         if (!element.properties[p].count_type) {
           plan.take(p, *first);
-        } else if (!take_list(p, *first, plan)) {
+        } else if (!is_list_length(*first, longest) || !take_list(p, *first, plan)) {
           return bad_record(element, record);
         }
       }
@@ -185,7 +189,6 @@ class AsciiBody final : public PlyBody {
   }
 
   bool take_list(std::size_t property, double length, Plan& plan) {
-    if (!is_list_length(length)) return false;
     if (plan.wants_list(property)) {
       plan.lists->lengths.push_back(static_cast<std::uint32_t>(length));
     }

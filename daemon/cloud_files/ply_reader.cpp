@@ -106,17 +106,29 @@ Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::
   return {};
 }
 
-/// Polygons as fans of triangles round their first corner.
-Result<void> read_faces(PlyBody& body, const PlyElement& element, const std::string& file,
-                        RawCloud& raw) {
+/// Passes over records that other programs draw faces from.
+Result<void> pass_over_faces(PlyBody& body, const PlyElement& element, const std::string& why,
+                             RawCloud& raw) {
+  if (element.count > 0) {
+    raw.notes.push_back(fmt::format("the file's {} records \"{}\" were not read: {}", element.count,
+                                    element.name, why));
+  }
+  return body.read(element, {}, nullptr);
+}
+
+/// Polygons, of so many points, as fans of triangles round their first corner.
+Result<void> read_faces(PlyBody& body, const PlyElement& element, std::size_t point_count,
+                        const std::string& file, RawCloud& raw) {
   const auto place = element.find("vertex_indices") ? element.find("vertex_indices")
                                                     : element.find("vertex_index");
-  if (!place || !element.properties[*place].count_type) return body.read(element, {}, nullptr);
+  if (!place || !element.properties[*place].count_type) {
+    return pass_over_faces(body, element, "they have no list vertex_indices", raw);
+  }
   PlyLists polygons;
   polygons.property = *place;
   if (auto good = body.read(element, {}, &polygons); !good) return good;
 
-  const auto points = static_cast<double>(raw.cloud.size());
+  const auto points = static_cast<double>(point_count);
   std::size_t first = 0;
   for (const std::uint32_t length : polygons.lengths) {
     const double* corner = polygons.items.data() + first;
@@ -133,6 +145,14 @@ Result<void> read_faces(PlyBody& body, const PlyElement& element, const std::str
     first += length;
   }
   return {};
+}
+
+/// Of the first element of vertices, which may stand behind the faces; 0 without any.
+std::size_t count_points(const PlyHeader& header) {
+  for (const auto& element : header.elements) {
+    if (element.name == "vertex") return std::min(element.count, kMostFilePoints);
+  }
+  return 0;
 }
 
 const char* format_name(PlyFormat format) {
@@ -155,6 +175,7 @@ Result<RawCloud> read_ply(std::string_view bytes, const std::string& file) {
   const auto body = open_ply_body(*header, bytes, file);
   RawCloud raw;
   raw.format = format_name(header->format);
+  const std::size_t points = count_points(*header);
   bool has_vertices = false;
   for (const auto& element : header->elements) {
     if (!body->can_hold(element)) {
@@ -172,8 +193,10 @@ Result<RawCloud> read_ply(std::string_view bytes, const std::string& file) {
     if (element.name == "vertex" && !has_vertices) {
       has_vertices = true;
       good = read_vertices(*body, element, file, raw.cloud);
-    } else if (element.name == "face" && has_vertices) {
-      good = read_faces(*body, element, file, raw);
+    } else if (element.name == "face" && points > 0) {
+      good = read_faces(*body, element, points, file, raw);
+    } else if (element.name == "tristrips") {
+      good = pass_over_faces(*body, element, "export the mesh as triangles", raw);
     } else {
       good = body->read(element, {}, nullptr);
     }

@@ -20,6 +20,7 @@ struct RawCloud {
   std::string format;
   bool are_normals_guessed = false;  ///< from columns that nobody named
   std::size_t surplus_bytes = 0;     ///< after all that its header names, without blanks at the end
+  std::vector<std::string> notes;    ///< of what was passed over
 };
 
 /// More points or faces than these are refused.
