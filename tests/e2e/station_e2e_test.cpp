@@ -279,7 +279,7 @@ TEST(Station, RecoversACameraThatComesBack) {
   EXPECT_EQ(scan.exit_code, 0) << scan.text;
 }
 
-// V6, D19, as a person sees them.
+// Damaged and empty frames, as a person sees them.
 TEST(Station, CountsTheDamagedFramesOfEachCamera) {
   StationProcess station("fault_script = \"faults.txt\"\n");
   std::ofstream(station.folder() / "faults.txt") << "camera left: corrupt frames 3-5\n"

@@ -94,7 +94,7 @@ TEST_F(DeviceChecks, SayThatAUsb3CameraHangsOnASlowLink) {
   EXPECT_THAT(trouble().finding, HasSubstr("a USB 3 camera on a link of 480 Mbit/s"));
 }
 
-// V8: the kernel's 16 MB starve the second OpenNI2 sensor.
+// The kernel's 16 MB starve the second OpenNI2 sensor.
 TEST_F(DeviceChecks, UsbfsMemoryIsChecked) {
   write(bus_.sysfs() / "module/usbcore/parameters/usbfs_memory_mb", "16");
   EXPECT_FALSE(trouble_of_usb_memory(folders()));

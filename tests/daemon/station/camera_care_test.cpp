@@ -110,7 +110,7 @@ TEST_F(CameraCareTest, LooksAtOnceWhenACameraThatServedLeaves) {
   EXPECT_EQ(care_->health(0).link_mbps, 0);
 }
 
-// D16
+// A USB 3 camera that came up as USB 2 works, and fails after hours.
 TEST_F(CameraCareTest, WarnsOfASlowLinkAsLongAsItIsThere) {
   bus_->tell(true, true);
   run({[this] {
@@ -120,7 +120,7 @@ TEST_F(CameraCareTest, WarnsOfASlowLinkAsLongAsItIsThere) {
   EXPECT_EQ(care_->health(0).warning, "");
 }
 
-// U3: a camera arrives before udev has set who may open it.
+// A camera arrives before udev has set who may open it.
 TEST_F(CameraCareTest, ArrivalThenEaccesRetries) {
   const Error denied{ErrorCode::kPermissionDenied, Remedy::kOperator, "it may not be opened",
                      "change a rule"};
@@ -147,7 +147,7 @@ TEST_F(CameraCareTest, ArrivalThenEaccesRetries) {
   EXPECT_EQ(care_->health(0).recovery, "") << "udev was there in time";
 }
 
-// D9
+// Some cameras come back by no reset, but only by a replug: there must be an end.
 TEST_F(CameraCareTest, ResetsASilentCameraABoundedNumberOfTimes) {
   for (int i = 0; i < 20; ++i) care_->looked_at(0, kSilent);
   run({[] {}});

@@ -63,7 +63,7 @@ TEST(CameraSet, TakesTheWholeSetOnceMoreWhenACameraFails) {
   EXPECT_EQ(frames->size(), 10U);
 }
 
-// D22
+// One camera drops out while several are read.
 TEST(CameraSet, NamesTheCameraRatherThanReturnAPartialSet) {
   const auto set = cameras({}, {Step::kGone, Step::kGone});
   const auto frames = set->capture(settings(), go_on);
@@ -104,7 +104,7 @@ class SettlingCamera : public ScriptedCamera {
   int sent_ = 0;
 };
 
-// D18: by their count, in each stream anew.
+// By their count, in each stream anew.
 TEST(CameraSet, WarmupFramesAreDiscarded) {
   for (const int warmup : {SettlingCamera::kSettling - 1, SettlingCamera::kSettling}) {
     std::vector<std::unique_ptr<DepthCamera>> all;
@@ -126,7 +126,7 @@ TEST(CameraSet, WarmupFramesAreDiscarded) {
   }
 }
 
-// D19
+// After hours some cameras send frames without a depth.
 TEST(CameraSet, ZeroFrameIsRejected) {
   const auto set = cameras({Step::kGood, Step::kGood, Step::kEmpty, Step::kEmpty},
                            std::deque<Step>(100, Step::kEmpty));

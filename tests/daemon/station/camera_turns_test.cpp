@@ -104,7 +104,7 @@ int most_lit(const std::string& fault_script, bool one_at_a_time) {
   return light->most;
 }
 
-// D20: no two sensors are ever lit at once, whatever goes wrong. An emitter is lit while its sensor
+// No two sensors are ever lit at once, whatever goes wrong. An emitter is lit while its sensor
 // streams: streaming in turn is what switches it.
 TEST(CameraTurns, SequentialCaptureMode) {
   EXPECT_EQ(most_lit("", true), 1);
@@ -116,7 +116,7 @@ TEST(CameraTurns, SequentialCaptureMode) {
   EXPECT_GT(most_lit("", false), 1) << "this would see two that are lit";
 }
 
-// D20: a camera that is still being looked at is lit as well.
+// A camera that is still being looked at is lit as well.
 TEST(CameraTurns, BeginWhenNoCameraIsLookedAtAnyMore) {
   const auto light = std::make_shared<LitCamera::Light>();
   auto silent = std::make_unique<ScriptedCamera>("right", std::deque{Step::kTimeout});

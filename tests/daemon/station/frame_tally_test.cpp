@@ -15,7 +15,7 @@ DepthFrame frame_with(std::size_t valid, std::uint64_t sequence = 0) {
   return frame;
 }
 
-// D19
+// After hours some cameras send frames without a depth.
 TEST(FrameTally, CallsAFrameEmptyBelowAHundredthOfItsPixels) {
   FrameTally tally;
   EXPECT_EQ(tally.count(frame_with(0)), FrameFault::kEmpty);

@@ -58,13 +58,13 @@ TEST(PedalDebouncer, TakesAPressAfterExactlyTheDebounceTime) {
   EXPECT_EQ(debouncer.take_signals(), Signals{Signal::kPressed});
 }
 
-// G2
+// Edges between them are lost in bursts.
 TEST(PedalDebouncer, MakesOnePressOfTwoRisingEdges) {
   EXPECT_EQ(play(resting(), {{true, 100ms}, {true, 110ms}, {false, 300ms}}, 1s),
             (Signals{Signal::kPressed, Signal::kReleased}));
 }
 
-// G2
+// A full queue drops the newest edge.
 TEST(PedalDebouncer, ReadsTheLevelAfterABurstWhoseLastEdgeWasLost) {
   auto debouncer = resting();
   debouncer.on_edge({true, 100ms});
@@ -135,7 +135,7 @@ TEST(PedalDebouncer, TellsAHoldOnceAfterTwoSeconds) {
             (Signals{Signal::kPressed, Signal::kReleased}));
 }
 
-// G7
+// Something stands on it while the station starts.
 TEST(PedalDebouncer, DoesNotTriggerOnAPedalHeldAtStartUp) {
   PedalDebouncer debouncer(kDebounce, kHold, true, 0ms);
   EXPECT_EQ(debouncer.take_signals(), Signals{Signal::kStuck});
@@ -147,7 +147,7 @@ TEST(PedalDebouncer, DoesNotTriggerOnAPedalHeldAtStartUp) {
   EXPECT_EQ(debouncer.take_signals(), Signals{Signal::kPressed});
 }
 
-// G7
+// A pedal jams, or its line is torn.
 TEST(PedalDebouncer, CallsAPedalThatStaysDownStuck) {
   EXPECT_EQ(play(resting(), {{true, 100ms}}, 60s),
             (Signals{Signal::kPressed, Signal::kHeld, Signal::kStuck}));
@@ -162,7 +162,7 @@ TEST(PedalDebouncer, SurvivesTimesThatRunBackwards) {
   EXPECT_EQ(debouncer.take_signals(), Signals{Signal::kPressed});
 }
 
-// G3: the clock on which they are read says nothing about them.
+// The clock on which they are read says nothing about them.
 TEST(PedalDebouncer, JudgesABatchReadLateByItsOwnTimes) {
   auto debouncer = resting();
   debouncer.on_edge({true, 100ms});
@@ -202,7 +202,7 @@ std::vector<PedalEdge> chattering(std::mt19937_64& random, int presses, Time& en
   return edges;
 }
 
-// G1
+// One press, many events.
 TEST(PedalDebouncer, CountsEveryPressOnceHoweverTheContactBounces) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     std::mt19937_64 random(seed);
@@ -217,7 +217,7 @@ TEST(PedalDebouncer, CountsEveryPressOnceHoweverTheContactBounces) {
   }
 }
 
-// G2
+// Bursts overflow the queue of edges.
 TEST(PedalDebouncer, EndsInTheTrueLevelHoweverManyEdgesAreLost) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
     std::mt19937_64 random(seed);

@@ -13,7 +13,7 @@ Error error(ErrorCode code) {
 
 const Error kSilent = error(ErrorCode::kTimeout);
 
-// D6, D9: from gentle to rough, each rung a few times, and never without end.
+// From gentle to rough, each rung a few times, and never without end.
 TEST(RecoveryLadder, ReopensThenResetsThenCallsAPerson) {
   RecoveryLadder ladder(true);
   EXPECT_EQ(ladder.text(), "");

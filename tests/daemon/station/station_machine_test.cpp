@@ -179,7 +179,7 @@ TEST(StationMachine, CancelsAScanOnce) {
   EXPECT_TRUE(machine.handle(E::kCancelRequested).empty());
 }
 
-// G8
+// A press during a scan is no wish for another one.
 TEST(StationMachine, CountsPressesDuringAScan) {
   StationMachine machine = machine_in(S::kCapturing);
   for (int i = 0; i < 3; ++i) machine.handle(E::kScanRequested);

@@ -30,7 +30,7 @@ TEST(UsbPresence, ReportsADeviceOnceItHasSettled) {
   EXPECT_FALSE(presence.next_deadline());
 }
 
-// U2: libusb may tell of an arrival twice, and of a departure without an arrival.
+// libusb may tell of an arrival twice, and of a departure without an arrival.
 TEST(UsbPresence, MakesOneOfDuplicatesAndNothingOfOrphans) {
   UsbPresence presence;
   presence.note(change(true), 0ms);
@@ -44,7 +44,7 @@ TEST(UsbPresence, MakesOneOfDuplicatesAndNothingOfOrphans) {
   EXPECT_TRUE(presence.settled(5s).empty());
 }
 
-// U6: a loose plug tells hundreds of events within a second or two.
+// A loose plug tells hundreds of events within a second or two.
 TEST(UsbPresence, MakesOnePieceOfNewsOfAFlappingPlug) {
   UsbPresence presence;
   auto now = UsbPresence::Time(0);

@@ -4,7 +4,7 @@
 namespace instep {
 namespace {
 
-/// G6: the two major versions of the library answer to the same name and share no call. Which one
+/// The two major versions of the library answer to the same name and share no call. Which one
 /// the build was configured with, and says, is the one that is loaded here.
 TEST(GpioLibrary, IsOfTheVersionThatTheBuildWasConfiguredWith) {
   EXPECT_STREQ(gpiod_version_string(), INSTEP_GPIOD_VERSION);

@@ -84,7 +84,8 @@ class OpenniFault : public testing::Test {
   OpenniBus bus_;
 };
 
-TEST_F(OpenniFault, ReopensAfterReplug) {  // D1
+// After a replug the device could not be opened again.
+TEST_F(OpenniFault, ReopensAfterReplug) {
   auto camera = streaming_camera();
   for (int round = 0; round < 20; ++round) {
     bus_.unplug("A1");
@@ -97,7 +98,8 @@ TEST_F(OpenniFault, ReopensAfterReplug) {  // D1
   EXPECT_EQ(child_processes().size(), 1U);
 }
 
-TEST_F(OpenniFault, UnplugAtEveryCallBoundary) {  // D2
+// Unplugging within a call crashes it.
+TEST_F(OpenniFault, UnplugAtEveryCallBoundary) {
   const std::vector<std::function<void(DepthCamera&)>> calls = {
       [](DepthCamera& camera) { camera.start(); },
       [](DepthCamera& camera) { camera.start(); },
@@ -120,7 +122,7 @@ TEST_F(OpenniFault, UnplugAtEveryCallBoundary) {  // D2
   EXPECT_TRUE(child_processes().empty());
 }
 
-TEST_F(OpenniFault, UnplugEndsAWaitAtOnce) {  // D3: the library itself only lets it time out
+TEST_F(OpenniFault, UnplugEndsAWaitAtOnce) {  // the library itself only lets it time out
   auto camera = streaming_camera();
   fail_with("stall");
   while (camera->next_frame(100ms)) continue;
@@ -138,7 +140,8 @@ TEST_F(OpenniFault, UnplugEndsAWaitAtOnce) {  // D3: the library itself only let
   EXPECT_LT(took, kLong / 2);
 }
 
-TEST_F(OpenniFault, NeverBlocksLongerThanDeadline) {  // D4
+// Readers wait for minutes or for ever.
+TEST_F(OpenniFault, NeverBlocksLongerThanDeadline) {
   for (const auto* fault : {"stall", "slow"}) {
     auto camera = streaming_camera();
     fail_with(fault);
@@ -151,7 +154,8 @@ TEST_F(OpenniFault, NeverBlocksLongerThanDeadline) {  // D4
   }
 }
 
-TEST_F(OpenniFault, StopWhileWaitingReturnsWithin1s) {  // D5
+// A wait cannot be ended by others.
+TEST_F(OpenniFault, StopWhileWaitingReturnsWithin1s) {
   auto camera = streaming_camera();
   fail_with("stall");
   while (camera->next_frame(100ms)) continue;
@@ -168,7 +172,8 @@ TEST_F(OpenniFault, StopWhileWaitingReturnsWithin1s) {  // D5
   EXPECT_LT(done - asked, 1s);
 }
 
-TEST_F(OpenniFault, StallIsATimeoutThatEnds) {  // D6, from the driver's side
+// Frames stop coming, and to wait longer does not help.
+TEST_F(OpenniFault, StallIsATimeoutThatEnds) {
   auto camera = streaming_camera();
   fail_with("stall");
   EXPECT_EQ(next_failure(*camera, 200ms).code, ErrorCode::kTimeout);
@@ -177,7 +182,8 @@ TEST_F(OpenniFault, StallIsATimeoutThatEnds) {  // D6, from the driver's side
   EXPECT_TRUE(camera->next_frame(kLong));
 }
 
-TEST_F(OpenniFault, HungStopIsAbandoned) {  // D7
+// Stopping a camera that stalls hangs too.
+TEST_F(OpenniFault, HungStopIsAbandoned) {
   auto camera = streaming_camera();
   fail_with("hang-stop");
   std::this_thread::sleep_for(50ms);
@@ -191,7 +197,8 @@ TEST_F(OpenniFault, HungStopIsAbandoned) {  // D7
   EXPECT_EQ(child_processes().size(), 1U);
 }
 
-TEST_F(OpenniFault, HungStopDoesNotHoldUpTheEnd) {  // D7, D14
+// What hangs in stopping a camera hangs at the end of the program too.
+TEST_F(OpenniFault, HungStopDoesNotHoldUpTheEnd) {
   auto camera = streaming_camera();
   fail_with("hang-stop");
   std::this_thread::sleep_for(50ms);
@@ -199,7 +206,8 @@ TEST_F(OpenniFault, HungStopDoesNotHoldUpTheEnd) {  // D7, D14
   EXPECT_TRUE(child_processes().empty());
 }
 
-TEST_F(OpenniFault, OpensButNeverStreams) {  // D8
+// After a loss of power cameras open, but send nothing.
+TEST_F(OpenniFault, OpensButNeverStreams) {
   bus_.plug_in({.faults = {"stall"}});
   const auto camera = bus_.camera();
   ASSERT_TRUE(camera->start());
@@ -255,7 +263,7 @@ TEST_F(OpenniFault, HungOpeningEndsAtItsLimit) {
   EXPECT_TRUE(child_processes().empty());
 }
 
-TEST_F(OpenniFault, ResetDuringCapture) {  // D11: the device leaves and is back elsewhere at once
+TEST_F(OpenniFault, ResetDuringCapture) {  // the device leaves and is back elsewhere at once
   auto camera = streaming_camera();
   bus_.plug_in({});
   EXPECT_EQ(next_failure(*camera).code, ErrorCode::kDeviceGone);
@@ -263,7 +271,8 @@ TEST_F(OpenniFault, ResetDuringCapture) {  // D11: the device leaves and is back
   EXPECT_TRUE(camera->next_frame(kLong));
 }
 
-TEST_F(OpenniFault, DisappearsAfterClose) {  // D12
+// A device may be away for seconds after it was closed.
+TEST_F(OpenniFault, DisappearsAfterClose) {
   auto camera = streaming_camera();
   camera->stop();
   bus_.unplug("A1");
@@ -280,7 +289,8 @@ TEST_F(OpenniFault, DisappearsAfterClose) {  // D12
   EXPECT_TRUE(camera->next_frame(kLong));
 }
 
-TEST_F(OpenniFault, CloseReleasesAndSecondSessionWorks) {  // D13
+// Closing does not give the device back, or the second start gets no depth.
+TEST_F(OpenniFault, CloseReleasesAndSecondSessionWorks) {
   for (int session = 0; session < 5; ++session) {
     const auto camera = streaming_camera();
     EXPECT_EQ(child_processes().size(), 1U);
@@ -288,7 +298,8 @@ TEST_F(OpenniFault, CloseReleasesAndSecondSessionWorks) {  // D13
   EXPECT_TRUE(child_processes().empty());
 }
 
-TEST_F(OpenniFault, ShutdownInEveryState) {  // D14
+// Ending crashes or hangs.
+TEST_F(OpenniFault, ShutdownInEveryState) {
   const auto destroyed_within_1s = [&](std::unique_ptr<OpenniCamera> camera) {
     EXPECT_LT(time_of([&] { camera.reset(); }), 1s);
     EXPECT_TRUE(child_processes().empty());

@@ -51,7 +51,8 @@ TEST(OpenniCamera, SendsEachImageOnceAndInTurn) {
   }
 }
 
-TEST(OpenniCamera, DepthScaleFromModeNotAssumed) {  // D17
+// Depths are off by their unit.
+TEST(OpenniCamera, DepthScaleFromModeNotAssumed) {
   // The same surface, once in tenths and once in whole millimetres.
   OpenniBus bus;
   const std::vector<std::uint16_t> tenths(64 * 48, 5120);

@@ -26,7 +26,8 @@ void PrintTo(const Cause& cause, std::ostream* out) {
 
 class OpenniCause : public testing::TestWithParam<Cause> {};
 
-TEST_P(OpenniCause, IsNamed) {  // D15
+// "No device found" is said of missing drivers, rights and rules alike.
+TEST_P(OpenniCause, IsNamed) {
   OpenniBus bus;
   auto settings = bus.settings();
   GetParam().make(bus, settings);
@@ -80,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                 settings.intrinsics = CameraIntrinsics{80, 60, 70, 70, 40, 30, {}};
               },
               ErrorCode::kUnsupported, "but 32x24 at 30/s in 1 mm"},
-        Cause{"TwoOfOneSerial",  // D21
+        Cause{"TwoOfOneSerial",  // which of them is which cannot be told
               [](auto& bus, auto&) {
                 bus.plug_in({.serial = "A1"});
                 const auto images = bus.folder() / "twin.raw";

@@ -104,8 +104,8 @@ class LibusbWatchTest : public testing::Test {
   LibusbWatchTest() { libusb = {}; }
 };
 
-// U1: called back by its own callback, libusb locks up. Where a device is, it has at hand.
-// U2: nothing comes of departures without arrivals, nor of arrivals that are over.
+// Called back by its own callback, libusb locks up. Where a device is, it has at hand.
+// Nothing comes of departures without arrivals, nor of arrivals that are over.
 TEST_F(LibusbWatchTest, CallbackOnlyPostsEvent) {
   const auto watch = open_libusb_watch();
   ASSERT_TRUE(watch) << watch.error().line();
@@ -117,7 +117,7 @@ TEST_F(LibusbWatchTest, CallbackOnlyPostsEvent) {
   EXPECT_EQ(libusb.asked_while_telling, std::set<std::string>());
 }
 
-// U5: no descriptor is left to watch with.
+// No descriptor is left to watch with.
 TEST_F(LibusbWatchTest, SurvivesEmfile) {
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);

@@ -25,7 +25,7 @@ TEST(UsbDevice, IsDescribedByTheKernelsFiles) {
   EXPECT_EQ(device.link_mbps, 480);
 }
 
-// D16: a USB 3 camera on a USB 2 link reports version 2.10 and 480 Mbit/s.
+// A USB 3 camera on a USB 2 link reports version 2.10 and 480 Mbit/s.
 TEST(UsbDevice, TellsAUsb3DeviceOnAUsb2Link) {
   EXPECT_TRUE(device_with(480, " 2.10").could_be_faster);
   EXPECT_FALSE(device_with(480, " 2.00").could_be_faster) << "a USB 2 device";

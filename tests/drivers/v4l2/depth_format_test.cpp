@@ -43,7 +43,7 @@ TEST(DepthFormat, TakesTheSecondPlaneOfInzi) {
   }
 }
 
-// V11: drivers change what they do not like, and say nothing.
+// Drivers change what they do not like, and say nothing.
 TEST(DepthFormat, RefusesWhatWasNotAskedFor) {
   const AgreedFormat good{code("Z16 "), 64, 48, 128, 6144};
   ASSERT_TRUE(depth_layout(DepthFormat::kZ16, 64, 48, good));

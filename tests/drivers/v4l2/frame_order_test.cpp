@@ -33,21 +33,21 @@ TEST(FrameOrder, GoesOnCountingWhenTheDriversNumbersEnd) {
   EXPECT_EQ(next.sequence, last.sequence + 2);
 }
 
-// V9: stamps on another clock than the buffer's flag promises, such as the camera's own.
+// Stamps on another clock than the buffer's flag promises, such as the camera's own.
 TEST(FrameOrder, TakesTheTimeOfReceiptWhereThereIsNoMonotonicStamp) {
   FrameOrder order(kBegin);
   EXPECT_EQ(order.place(0, std::nullopt, Time(1'040'000)).time, Time(1'040'000));
   EXPECT_EQ(order.place(1, Time(0), Time(1'070'000)).time, Time(1'070'000));
 }
 
-// V9: a time in the future cannot be of this clock.
+// A time in the future cannot be of this clock.
 TEST(FrameOrder, DoesNotBelieveAClockThatIsAhead) {
   FrameOrder order(kBegin);
   EXPECT_EQ(order.place(0, Time(99'000'000'000), Time(1'040'000)).time, Time(1'040'000));
   EXPECT_EQ(order.place(1, Time(99'033'000'000), Time(1'070'000)).time, Time(1'070'000));
 }
 
-// V9: constant and backward stamps, seen with real drivers.
+// Constant and backward stamps, seen with real drivers.
 TEST(FrameOrder, TimesGoForwardWhateverIsStamped) {
   for (const int step_us : {0, -33'000, 33'000}) {
     FrameOrder order(kBegin);

@@ -72,7 +72,7 @@ TEST_F(V4l2CameraTest, RefusesToGuessWhatV4l2DoesNotSay) {
   EXPECT_TRUE(refused([](auto& settings) { settings.address = {}; }));
 }
 
-// V3, V4: what is kept of the dead device makes its return fail for ever.
+// What is kept of the dead device makes its return fail for ever.
 TEST_F(V4l2CameraTest, ReopensUnderAnotherNumberAfterReplug) {
   const auto camera = bench_.camera();
   for (int round = 0; round < 100; ++round) {
@@ -91,7 +91,7 @@ TEST_F(V4l2CameraTest, ReopensUnderAnotherNumberAfterReplug) {
   EXPECT_EQ(bench_.kernel().misuses(), 0);
 }
 
-// V4: a mapping that is left keeps the node busy even behind a closed descriptor.
+// A mapping that is left keeps the node busy even behind a closed descriptor.
 TEST_F(V4l2CameraTest, GivesEverythingBackOnStop) {
   const auto camera = bench_.camera();
   const auto other = bench_.camera();
@@ -108,7 +108,7 @@ TEST_F(V4l2CameraTest, GivesEverythingBackOnStop) {
   EXPECT_EQ(bench_.kernel().misuses(), 0);
 }
 
-// V1: nothing else would ever wake the one who waits.
+// Nothing else would ever wake the one who waits.
 TEST_F(V4l2CameraTest, WakesAWaiterWhenTheCameraIsUnplugged) {
   bench_.kernel().change(bench_.node(), [](auto& device) { device.silent = true; });
   const auto camera = bench_.camera();
@@ -122,7 +122,7 @@ TEST_F(V4l2CameraTest, WakesAWaiterWhenTheCameraIsUnplugged) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
 }
 
-// V5: buffers that the kernel still has must not be lent to it again.
+// Buffers that the kernel still has must not be lent to it again.
 TEST_F(V4l2CameraTest, LendsOnlyBuffersThatItTookAfterTimeouts) {
   bench_.kernel().change(bench_.node(), [](auto& device) { device.silent = true; });
   const auto camera = bench_.camera();
@@ -133,7 +133,7 @@ TEST_F(V4l2CameraTest, LendsOnlyBuffersThatItTookAfterTimeouts) {
   EXPECT_EQ(bench_.kernel().misuses(), 0);
 }
 
-// V6: damaged buffers are told as such, have no pixels, and do not end the stream.
+// Damaged buffers are told as such, have no pixels, and do not end the stream.
 TEST_F(V4l2CameraTest, TellsDamagedBuffersAndUsesNoneOfThem) {
   const auto camera = started(
       {Image{.flagged = true}, Image{.bytes = 0}, Image{.bytes = 64 * 48 * 2 - 1}, Image{}});
@@ -159,7 +159,7 @@ TEST_F(V4l2CameraTest, ShowsLostFramesInTheSequence) {
   EXPECT_EQ(next(*camera).sequence, first.sequence + 4);
 }
 
-// V9: stamps that are not on the clock of this machine, as the buffer's flags say.
+// Stamps that are not on the clock of this machine, as the buffer's flags say.
 TEST_F(V4l2CameraTest, HonoursTheFlagOfTheClock) {
   const auto before = std::chrono::steady_clock::now();
   const std::chrono::microseconds stamp(42);
@@ -173,7 +173,7 @@ TEST_F(V4l2CameraTest, HonoursTheFlagOfTheClock) {
   }
 }
 
-// V7: the kernel's words for it are "No space left on device".
+// The kernel's words for it are "No space left on device".
 TEST_F(V4l2CameraTest, ReportsAFullUsbBusAsSuch) {
   const auto error = start_error({.stream_on_error = ENOSPC});
   EXPECT_EQ(error.code, ErrorCode::kNoBandwidth);
@@ -182,7 +182,7 @@ TEST_F(V4l2CameraTest, ReportsAFullUsbBusAsSuch) {
   EXPECT_EQ(bench_.kernel().held(), 0);
 }
 
-// V11: drivers change what they do not like, and say nothing.
+// Drivers change what they do not like, and say nothing.
 TEST_F(V4l2CameraTest, RefusesAFormatThatTheDriverChanged) {
   EXPECT_EQ(start_error({.other_code = V4L2_PIX_FMT_YUYV}).code, ErrorCode::kUnsupported);
   EXPECT_EQ(start_error({.other_width = 320}).code, ErrorCode::kUnsupported);

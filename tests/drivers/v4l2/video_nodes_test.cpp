@@ -35,7 +35,7 @@ TEST_F(VideoNodes, FindsACameraBySerialAndByPlace) {
   EXPECT_EQ(find({"", "B2"})->size(), 2U) << "every node of the device, by number";
 }
 
-// V10: after a restart or a replug the numbers are others.
+// After a restart or a replug the numbers are others.
 TEST_F(VideoNodes, FindsTheSameCameraUnderAnotherNumber) {
   bus_.plug(left_);
   bus_.plug(right_);
@@ -45,7 +45,7 @@ TEST_F(VideoNodes, FindsTheSameCameraUnderAnotherNumber) {
   EXPECT_EQ(first_name(find({"", "A1"})), "video7");
 }
 
-// D21: the camera in the left one's socket is not the left one.
+// The camera in the left one's socket is not the left one.
 TEST_F(VideoNodes, TellsACameraInAnothersPlace) {
   bus_.plug(left_);
   const auto nodes = find({"usb-0000:00:14.0-2", "B2"});
@@ -55,7 +55,7 @@ TEST_F(VideoNodes, TellsACameraInAnothersPlace) {
               HasSubstr("there is only \"Depth Camera\", serial A1, at usb-0000:00:14.0-2"));
 }
 
-// D21: some makers give all their cameras the same serial number.
+// Some makers give all their cameras the same serial number.
 TEST_F(VideoNodes, RefusesASerialThatTwoCamerasHave) {
   right_.serial = left_.serial;
   bus_.plug(left_);

@@ -89,7 +89,7 @@ TEST(GpioOutput, IsDrivenOffBeforeItIsLetGo) {
   EXPECT_THAT(driven.levels(), ElementsAre("1", "0"));
 }
 
-// G5
+// Another program has the line.
 TEST(GpioOutput, NamesWhoHoldsABusyLine) {
   const GpioChip chip("lamps", "board", 2, "lamp");
   const auto holder = GpioOutput::open(lamp());

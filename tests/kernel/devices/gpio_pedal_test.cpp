@@ -72,7 +72,7 @@ TEST(GpioPedal, CanBeActiveHighAndPulledDown) {
   EXPECT_TRUE((*pedal)->is_pressed().value());
 }
 
-// G4: numbers change, names stay.
+// Numbers change, names stay.
 TEST(GpioPedal, IsFoundThoughItsChipGotAnotherNumber) {
   std::optional<GpioChip> other(std::in_place, "first", "other board", 0, "else");
   GpioChip chip("pedal", "board", kOffset, "foot");
@@ -117,7 +117,7 @@ TEST(GpioPedal, SaysWhatIsNotThere) {
   EXPECT_EQ(GpioPedal::open(settings).error().code, ErrorCode::kNotFound);
 }
 
-// G5
+// Another program has the line.
 TEST(GpioPedal, NamesWhoHoldsABusyLine) {
   GpioChip chip("pedal", "board", kOffset, "foot");
   const auto holder = GpioPedal::open(by_name());
@@ -163,7 +163,7 @@ TEST(GpioPedal, LosesNoDescriptorWhileItsChipComesAndGoes) {
   EXPECT_EQ(open_files(), before);
 }
 
-// G2: what is dropped is the newest edge, so the level has the last word.
+// What is dropped is the newest edge, so the level has the last word.
 TEST(GpioPedal, KnowsTheLevelAfterABurstThatOverflowed) {
   GpioChip chip("pedal", "board", kOffset, "foot");
   const auto pedal = GpioPedal::open(by_name());

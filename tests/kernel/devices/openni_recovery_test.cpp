@@ -66,7 +66,7 @@ class OpenniSensorOnUsb : public testing::Test {
   StationProcess station_;
 };
 
-// D1: nobody would look at it for an hour, but for the news of the bus.
+// Nobody would look at it for an hour, but for the news of the bus.
 TEST_F(OpenniSensorOnUsb, IsMissedAndTakenBackAtOnceByTheNewsOfTheBus) {
   EXPECT_THAT(status_with("\"link_mbps\":480"), HasSubstr("\"link_mbps\":480"));
   for (int round = 0; round < 2; ++round) {
@@ -78,7 +78,7 @@ TEST_F(OpenniSensorOnUsb, IsMissedAndTakenBackAtOnceByTheNewsOfTheBus) {
   }
 }
 
-// D6, D9, D10: the reset is a real one, of the device on the kernel's bus.
+// The reset is a real one, of the device on the kernel's bus.
 TEST_F(OpenniSensorOnUsb, IsOpenedAgainThenResetThenLeftToAPerson) {
   const int set_ups = usb_.set_ups();
   bus_.set_faults("P1", {"stall"});

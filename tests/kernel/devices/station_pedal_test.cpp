@@ -47,7 +47,7 @@ class StationWithPedal : public testing::Test {
   StationProcess station_;
 };
 
-// G1
+// One press, many events.
 TEST_F(StationWithPedal, ScansOnceWhenTheLineBouncesTwoThousandTimes) {
   GpioChip chip("pedal", "board", 3, "foot");
   start(kGpio);
@@ -65,7 +65,7 @@ TEST_F(StationWithPedal, ScansOnceWhenTheLineBouncesTwoThousandTimes) {
   EXPECT_EQ(results_in(station_.store()), 1) << station_.log();
 }
 
-// G7
+// Something stands on it while the station starts.
 TEST_F(StationWithPedal, DoesNotScanForAPedalThatWasHeldAtStartUp) {
   GpioChip chip("pedal", "board", 3, "foot");
   // The bias that the daemon asks for would undo a contact closed now.

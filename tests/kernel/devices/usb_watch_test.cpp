@@ -27,7 +27,7 @@ class UsbWatchTest : public testing::Test {
       for (const auto& change : watch_->changes()) {
         if (change.device.address.serial == serial) return change;
       }
-      // U4: nothing but its descriptor says when there is something.
+      // Nothing but its descriptor says when there is something.
       pollfd readable{watch_->descriptor(), POLLIN, 0};
       const auto left =
           std::chrono::ceil<std::chrono::milliseconds>(deadline - steady_clock::now());
@@ -65,7 +65,7 @@ TEST_F(UsbWatchTest, TellsWhatWasPluggedInBefore) {
   EXPECT_TRUE(there && there->arrived);
 }
 
-// D16
+// Such a link works, and fails after hours.
 TEST_F(UsbWatchTest, SeesThatAUsb3CameraIsLinkedAsUsb2) {
   UsbDepthCamera usb({.port = 1, .serial = "C3", .usb_version = 0x0210}, dark());
   usb.plug();
@@ -74,7 +74,7 @@ TEST_F(UsbWatchTest, SeesThatAUsb3CameraIsLinkedAsUsb2) {
   EXPECT_TRUE(came->device.could_be_faster);
 }
 
-// D10
+// A reset ends the handle that it was asked through: the device leaves and comes back.
 TEST_F(UsbWatchTest, ResetsADeviceThatIsThere) {
   UsbDepthCamera usb({.port = 1, .serial = "D4"}, dark());
   usb.plug();

@@ -142,7 +142,7 @@ class PassedOnFrames {
   }
 };
 
-// V6
+// Damaged or short buffers are taken for frames, or end the stream.
 TEST(V4l2KernelCamera, TellsFramesThatTheDriverFlags) {
   const PassedOnFrames passed_on;
   UsbDepthCamera usb({}, counting_scene());
@@ -195,7 +195,7 @@ TEST_F(V4l2KernelFault, ShowsFramesThatTheDriverDroppedAsGaps) {
   EXPECT_EQ(missing, 3U);
 }
 
-// V1
+// Nothing else would ever wake the one who waits.
 TEST_F(V4l2KernelFault, GivesUpOnASilentCameraAndGoesOnWithIt) {
   usb_.fall_silent(true);
   Result<DepthFrame> frame = camera_->next_frame(300ms);
@@ -218,7 +218,7 @@ TEST_F(V4l2KernelFault, FailsToStartWhileTheNegotiationIsRefused) {
   expect_depth(camera_->next_frame(5s).value());
 }
 
-// V1, V3
+// Waiting never ends after an unplug; what is kept of the dead device hinders its return.
 TEST_F(V4l2KernelFault, TellsThatItWasUnpluggedAndServesAgain) {
   usb_.fall_silent(true);
   std::thread hand([&] { usb_.unplug(); });

@@ -39,7 +39,7 @@ class V4l2Recovery : public testing::Test {
   StationProcess station_;
 };
 
-// D6, D8, D9: it is there, but sends nothing.
+// It is there, but sends nothing.
 TEST_F(V4l2Recovery, OpensAgainThenResetsThenCallsAPersonAndNeverGivesUpLooking) {
   UsbDepthCamera usb({}, flat_scene());
   start(usb);
@@ -56,7 +56,7 @@ TEST_F(V4l2Recovery, OpensAgainThenResetsThenCallsAPersonAndNeverGivesUpLooking)
   EXPECT_TRUE(station_.wait_for("STATUS=ready", 10s)) << station_.log();
 }
 
-// D16
+// Such a link works, and fails after hours.
 TEST_F(V4l2Recovery, WarnsOfAUsb3CameraOnAUsb2Link) {
   UsbDepthCamera usb({.usb_version = 0x0210}, flat_scene());
   start(usb);

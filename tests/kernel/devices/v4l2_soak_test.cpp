@@ -37,7 +37,7 @@ Holdings holdings_of(pid_t process) {
   return holdings;
 }
 
-// V3, V4, U5, D1: what one replug leaves behind, months of them bring the station down with.
+// What one replug leaves behind, months of them bring the station down with.
 TEST(V4l2Soak, TheDaemonKeepsNothingOver100Replugs) {
   UsbDepthCamera usb({}, flat_scene());
   StationProcess station;

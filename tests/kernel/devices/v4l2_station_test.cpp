@@ -123,7 +123,7 @@ std::size_t count_lines(const std::string& log, const std::string& text) {
   return count;
 }
 
-// S3, D22, V2: the daemon is up before its cameras, and scans only when all are there.
+// The daemon is up before its cameras, and scans only when all are there.
 TEST_F(V4l2Station, WaitsForCamerasThatComeLater) {
   cameras_.usb[0]->plug();
   start();
@@ -137,7 +137,7 @@ TEST_F(V4l2Station, WaitsForCamerasThatComeLater) {
   expect_ready();
 }
 
-// D2, V1: in the middle of a scan.
+// In the middle of a scan.
 TEST_F(V4l2Station, SurvivesAnUnplugInMidScanAndServesAgainAtOnce) {
   for (auto& camera : cameras_.usb) camera->plug();
   start();
