@@ -15,6 +15,7 @@
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/file_ending.h"
 #include "daemon/command_line/measuring_options.h"
+#include "daemon/command_line/own_input.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/page/pdf_page.h"
 #include "daemon/page/report_page.h"
@@ -63,6 +64,8 @@ Result<void> print_measures(const ScanRecord& record, const std::string& format)
 }
 
 Result<void> run(const MeasureCommand& command) {
+  auto spared = spare_input(command.report, "--report", command.cloud.file, "the cloud");
+  if (!spared) return spared;
   const auto settings = measuring_settings();
   if (!settings) return tl::make_unexpected(settings.error());
   const auto file = read_cloud(command.cloud);

@@ -8,6 +8,7 @@
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
 #include "daemon/command_line/file_ending.h"
+#include "daemon/command_line/own_input.h"
 #include "daemon/repeat/repeat_report.h"
 #include "daemon/repeat/repeat_study.h"
 #include "daemon/repeat/repeat_svg.h"
@@ -50,12 +51,14 @@ Result<nlohmann::json> read_result(const std::filesystem::path& file) {
               "give a result.json, or leave this one out");
 }
 
+std::filesystem::path file_of(const std::filesystem::path& result) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(result, ignored) ? result / "result.json" : result;
+}
+
 /// What `instep replay` prints holds a result for each foot.
 Result<std::vector<StudiedResult>> read_results(const std::string& path) {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);
-  auto result = read_result(is_folder ? std::filesystem::path(path) / "result.json"
-                                      : std::filesystem::path(path));
+  auto result = read_result(file_of(path));
   if (!result) return tl::make_unexpected(result.error());
   if (!result->contains("results") || !(*result)["results"].is_array()) {
     return std::vector<StudiedResult>{{path, std::move(*result)}};
@@ -68,6 +71,9 @@ Result<std::vector<StudiedResult>> read_results(const std::string& path) {
 Result<void> run(const RepeatCommand& command) {
   std::vector<StudiedResult> results;
   for (const auto& path : command.results) {
+    if (auto spared = spare_input(command.plot, "--plot", file_of(path), "a result"); !spared) {
+      return spared;
+    }
     auto found = read_results(path);
     if (!found) return tl::make_unexpected(found.error());
     std::move(found->begin(), found->end(), std::back_inserter(results));

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "daemon/command_line/cloud_options.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/file_ending.h"
+#include "daemon/command_line/own_input.h"
 
 namespace instep {
 namespace {
@@ -40,17 +40,11 @@ std::string check_cube(const std::string& text) {
   return cube && *cube >= 0.001 && *cube <= 1000.0 ? "" : "needs a number from 0.001 to 1000";
 }
 
-/// The points are not lost to their own mesh.
-Result<void> check_out(const SurfaceCommand& command) {
-  std::error_code is_new;
-  if (!std::filesystem::equivalent(command.out, command.cloud.file, is_new)) return {};
-  return fail(ErrorCode::kInvalidInput, command.out + " is the cloud itself, and is not replaced",
-              "choose another --out");
-}
-
 Result<void> run(const SurfaceCommand& command) {
   const auto start = Clock::now();
-  if (auto checked = check_out(command); !checked) return checked;
+  if (auto spared = spare_input(command.out, "--out", command.cloud.file, "the cloud"); !spared) {
+    return spared;
+  }
   const auto file = read_cloud(command.cloud);
   if (!file) return tl::make_unexpected(file.error());
   ConstrainedSurfaceOptions options;

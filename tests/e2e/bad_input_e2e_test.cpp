@@ -184,6 +184,11 @@ TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
   expect_failure({"surface", out, "--out", out}, 1, "is the cloud itself");
 }
 
+TEST_F(BadInput, ACloudIsNotReplacedByItsOwnReport) {
+  const auto cloud = file("c.svg", cylinder());
+  expect_failure({"measure", cloud, "--report", cloud}, 1, "is the cloud itself");
+}
+
 TEST_F(BadInput, ForbiddenFilesAreOne) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const auto cloud = file("c.xyz", cylinder());

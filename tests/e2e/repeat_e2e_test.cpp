@@ -51,6 +51,14 @@ TEST_F(RepeatProgram, TakesFoldersFilesAndWhatReplayPrints) {
   EXPECT_THAT(std::string(std::istreambuf_iterator<char>(stream), {}), HasSubstr("</svg>"));
 }
 
+TEST_F(RepeatProgram, ReplacesNoResultByItsPlot) {
+  const auto one = result("one.svg", 250.0);
+  const auto run =
+      test::run_program("instep", {"repeat", result("two.json", 251.0), one, "--plot", one});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.errors, HasSubstr("is a result itself"));
+}
+
 TEST_F(RepeatProgram, SaysInOneLineWhatIsWrong) {
   const auto good = result("good.json", 250.0);
   const auto other = result("other.json", 251.0);
