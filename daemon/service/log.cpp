@@ -58,6 +58,10 @@ void set_up_log(LogLevel level) {
   spdlog::set_default_logger(std::move(logger));
 }
 
+void set_log_level(LogLevel level) {
+  spdlog::default_logger_raw()->set_level(level_of(level));
+}
+
 void log_debug(const std::string& line) {
   spdlog::debug("{}", line);
 }

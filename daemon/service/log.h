@@ -8,8 +8,11 @@
 namespace instep {
 
 /// The daemon's log on stderr. Under systemd every line begins with its journal priority; else with
-/// its time. No line says anything about a person. Safe from any thread after set_up_log().
+/// its time. No line says anything about a person. Safe from any thread after set_up_log(),
+/// which is called once, before there are others.
 void set_up_log(LogLevel level);
+/// What is said from now on.
+void set_log_level(LogLevel level);
 /// The stages of a scan: the times of these lines are theirs.
 void log_debug(const std::string& line);
 void log_info(const std::string& line);

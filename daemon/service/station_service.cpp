@@ -261,7 +261,7 @@ void StationService::reload() {
     said_.is_news(settings_fault_, "said");  // it is among the warnings of the status from now on
   } else {
     station_->reload(*settings);
-    set_up_log(settings->log.level);
+    set_log_level(settings->log.level);
     settings_.store.keep_days = settings->store.keep_days;
     settings_.store.keep_count = settings->store.keep_count;
     log_info(
