@@ -8,6 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "config/settings_search.h"
 #include "daemon/command_line/command_output.h"
@@ -18,6 +20,7 @@
 #include "daemon/scan/recorded_capture.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/store/posix_storage.h"
+#include "daemon/store/put_together.h"
 #include "daemon/store/result_content.h"
 #include "daemon/store/result_store.h"
 #include "drivers/files/file_bytes.h"
@@ -42,21 +45,28 @@ struct ReplayCommand {
   std::string format;
 };
 
-/// The object of a result; with its folder if it is to be kept.
-Result<json> result_of(const ScanRecord& record, ResultStore* store) {
-  const auto content = content_of(record);
-  if (!content) return tl::make_unexpected(content.error());
-  json result = object_in(content->result_json);
-  if (!result.is_object()) {
-    return fail(ErrorCode::kInternal, "a result is no JSON object", "report this");
+Result<std::vector<NamedContent>> contents_of(const std::vector<ScanRecord>& records) {
+  std::vector<NamedContent> contents;
+  for (const auto& record : records) {
+    auto content = content_of(record);
+    if (!content) return tl::make_unexpected(content.error());
+    contents.push_back({record.id, std::move(*content)});
   }
-  result["folder"] = nullptr;
-  if (store != nullptr) {
-    const auto folder = store->put(record.id, *content);
-    if (!folder) return tl::make_unexpected(folder.error());
-    result["folder"] = folder->string();
+  return contents;
+}
+
+/// An object for each result.
+Result<json> objects_of(const std::vector<NamedContent>& contents) {
+  json results = json::array();
+  for (const auto& one : contents) {
+    json result = object_in(one.content.result_json);
+    if (!result.is_object()) {
+      return fail(ErrorCode::kInternal, "a result is no JSON object", "report this");
+    }
+    result["folder"] = nullptr;
+    results.push_back(std::move(result));
   }
-  return result;
+  return results;
 }
 
 std::string text_of(const json& results) {
@@ -66,8 +76,19 @@ std::string text_of(const json& results) {
 }
 
 tl::unexpected<Error> of_out(Error error) {
-  error.advice = "choose another --out";
+  const bool is_full = error.code == ErrorCode::kNoSpace;
+  error.advice = is_full ? "make room there, or choose another --out" : "choose another --out";
   return tl::make_unexpected(std::move(error));
+}
+
+/// Both feet or none. Adds their folders to their objects.
+Result<void> keep(ResultStore& store, const std::vector<NamedContent>& contents, json& results) {
+  const auto folders = put_together(store, contents, [] {});
+  if (!folders) return of_out(folders.error());
+  for (std::size_t i = 0; i < folders->size(); ++i) {
+    results[i]["folder"] = (*folders)[i].string();
+  }
+  return {};
 }
 
 /// Before the long work, so that nothing is measured in vain.
@@ -107,14 +128,15 @@ Result<void> run(const ReplayCommand& command) {
       });
   if (!records) return tl::make_unexpected(records.error());
 
-  json results = json::array();
-  for (const auto& record : *records) {
-    auto result = result_of(record, command.out.empty() ? nullptr : &store);
-    if (!result) return tl::make_unexpected(result.error());
-    results.push_back(std::move(*result));
+  const auto contents = contents_of(*records);
+  if (!contents) return tl::make_unexpected(contents.error());
+  auto results = objects_of(*contents);
+  if (!results) return tl::make_unexpected(results.error());
+  if (!command.out.empty()) {
+    if (auto kept = keep(store, *contents, *results); !kept) return kept;
   }
   const bool as_text = command.format.empty() ? stdout_is_terminal() : command.format == "text";
-  return as_text ? print_text(text_of(results)) : print_json({{"results", results}});
+  return as_text ? print_text(text_of(*results)) : print_json({{"results", *results}});
 }
 
 }  // namespace

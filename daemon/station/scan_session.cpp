@@ -6,6 +6,7 @@
 
 #include "core/go_on.h"
 #include "daemon/loop/caught.h"
+#include "daemon/store/put_together.h"
 
 namespace instep {
 namespace {
@@ -86,33 +87,24 @@ class ScanSession {
 
   ScanOutcome store(const std::vector<ScanRecord>& records) {
     tell("store", kCaptureShare + kMeasureShare);
-    std::vector<ResultContent> contents;
+    std::vector<NamedContent> results;
     for (const auto& record : records) {
       progress_.step();
       auto content = content_of(record);
       if (!content) return failed(content.error());
-      contents.push_back(std::move(*content));
+      results.push_back({record.id, std::move(*content)});
     }
+    const auto folders = put_together(*tools_.store, results, [&] { progress_.step(); });
     ScanOutcome outcome;
+    if (!folders) {
+      outcome.error = folders.error();
+      outcome.store_failed = true;
+      return outcome;
+    }
     for (std::size_t i = 0; i < records.size(); ++i) {
-      progress_.step();
-      auto folder = tools_.store->put(records[i].id, contents[i]);
-      if (!folder) return not_stored(std::move(folder).error(), outcome.stored);
-      outcome.stored.push_back({records[i].id, std::move(*folder), records[i].foot.side});
+      outcome.stored.push_back({records[i].id, (*folders)[i], records[i].foot.side});
     }
     tell("done", 1.0);
-    return outcome;
-  }
-
-  /// Both feet or none: whoever scans again has no foot twice.
-  ScanOutcome not_stored(Error error, const std::vector<StoredResult>& feet_before) {
-    ScanOutcome outcome;
-    outcome.error = std::move(error);
-    outcome.store_failed = true;
-    for (const auto& foot : feet_before) {
-      if (tools_.store->remove(foot.id)) continue;
-      outcome.error->message += "; of this scan, " + foot.id + " is stored and cannot be removed";
-    }
     return outcome;
   }
 
