@@ -20,6 +20,7 @@
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
 #include "daemon/machine/device_checks.h"
+#include "daemon/machine/folder_rights.h"
 #include "daemon/report/json_fields.h"
 #include "daemon/station/devices.h"
 #include "drivers/files/file_bytes.h"
@@ -46,32 +47,44 @@ DoctorCheck check_settings(const Result<FoundSettings>& found) {
   return bad("settings", finding, "correct the file, then: instepd --check");
 }
 
-/// Of the daemon, or of whoever runs it: where Instep is installed, root's is not.
-bool may_owner_write(const struct stat& folder) {
+/// Whom the daemon would run as: where Instep is installed, not as root.
+std::optional<uid_t> installed_user() {
   const auto* user = ::getpwnam("instep");
-  const bool is_daemons = user != nullptr ? folder.st_uid == user->pw_uid : folder.st_uid != 0;
-  return is_daemons && (folder.st_mode & S_IWUSR) != 0 && (folder.st_mode & S_IXUSR) != 0;
+  return user != nullptr ? std::optional(user->pw_uid) : std::nullopt;
+}
+
+/// For no daemon runs: may it, or whoever runs it, write there?
+bool may_owner_write(const std::filesystem::path& folder) {
+  struct stat there {};
+  if (::stat(folder.c_str(), &there) != 0) return false;
+  const auto user = installed_user();
+  const bool is_daemons = user ? there.st_uid == *user : there.st_uid != 0;
+  return is_daemons && (there.st_mode & S_IWUSR) != 0 && (there.st_mode & S_IXUSR) != 0;
 }
 
 /// Whoever asks needs no right to write: it is the daemon that keeps the results.
-DoctorCheck check_writing(const std::filesystem::path& folder, bool does_daemon_answer) {
+DoctorCheck check_writing(const std::filesystem::path& folder, std::optional<uid_t> daemon) {
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) == 0 && (disk.f_flag & ST_RDONLY) != 0) {
     return bad("store", folder.string() + " is read-only", kReadOnlyAdvice);
   }
-  // Were it not, the daemon would say so itself.
-  if (does_daemon_answer) return good("store", folder.string() + ", kept by the daemon");
+  if (daemon) {
+    if (may_write_in(folder, *daemon)) {
+      return good("store", folder.string() + ", kept by the daemon");
+    }
+    return bad(
+        "store",
+        "the daemon, of the user " + user_name(*daemon) + ", may not write in " + folder.string(),
+        advice_to_give(folder, *daemon));
+  }
   if (::access(folder.c_str(), W_OK | X_OK) == 0) {
     return good("store", folder.string() + ", writable");
   }
   const std::string trouble = std::strerror(errno);
-  struct stat there {};
-  if (::stat(folder.c_str(), &there) == 0 && may_owner_write(there)) {
-    return good("store", folder.string() + ", writable for its owner");
-  }
+  if (may_owner_write(folder)) return good("store", folder.string() + ", writable for its owner");
+  const auto user = installed_user();
   return bad("store", "the daemon may not write in " + folder.string() + ": " + trouble,
-             ::getpwnam("instep") != nullptr ? "sudo chown instep " + folder.string()
-                                             : "set store.root to a folder of your own");
+             user ? advice_to_give(folder, *user) : "set store.root to a folder of your own");
 }
 
 /// Nothing where there is no folder yet, of which check_store() tells.
@@ -225,15 +238,18 @@ DoctorCheck library_versions() {
                           EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
 }
 
-Result<json> ask_status(const std::filesystem::path& socket) {
+/// Notes as whom the daemon that answers runs.
+Result<json> ask_status(const std::filesystem::path& socket, std::optional<uid_t>& daemon) {
   auto client = ControlClient::connect(socket);
   if (!client) return tl::make_unexpected(client.error());
-  return client->ask("status");
+  auto status = client->ask("status");
+  if (status) daemon = client->daemon_user();
+  return status;
 }
 
 }  // namespace
 
-DoctorCheck check_store(const std::filesystem::path& root, bool does_daemon_answer) {
+DoctorCheck check_store(const std::filesystem::path& root, std::optional<uid_t> daemon) {
   std::error_code failed;
   const bool there = std::filesystem::exists(root, failed);
   const auto folder = there ? root : root.parent_path();
@@ -242,11 +258,11 @@ DoctorCheck check_store(const std::filesystem::path& root, bool does_daemon_answ
   }
   if (!std::filesystem::is_directory(folder, failed)) {
     return bad("store", folder.string() + " is not there",
-               ::getpwnam("instep") != nullptr
+               installed_user()
                    ? "sudo install -d -o instep -g instep -m 0750 " + folder.string()
                    : "install Instep (README.md), or set store.root to a folder of your own");
   }
-  auto check = check_writing(folder, does_daemon_answer);
+  auto check = check_writing(folder, daemon);
   if (check.good && !there) check.finding = "will be made in " + check.finding;
   return check;
 }
@@ -273,12 +289,13 @@ std::optional<DoctorCheck> check_calibration(const Settings& settings, const Tol
 std::vector<DoctorCheck> examine_machine() {
   const auto found = find_station_settings();
   const Settings settings = found ? found->settings : station_settings();
-  const auto status = ask_status(settings.control.socket);
+  std::optional<uid_t> daemon;
+  const auto status = ask_status(settings.control.socket, daemon);
   std::vector<DoctorCheck> checks;
   checks.push_back(library_versions());
   checks.push_back(check_settings(found));
   const auto store = std::filesystem::absolute(settings.store.root);
-  checks.push_back(check_store(store, status.has_value()));
+  checks.push_back(check_store(store, daemon));
   if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
   ToldSerials told;

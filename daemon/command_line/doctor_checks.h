@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,9 +27,9 @@ struct DoctorCheck {
 /// real camera, or a single one that stands as the settings say.
 std::optional<DoctorCheck> check_calibration(const Settings& settings, const ToldSerials& told);
 
-/// Whether the daemon can keep results there, which it shows by running: else by whose the folder
+/// Whether the user that `daemon` runs as can keep results there; without one, by whose the folder
 /// is.
-DoctorCheck check_store(const std::filesystem::path& root, bool does_daemon_answer);
+DoctorCheck check_store(const std::filesystem::path& root, std::optional<uid_t> daemon);
 
 /// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes
 /// nothing. Takes up to some seconds: if no daemon runs, the cameras are opened.

@@ -84,6 +84,13 @@ ControlClient::~ControlClient() {
 ControlClient::ControlClient(ControlClient&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)), input_(std::move(other.input_)) {}
 
+std::optional<uid_t> ControlClient::daemon_user() const {
+  ucred peer{};
+  socklen_t size = sizeof(peer);
+  if (::getsockopt(descriptor_, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
+  return peer.uid;
+}
+
 Result<nlohmann::json> ControlClient::ask(const std::string& verb, const std::string& id,
                                           milliseconds limit) {
   const auto deadline = steady_clock::now() + limit;

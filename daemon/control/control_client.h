@@ -1,8 +1,11 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 
 #include "core/result.h"
@@ -28,6 +31,9 @@ class ControlClient {
   /// The next line the daemon sends. Fails with kTimeout if none comes within the limit,
   /// kDeviceGone if the daemon ended, kIo if the system does not let it wait.
   Result<nlohmann::json> next(std::chrono::milliseconds limit);
+
+  /// As whom the daemon runs, as the kernel knows it.
+  std::optional<uid_t> daemon_user() const;
 
  private:
   explicit ControlClient(int descriptor) : descriptor_(descriptor) {}

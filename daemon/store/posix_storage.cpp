@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <memory>
 
+#include "daemon/machine/folder_rights.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -25,13 +26,19 @@ auto uninterrupted(Call call) {
   return outcome;
 }
 
+/// With what lies in a folder.
 tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::path& path) {
-  return tl::make_unexpected(storage_error(errno, doing, path));
+  return tl::make_unexpected(storage_error(errno, doing, path, path.parent_path()));
+}
+
+tl::unexpected<Error> folder_failed(const std::string& doing, const std::filesystem::path& path) {
+  return tl::make_unexpected(storage_error(errno, doing, path, path));
 }
 
 }  // namespace
 
-Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
+Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path,
+                    const std::filesystem::path& folder) {
   Error error = file_error(error_number, doing, path);
   if (error_number == EROFS) return error;
   switch (error.code) {
@@ -40,7 +47,8 @@ Error storage_error(int error_number, const std::string& doing, const std::files
           "make room on the disk of the results, or let store.keep_days do it; then scan again";
       break;
     case ErrorCode::kPermissionDenied:
-      error.advice = "let the user of the station write there (instep doctor says how)";
+      error.advice = "it runs as the user " + user_name(::geteuid()) + ": " +
+                     advice_to_give(folder, ::geteuid());
       break;
     case ErrorCode::kNotFound:
       error.advice =
@@ -110,15 +118,21 @@ Result<void> PosixStorage::remove_folder(const std::filesystem::path& path) {
 
 Result<void> PosixStorage::sync_folder(const std::filesystem::path& path) {
   const Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!folder.is_open()) return failed("open", path);
-  if (uninterrupted([&] { return ::fsync(folder.number()); }) != 0) return failed("flush", path);
+  if (!folder.is_open()) return folder_failed("open", path);
+  if (uninterrupted([&] { return ::fsync(folder.number()); }) != 0)
+    return folder_failed("flush", path);
+  return {};
+}
+
+Result<void> PosixStorage::check_writing(const std::filesystem::path& path) {
+  if (::access(path.c_str(), W_OK | X_OK) != 0) return folder_failed("write in", path);
   return {};
 }
 
 Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
   held_.reset();
   held_.emplace(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!held_->is_open()) return failed("open", path);
+  if (!held_->is_open()) return folder_failed("open", path);
   const int locked = uninterrupted([&] { return ::flock(held_->number(), LOCK_EX | LOCK_NB); });
   // Where the file system knows no locks, nothing tells of others.
   return locked == 0 || errno != EWOULDBLOCK;
@@ -126,7 +140,7 @@ Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
 
 Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::path& path) {
   const std::unique_ptr<DIR, int (*)(DIR*)> folder(::opendir(path.c_str()), &::closedir);
-  if (!folder) return failed("list", path);
+  if (!folder) return folder_failed("list", path);
   std::vector<Entry> entries;
   errno = 0;
   while (const dirent* entry = ::readdir(folder.get())) {
@@ -140,7 +154,7 @@ Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::pa
     entries.push_back({name, is_folder});
     errno = 0;
   }
-  if (errno != 0) return failed("list", path);
+  if (errno != 0) return folder_failed("list", path);
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.name < b.name; });
   return entries;

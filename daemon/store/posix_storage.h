@@ -20,6 +20,7 @@ class PosixStorage : public Storage {
   Result<void> remove_file(const std::filesystem::path& path) override;
   Result<void> remove_folder(const std::filesystem::path& path) override;
   Result<void> sync_folder(const std::filesystem::path& path) override;
+  Result<void> check_writing(const std::filesystem::path& path) override;
   Result<bool> take_hold(const std::filesystem::path& path) override;
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override;
   Result<std::string> read(const std::filesystem::path& path, std::size_t most) override;
@@ -29,7 +30,8 @@ class PosixStorage : public Storage {
 };
 
 /// file_error() of drivers/files/file_bytes.h, with the advice that fits the results' disk; `doing`
-/// as in "write".
-Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path);
+/// as in "write". `folder` is the one whose rights it is about.
+Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path,
+                    const std::filesystem::path& folder);
 
 }  // namespace instep

@@ -33,6 +33,10 @@ Result<Prepared> ResultStore::prepare() {
   if (const auto made = storage_->make_folder(root_); !made) {
     return tl::make_unexpected(made.error());
   }
+  // Else the first result would be measured in vain.
+  if (const auto writable = storage_->check_writing(root_); !writable) {
+    return tl::make_unexpected(writable.error());
+  }
   const auto is_ours = storage_->take_hold(root_);
   if (!is_ours) return tl::make_unexpected(is_ours.error());
   Prepared prepared;

@@ -48,7 +48,8 @@ class ResultStore {
 
   const std::filesystem::path& root() const { return root_; }
 
-  /// Makes the root (its parent must be there), takes hold of it and clears what an earlier run
+  /// Makes the root (its parent must be there), sees that it can be written in,
+  /// takes hold of it and clears what an earlier run
   /// left half-done. Once, before anything else.
   Result<Prepared> prepare();
 

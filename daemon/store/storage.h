@@ -41,6 +41,9 @@ class Storage {
   /// Returns when the names in a folder are durable.
   virtual Result<void> sync_folder(const std::filesystem::path& path) = 0;
 
+  /// Fails if nothing can be made in a folder that is there.
+  virtual Result<void> check_writing(const std::filesystem::path& path) = 0;
+
   /// Keeps others from being given the same folder by this, until the Storage ends or its program
   /// does. False if somebody else has it.
   virtual Result<bool> take_hold(const std::filesystem::path& path) = 0;

@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <fstream>
+#include <thread>
 
+#include "daemon/machine/folder_rights.h"
 #include "daemon/scan/scan_id.h"
 #include "daemon/scan/scan_record.h"
 #include "daemon/store/posix_storage.h"
@@ -205,12 +209,37 @@ TEST_F(ResultStoreOnDisk, NeverOverwritesAResult) {
 }
 
 TEST(StorageError, NamesAFullDiskAndMissingRights) {
-  EXPECT_EQ(storage_error(ENOSPC, "write", "/x").code, ErrorCode::kNoSpace);
-  EXPECT_EQ(storage_error(EDQUOT, "write", "/x").code, ErrorCode::kNoSpace);
-  EXPECT_EQ(storage_error(EACCES, "write", "/x").code, ErrorCode::kPermissionDenied);
-  EXPECT_THAT(storage_error(EROFS, "write", "/x").line(), testing::HasSubstr("read-only"));
-  EXPECT_EQ(storage_error(EIO, "write", "/x").remedy, Remedy::kOperator);
-  EXPECT_THAT(storage_error(ENOSPC, "write", "/x").line(), testing::HasSubstr("disk"));
+  EXPECT_EQ(storage_error(ENOSPC, "write", "/d/x", "/d").code, ErrorCode::kNoSpace);
+  EXPECT_EQ(storage_error(EDQUOT, "write", "/d/x", "/d").code, ErrorCode::kNoSpace);
+  EXPECT_EQ(storage_error(EACCES, "write", "/d/x", "/d").code, ErrorCode::kPermissionDenied);
+  EXPECT_THAT(storage_error(EROFS, "write", "/d/x", "/d").line(), testing::HasSubstr("read-only"));
+  EXPECT_EQ(storage_error(EIO, "write", "/d/x", "/d").remedy, Remedy::kOperator);
+  EXPECT_THAT(storage_error(ENOSPC, "write", "/d/x", "/d").line(), testing::HasSubstr("disk"));
+}
+
+TEST(StorageError, SaysToWhomAFolderIsToBeGiven) {
+  const auto line = storage_error(EACCES, "write", "/d/x", "/d").line();
+  EXPECT_THAT(line, testing::HasSubstr("sudo chown " + user_name(::geteuid()) + " /d"));
+}
+
+/// It was ready, and the first foot was measured in vain.
+TEST(ResultStoreOfAnotherUser, IsNotReady) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs the right to be another user";
+  const test::TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  std::filesystem::create_directory(folder.path() / "scans");
+  std::filesystem::permissions(folder.path() / "scans", std::filesystem::perms(0755));
+  ResultStore store(std::make_shared<PosixStorage>(), folder.path() / "scans");
+  Result<Prepared> prepared;
+  std::thread([&] {
+    constexpr int kNobody = 65534;  // that thread alone
+    ::syscall(SYS_setresuid, kNobody, kNobody, kNobody);
+    prepared = store.prepare();
+  }).join();
+  ASSERT_FALSE(prepared);
+  EXPECT_EQ(prepared.error().code, ErrorCode::kPermissionDenied);
+  EXPECT_THAT(prepared.error().line(), testing::HasSubstr("sudo chown " + user_name(65534) + " " +
+                                                          (folder.path() / "scans").string()));
 }
 
 TEST(ScanIds, AreSortableByTimeAndUnlikeAnyOther) {

@@ -72,6 +72,7 @@ class SimulatedDisk : public Storage {
     folder->history.clear();
     return {};
   }
+  Result<void> check_writing(const std::filesystem::path&) override { return {}; }
   Result<bool> take_hold(const std::filesystem::path&) override { return true; }
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override {
     const auto folder = find(path);
@@ -178,6 +179,9 @@ class FaultyStorage : public Storage {
   }
   Result<void> sync_folder(const std::filesystem::path& path) override {
     return pass<void>([&] { return behind_->sync_folder(path); });
+  }
+  Result<void> check_writing(const std::filesystem::path& path) override {
+    return pass<void>([&] { return behind_->check_writing(path); });
   }
   Result<bool> take_hold(const std::filesystem::path& path) override {
     return pass<bool>([&] { return behind_->take_hold(path); });
