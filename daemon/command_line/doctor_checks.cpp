@@ -121,7 +121,12 @@ bool has_cameras(const Result<json>& status) {
   return status && status->contains("cameras") && (*status)["cameras"].is_array();
 }
 
+DoctorCheck no_cameras() {
+  return bad("cameras", "none is open", "plug them in, then see which are found: instep devices");
+}
+
 DoctorCheck check_cameras(const json& cameras) {
+  if (cameras.empty()) return no_cameras();
   for (const auto& camera : cameras) {
     if (!camera.value("ok", false)) {
       return bad("cameras", string_at(camera, "trouble"), "plug it in again, then: instep status");
@@ -141,6 +146,7 @@ DoctorCheck check_cameras(const Result<Devices>& devices) {
     return bad("cameras", devices.error().message,
                devices.error().advice.empty() ? "instepd --check" : devices.error().advice);
   }
+  if (devices->cameras.empty()) return no_cameras();
   return good("cameras", fmt::format("{} can be opened", devices->cameras.size()));
 }
 

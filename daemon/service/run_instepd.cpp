@@ -24,6 +24,7 @@
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/service/log.h"
 #include "daemon/service/station_service.h"
+#include "drivers/recording/recording_reader.h"
 
 namespace instep {
 namespace {
@@ -60,10 +61,24 @@ void keep_to_one_heap() {
   ::mallopt(M_ARENA_MAX, 1);
 }
 
+/// What the settings alone do not show, each a line.
+std::string doubts(const Settings& settings) {
+  std::string lines;
+  const auto add = [&](const std::string& doubt) {
+    if (!doubt.empty()) lines += "but " + doubt + "\n";
+  };
+  add(warning_of_short_deadline(settings));
+  for (const auto& camera : settings.cameras) {
+    if (camera.kind != CameraKind::kRecording) continue;
+    const auto recording = read_recording(camera.path);
+    if (!recording) add(recording.error().line());
+  }
+  return lines;
+}
+
 int check(const std::filesystem::path& file, const Settings& settings) {
-  const std::string too_short = warning_of_short_deadline(settings);
-  return print(fmt::format("settings {}\n{}{}", file.string(), describe(settings),
-                           too_short.empty() ? "" : "but " + too_short + "\n"));
+  return print(
+      fmt::format("settings {}\n{}{}", file.string(), describe(settings), doubts(settings)));
 }
 
 void warn_of_short_deadline(const Settings& settings) {

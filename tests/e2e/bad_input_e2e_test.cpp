@@ -240,6 +240,12 @@ TEST_F(BadInput, SimulateRefusesAFolderThatHoldsSomething) {
 
 // With other settings than those that were meant a station measures otherwise.
 TEST_F(BadInput, InstepdRunsWithNoOtherSettingsThanThoseThatAreNamed) {
+  const auto recording =
+      file("recording.toml", "[[camera]]\nkind = \"recording\"\npath = \"none/there\"\n");
+  const auto checked = test::run_program("instepd", {"--check", "--config", recording});
+  EXPECT_EQ(checked.exit_code, 0) << "it may come";
+  EXPECT_NE(checked.output.find("but "), std::string::npos) << checked.output;
+  EXPECT_NE(checked.output.find("none/there"), std::string::npos) << checked.output;
   const auto nameless = test::run_program("instepd", {"--check", "--config", ""});
   EXPECT_EQ(nameless.exit_code, 2) << nameless.output;
   EXPECT_NE(nameless.errors.find("--config needs the name of a file"), std::string::npos);
