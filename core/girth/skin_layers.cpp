@@ -111,7 +111,8 @@ LayeredSectors layered_sectors(const std::vector<PlacedHeight>& heights,
 }
 
 /// Seen from the middle of all, by the sectors of two partings that show more. The layers may reach
-/// into the sectors beside those that show them.
+/// into the sectors beside those that show them, so that only where all of both do they are all
+/// round.
 std::optional<SkinLayers> layers_in_sectors(const std::vector<PlacedHeight>& heights) {
   const std::size_t count = std::min(kMostSectors, heights.size() / kHeightsOfSector);
   if (count < 2) return std::nullopt;
@@ -123,7 +124,7 @@ std::optional<SkinLayers> layers_in_sectors(const std::vector<PlacedHeight>& hei
   if (!furthest) return std::nullopt;
   const double share = static_cast<double>(layered + 2) / static_cast<double>(count);
   furthest->turn *= std::min(1.0, share);
-  furthest->are_all_round = layered == count;
+  furthest->are_all_round = one.count == count && other.count == count;
   return furthest;
 }
 

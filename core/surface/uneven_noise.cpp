@@ -30,8 +30,10 @@ constexpr double kTexture = 2e-4;
 constexpr double kOutOfTexture = 3.0;
 /// Standard deviation of the logarithm of the noise over a body, where it is uneven.
 constexpr double kSpread = 0.7;
-/// Of logarithms: half as much again.
+/// Of logarithms: half as much again. More than five times as much is no noise of a camera but two
+/// layers, or strays, and lets nothing be smoothed beside it.
 constexpr double kPlainStep = 0.4;
+constexpr double kLargestStep = 1.7;
 /// No place scatters so many times as much as usual, or as little: a zero is a guess.
 constexpr double kMostTimes = 10.0;
 
@@ -85,7 +87,8 @@ std::vector<double> reaching_over_steps(const std::vector<double>& ratios) {
   std::vector<double> reaching;
   for (std::size_t i = 0; i < count; ++i) {
     const double beside = std::max(ratios[(i + 1) % count], ratios[(i + count - 1) % count]);
-    reaching.push_back(beside > ratios[i] + kPlainStep ? beside : ratios[i]);
+    const double step = beside - ratios[i];
+    reaching.push_back(step > kPlainStep && step < kLargestStep ? beside : ratios[i]);
   }
   return reaching;
 }

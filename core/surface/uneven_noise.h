@@ -30,8 +30,9 @@ struct LocalNoise {
 /// have to be several, and alike in neighbours: a crease, strays, or a bend that points are too few
 /// for make large ones, but few together. So of each place and its three neighbours to both sides
 /// the middle one counts, which leaves steps what they are; a stretch of fewer than four places is
-/// not told apart. Over a step the larger noise reaches by one place, for where it ends is not
-/// known. Each logarithm is drawn to the common one first, as a normal prior would do it.
+/// not told apart. Over a step of up to five times the larger noise reaches by one place, for where
+/// it ends is not known. Each logarithm is drawn to the common one first, as a normal prior would
+/// do it.
 std::vector<LocalNoise> uneven_noise(std::vector<NoiseWitness> witnesses);
 
 /// The same where the noise is told: places that show less than is told of them have no say, for
