@@ -69,15 +69,19 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
   }
   const auto day = root_ / day_folder(id);
   const auto writing = day / (kWriting + id);
+  bool is_named = false;
   const auto stored = make_day_folder(id)
                           .and_then([&] { return storage_->make_folder(writing); })
                           .and_then([&] { return write_files(writing, content); })
                           .and_then([&] { return storage_->sync_folder(writing); })
                           .and_then([&] { return storage_->rename(writing, day / id); })
-                          .and_then([&] { return storage_->sync_folder(day); });
+                          .and_then([&] {
+                            is_named = true;
+                            return storage_->sync_folder(day);
+                          });
   if (!stored) {
     // The failure to report is the first one, not that of clearing up after it.
-    (void)remove_whole(writing);
+    (void)(is_named ? move_away(id) : remove_whole(writing));
     return tl::make_unexpected(stored.error());
   }
   return day / id;
