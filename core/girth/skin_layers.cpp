@@ -153,7 +153,9 @@ std::optional<SkinLayers> layers_near_plane(const PlaneBand& band, const Blended
   std::vector<double> heights;
   for (const auto& place : places) heights.push_back(place.height);
   auto layers = layers_among(std::move(heights));
-  if (!layers) layers = layers_in_sectors(places);
+  const auto in_sectors = layers_in_sectors(places);
+  if (layers && in_sectors) layers->are_all_round = in_sectors->are_all_round;
+  if (!layers) layers = in_sectors;
   if (!layers || layers->outer - layers->inner < kNearestLayers) return std::nullopt;
   return layers;
 }
