@@ -24,11 +24,12 @@ constexpr double kHighestMm = 120.0;
 constexpr double kCellMm = 4.0;
 /// A cell with fewer points may hold a stray.
 constexpr std::size_t kFewestOfBody = 2;
-/// Beside what the body covers.
-constexpr double kBesideMm = 6.0;
+/// Beside what the body covers, which is known to within a cell.
+constexpr double kBesideMm = 3.0;
 constexpr double kThickMm = 3.0;
 constexpr double kThickInScatters = 4.0;
-/// What a sole leaves there is nothing; a rim of 8 mm round a foot covers 5,000 mm2.
+/// What a sole leaves there is nothing; a rim round a foot, some 600 mm long, covers as much if it
+/// reaches two millimetres further.
 constexpr double kLeastAreaMm2 = 1000.0;
 constexpr int kSides = 24;
 constexpr std::size_t kFewestSides = 8;

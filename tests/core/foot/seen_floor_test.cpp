@@ -25,6 +25,7 @@ struct Floor {
   double rim_mm;
   double gap_mm = 0.0;  ///< round the foot, that nobody saw
   double sigma_mm = 0.2;
+  bool is_cut_along_foot = false;  ///< else a rectangle
 };
 
 /// Beside the foot, as far as it can be seen from above.
@@ -39,6 +40,9 @@ void add_floor(const FootBody& body, const Floor& floor, PointCloud& cloud) {
       const bool is_beside = y > body.medial_border(along) + floor.gap_mm ||
                              y < -body.lateral_border(along) - floor.gap_mm;
       if (!is_beside_in_length && !is_beside) continue;
+      const bool is_cut_off = y > body.medial_border(along) + floor.rim_mm ||
+                              y < -body.lateral_border(along) - floor.rim_mm;
+      if (floor.is_cut_along_foot && is_cut_off) continue;
       cloud.positions.emplace_back(x, y, floor.sigma_mm * random.normal());
     }
   }
@@ -55,7 +59,8 @@ MeasureSet measured(const PointCloud& cloud) {
 TEST(SeenFloor, IsLeftOutOfTheFootOnIt) {
   const FootBody body;
   const auto alone = measured(body.points());
-  for (const Floor floor : {Floor{8.0}, Floor{25.0}, Floor{25.0, 7.0}, Floor{300.0, 0.0, 0.5}}) {
+  for (const Floor floor : {Floor{8.0}, Floor{25.0}, Floor{25.0, 7.0}, Floor{300.0, 0.0, 0.5},
+                            Floor{6.0, 0.0, 0.2, true}}) {
     SCOPED_TRACE(testing::Message() << floor.rim_mm << " " << floor.gap_mm);
     PointCloud cloud = body.points();
     add_floor(body, floor, cloud);
