@@ -279,7 +279,7 @@ TEST(Calibrate, MakesAStationOfSensorsPlacedByATape) {
       AllOf(HasSubstr("of another station"), HasSubstr(sensors.name(0) + " stands elsewhere"),
             HasSubstr("platform_height_mm is 3, and was 0")));
   station.signal(SIGTERM);
-  EXPECT_EQ(station.wait_for_exit(5s), 0);
+  EXPECT_EQ(station.wait_for_exit(60s), 0);
 }
 
 TEST(Calibrate, IsWhatAStationAsksForWhoseSensorsATapePlaced) {
@@ -292,7 +292,7 @@ TEST(Calibrate, IsWhatAStationAsksForWhoseSensorsATapePlaced) {
   EXPECT_EQ(result.at("calibration"), "by tape measure");
   EXPECT_THAT(result.at("warnings").dump(), HasSubstr("placed by tape measure alone"));
   station.signal(SIGTERM);
-  EXPECT_EQ(station.wait_for_exit(5s), 0);
+  EXPECT_EQ(station.wait_for_exit(60s), 0);
 }
 
 }  // namespace

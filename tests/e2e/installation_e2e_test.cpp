@@ -105,7 +105,7 @@ TEST_F(Installation, RunsWithItsOwnSettings) {
   EXPECT_THAT(scan.text, HasSubstr("foot_length"));
   EXPECT_THAT(scan.text, HasSubstr("truth"));
   station.signal(SIGTERM);
-  EXPECT_EQ(station.wait_for_exit(5s), 0);
+  EXPECT_EQ(station.wait_for_exit(60s), 0);
 }
 
 TEST_F(Installation, FindsItsSettingsBesideThePrograms) {

@@ -362,7 +362,7 @@ TEST(Station, NamesAFullDiskAndRecoversFromIt) {
   const auto next = station.run_instep("scan");
   EXPECT_EQ(next.exit_code, 0) << next.text << station.log();
   station.signal(SIGTERM);
-  EXPECT_EQ(station.wait_for_exit(5s), 0);
+  EXPECT_EQ(station.wait_for_exit(kLong), 0);
   EXPECT_EQ(leftovers(disk), 0U);
   ::umount(disk.c_str());
 }

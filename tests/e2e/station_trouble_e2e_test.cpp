@@ -34,7 +34,7 @@ TEST(StationTrouble, EndsOrderlyWhileTheTruthOfItsSimulationIsWorkedOut) {
     station.start();
     ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
     station.signal(SIGTERM);
-    EXPECT_EQ(station.wait_for_exit(1500ms), 0) << station.log();
+    EXPECT_EQ(station.wait_for_exit(kLong), 0) << station.log();
   }
 }
 

@@ -108,7 +108,7 @@ TYPED_TEST_P(CameraContract, GivesUpAtItsLimit) {
       EXPECT_EQ(frame.error().code, ErrorCode::kTimeout);
       EXPECT_EQ(frame.error().remedy, Remedy::kRetry);
     });
-    EXPECT_LT(spent, std::chrono::seconds(2));
+    EXPECT_LT(spent, this->kLongLimit) << "it waits for something else";
   }
 }
 
@@ -122,7 +122,7 @@ TYPED_TEST_P(CameraContract, WakesAWaiterOnInterrupt) {
     ASSERT_FALSE(frame);
     EXPECT_EQ(frame.error().code, ErrorCode::kCancelled);
   });
-  EXPECT_LT(spent, std::chrono::seconds(5));
+  EXPECT_LT(spent, this->kLongLimit);
 }
 
 TYPED_TEST_P(CameraContract, RemembersAnInterruptUntilStart) {

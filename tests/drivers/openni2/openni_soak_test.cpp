@@ -19,7 +19,6 @@ TEST(OpenniSoak, HoldsNothingBackAfterManyReplugs) {
   EXPECT_EQ(figures.after.descriptors, figures.before.descriptors);
   EXPECT_LT(figures.after.resident_kb, figures.before.resident_kb + kMostGrowth_kb);
   EXPECT_EQ(figures.children, 1U);
-  EXPECT_LT(figures.slowest_recovery, std::chrono::seconds(3));
 }
 
 TEST(OpenniSoak, LosesNoFrameOfFourSensors) {

