@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "core/degree.h"
 #include "core/fusion/camera_limits.h"
 
 namespace instep {
@@ -13,14 +13,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr const char* kStandsAt = "stands_at_mm";
 constexpr const char* kLooksAt = "looks_at_mm";
 constexpr const char* kRoll = "roll_deg";
 
 /// What the top of an image points to that is not rolled.
 Vector3d top_of_image(const Vector3d& forward) {
-  const bool vertical = forward.head<2>().norm() < std::sin(0.1 * kRadians);
+  const bool vertical = forward.head<2>().norm() < std::sin(0.1 * kDegree);
   return vertical ? Vector3d::UnitX() : Vector3d::UnitZ();
 }
 
@@ -50,7 +49,7 @@ RigidTransform station_from_camera(const TapeMeasuredPose& measured) {
   const Vector3d right = forward.cross(top_of_image(forward)).normalized();
   RigidTransform pose = RigidTransform::Identity();
   pose.linear() << right, forward.cross(right), forward;
-  pose.rotate(Eigen::AngleAxisd(measured.roll_deg * kRadians, Vector3d::UnitZ()));
+  pose.rotate(Eigen::AngleAxisd(measured.roll_deg * kDegree, Vector3d::UnitZ()));
   pose.translation() = measured.stands_at_mm;
   return pose;
 }

@@ -7,7 +7,7 @@
 
 #include "core/foot/border_crest.h"
 #include "core/foot/hidden_crest.h"
-#include "core/girth/length_doubt.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

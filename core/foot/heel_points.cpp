@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHeelShare = 1.0 / 6.0;
+constexpr double kSixth = 1.0 / 6.0;
 constexpr double kHeelMm = 40.0;  ///< of the foot itself
 constexpr double kRearShare = 0.2;
 constexpr double kSmoothingMm = 9.0;
@@ -93,7 +93,7 @@ std::optional<Vector3d> best_place(const SkinBorder& border, double from, double
 }  // namespace
 
 std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule) {
-  if (rule == HeelBreadthRule::kSixth) return kHeelShare * outline.length_mm();
+  if (rule == HeelBreadthRule::kSixth) return kSixth * outline.length_mm();
   if (rule == HeelBreadthRule::kFortyMm) return kHeelMm * outline.factor();
   std::optional<double> place;
   double most = 0.0;

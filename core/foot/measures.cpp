@@ -20,6 +20,7 @@
 #include "core/geometry/seen_skin.h"
 #include "core/girth/length_doubt.h"
 #include "core/in_millimetres.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

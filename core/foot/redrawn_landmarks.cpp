@@ -9,7 +9,7 @@
 #include "core/foot/landmarks.h"
 #include "core/fusion/wall_foot.h"
 #include "core/geometry/drawn_local_errors.h"
-#include "core/girth/length_doubt.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/girth/length_doubt.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 

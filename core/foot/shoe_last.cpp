@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/foot/outline_axis.h"
 #include "core/median.h"
 
 namespace instep {
 namespace {
 
-constexpr double kHeelShare = 0.15;
 constexpr double kRaisedShare = 0.02;
 constexpr double kHighestShare = 0.45;
 constexpr double kStrayShare = 0.01;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/median.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {
@@ -38,7 +39,6 @@ constexpr double kMostStepMm = 3.0;
 constexpr double kFirstLimitMm = 6.0;
 constexpr double kSecondLimitMm = 3.0;
 constexpr double kLeastLimitMm = 0.3;
-constexpr double kSigmaOfMedian = 1.5;
 constexpr double kLeastSigmaMm = 0.05;
 
 constexpr double kSearchStepMm = 0.02;
@@ -180,7 +180,7 @@ std::optional<Heel::Equations> Heel::equations(const std::vector<WeighedPoint>& 
     all.right -= point.weight * off * slope;
   }
   if (count < kFewestPoints) return std::nullopt;
-  all.sigma_mm = std::max(kSigmaOfMedian * usual_distance(points), kLeastSigmaMm);
+  all.sigma_mm = std::max(kThreeSigmasInMedians / 3.0 * usual_distance(points), kLeastSigmaMm);
   hold(kEdge, kUsualEdgeMm, kEdgeSpreadMm, all);
   hold(kFloor, 0.0, kFloorSpreadMm, all);
   return all;

@@ -4,14 +4,15 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/geometry/wall_facing.h"
+
 namespace instep {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEndShare = 0.35;   ///< of the length, to either end of it
-constexpr double kLowShare = 0.15;   ///< of the length: below the ankle
-constexpr double kMostUpward = 0.5;  ///< of a normal; above, it is the foot's back
+constexpr double kEndShare = 0.35;  ///< of the length, to either end of it
+constexpr double kLowShare = 0.15;  ///< of the length: below the ankle
 // Degrees off the axis that a half of an end and the side beside it face: where that was seen, a
 // half that was not is a hole.
 constexpr double kLeastAside = 10.0;
@@ -36,7 +37,7 @@ Halves halves_of_end(const FootScan& foot, bool forwards) {
     const Vector3d& normal = foot.cloud.normals[i];
     const double from_end = forwards ? length - point.x() : point.x();
     if (from_end > kEndShare * length || point.z() > kLowShare * length) continue;
-    if (normal.z() > kMostUpward || !foot.cloud.was_seen(i)) continue;
+    if (normal.z() > kMostUpwardOfWall || !foot.cloud.was_seen(i)) continue;
     const double outwards = forwards ? normal.x() : -normal.x();
     const double aside = std::atan2(std::abs(normal.y()), outwards) * 180.0 / std::numbers::pi;
     if (aside < kLeastAside || aside > kMostAside) continue;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/degree.h"
 #include "core/fusion/registration.h"
 #include "core/fusion/seen_object.h"
 #include "core/fusion/seen_platform.h"
@@ -15,6 +15,7 @@
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
+#include "core/normal_spread.h"
 #include "core/stride.h"
 
 namespace instep {
@@ -22,11 +23,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kPlatformShare = 20;  // one in so many of its points is fitted
 constexpr std::size_t kLeastSkin = 100;     // points of an object that is worth placing by
 constexpr std::size_t kAskedPoints = 2000;  // of a view, whether others see through them
-constexpr double kTwoSided = 1.96;          // 95 %
 /// From here on somebody should hear of it; by a tape cameras are placed to some 20 mm. By eye.
 constexpr double kNotableHeightMm = 30.0;
 constexpr const char* kObjectAdvice =
@@ -255,7 +254,7 @@ class PoseSearch {
       stretched += std::pow(found_.cameras[view].stretch, 2) * (points[at] - middle).squaredNorm();
       asked += 1.0;
     }
-    return kTwoSided * std::sqrt((known + stretched) / asked);
+    return kDeviations * std::sqrt((known + stretched) / asked);
   }
 
   /// Of where a view puts a place against the mean of all views, which moves with the station.

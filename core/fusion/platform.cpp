@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/normal_spread.h"
 #include "core/stride.h"
 
 namespace instep {

@@ -4,9 +4,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "core/degree.h"
 #include "core/fusion/view_equations.h"
 
 namespace instep {
@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStillMm = 0.01;
 /// While the views move much, one query in so many will do.
 constexpr std::size_t kCoarseStride = 4;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <unordered_map>
 
+#include "core/degree.h"
 #include "core/stride.h"
 
 namespace instep {
@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// What is seen through speaks against a place more than what is confirmed speaks for it: a wall
 /// confirms any other wall. By eye.
 constexpr double kAgainst = 2.0;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/degree.h"
 #include "core/median.h"
 
 namespace instep {
@@ -16,7 +17,6 @@ constexpr int kLargestWindow = 6;
 constexpr double kFewestNeighbours = 6;
 constexpr int kHalfWindow = 3;  // of the window that tells a rim from a surface
 constexpr int kWindow = 2 * kHalfWindow + 1;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Marks the pixels round every marked one.
 std::vector<std::uint8_t> dilated(const std::vector<std::uint8_t>& marked, int width, int height) {

@@ -7,6 +7,7 @@
 #include "core/fusion/camera_limits.h"
 #include "core/in_millimetres.h"
 #include "core/median.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

@@ -4,14 +4,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/degree.h"
 
 namespace instep {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 /// Neighbouring points share most of their error: so many count as one against what is expected.
 constexpr double kPointsInOne = 30.0;
 /// As a share that is nothing, but of which a weight can be taken.

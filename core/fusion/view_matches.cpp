@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "core/median.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

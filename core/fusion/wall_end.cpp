@@ -9,6 +9,7 @@
 
 #include "core/fusion/ground_plan.h"
 #include "core/geometry/point_index.h"
+#include "core/geometry/wall_facing.h"
 
 namespace instep {
 namespace {
@@ -21,7 +22,6 @@ constexpr double kWallCellMm = 6.0;       // within it the lowest seen points ar
 constexpr double kLowestLayerMm = 1.5;    // above the lowest point, still taken as lowest
 constexpr double kBesideMm = 12.0;        // of the ground searched for lower skin
 constexpr double kSteepestBorder = 0.8;   // of an arch, seen from the side
-constexpr double kMostUpward = 0.5;       // z of the normal of a wall; above, it is the foot's back
 constexpr double kLeastSameFacing = 0.3;  // cosine, of normals of one piece of wall
 constexpr double kAsideMm = 8.0;          // of the points that tell how a wall ends
 constexpr double kFewestWallPoints = 8;
@@ -87,7 +87,7 @@ std::vector<LowestPoints> lowest_points(const PointCloud& foot, double most_z) {
   std::erase_if(found, [](const LowestPoints& points) { return points.count == 0.0; });
   for (auto& points : found) points.position /= points.count;
   std::erase_if(found, [&](const LowestPoints& points) {
-    return points.normal.normalized().z() > kMostUpward ||
+    return points.normal.normalized().z() > kMostUpwardOfWall ||
            goes_on_below(plan, lowest, points.position);
   });
   return found;

@@ -6,6 +6,7 @@
 
 #include "core/geometry/moments.h"
 #include "core/median.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

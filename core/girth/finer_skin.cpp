@@ -9,6 +9,7 @@
 #include "core/geometry/coordinate_step.h"
 #include "core/girth/section_evidence.h"
 #include "core/median.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

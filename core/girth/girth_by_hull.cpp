@@ -25,10 +25,6 @@ constexpr std::size_t kFewestBandPoints = 10;
 constexpr double kNarrowestBandInSpacings = 0.5;
 constexpr double kWidestBandInSpacings = 4.0;
 
-/// A hull this much shorter than a tape round all that lies about the plane, up to this part of the
-/// cloud's size from it, goes round a crowd in it.
-constexpr double kCrowd = 0.5;
-constexpr double kAbout = 0.01;
 /// Part of the cloud's size at which the neighbourhood begins to be widened.
 constexpr double kThinnest = 1e-4;
 /// How much longer the hull of twice the band may be, if its width does not matter.
@@ -42,7 +38,7 @@ constexpr double kManyDeep = 0.02;
 struct Neighbourhood {
   PlaneSlab slab;
   double spacing = 0.0;
-  double tape_about_mm = 0.0;  ///< round all that is near the plane for the size of the cloud
+  double tape_about_mm = 0.0;
 };
 
 /// Widens the slab until it is wider than any band.
@@ -55,7 +51,7 @@ Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane&
     if (slab.places.size() < kFewestBandPoints) continue;
     const double spacing = median_nearest_distance(PointIndex(slab.places));
     if (half_width >= kWidestBandInSpacings * spacing) {
-      return Neighbourhood{std::move(slab), spacing, tape_round(cloud, plane, kAbout * size)};
+      return Neighbourhood{std::move(slab), spacing, tape_about(cloud, plane, size)};
     }
   }
   return too_few_near_plane();
@@ -122,7 +118,7 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
   Girth girth;
   girth.contour = hull_of(band);
   const double length = perimeter(girth.contour);
-  if (!is_ring(girth.contour) || length < kCrowd * about->tape_about_mm) {
+  if (!is_ring(girth.contour) || is_round_a_crowd(length, about->tape_about_mm)) {
     return fail(ErrorCode::kInsufficientData, "the points at the tape plane form no ring",
                 "give control points on the body, or leave out points that repeat each other");
   }

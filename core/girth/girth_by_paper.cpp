@@ -39,12 +39,8 @@ constexpr std::size_t kSpacingPlaces = 4000;
 constexpr double kUsualSlab = 0.005;
 constexpr double kSlabGrowth = 1.4;
 constexpr int kThinnerSlabs = 12;
-/// How far from the plane lies what is about it, against the cloud's size.
-constexpr double kAbout = 0.01;
 /// The ring is lost where less than this part of the initial points leads to an intersection.
 constexpr double kFewestMet = 0.5;
-/// A ring this much shorter than a tape round the neighbourhood goes round a crowd in it.
-constexpr double kCrowd = 0.5;
 /// A ring this much longer than a tape round all points of S swells where nothing was seen; and
 /// what of it is worth a warning.
 constexpr double kSwollen = 1.25;
@@ -56,7 +52,6 @@ constexpr double kJumping = 1.2;
 struct PartialCloud {
   PlaneSlab slab;
   double half_width = 0.0;
-  /// The shortest tape round the points up to a hundredth of the cloud's size from the plane.
   double tape_about_mm = 0.0;
 };
 
@@ -76,8 +71,7 @@ Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& pla
     const double wanted = kBandInSpacings * usual_spacing(PointIndex(slab.places), kSpacingPlaces);
     if (!(half_width >= wanted && wanted > 0.0)) continue;
     if (!is_cut(slab.places)) return only_touched();
-    return PartialCloud{slab_of(cloud, plane, wanted), wanted,
-                        tape_round(cloud, plane, kAbout * size)};
+    return PartialCloud{slab_of(cloud, plane, wanted), wanted, tape_about(cloud, plane, size)};
   }
   return too_few_near_plane();
 }
@@ -215,7 +209,7 @@ struct Ring {
 
 bool is_lost(const Ring& ring, const PartialCloud& part) {
   return !is_ring(ring.hull) || ring.gap > kWidestBridge * ring.length ||
-         ring.length < kCrowd * part.tape_about_mm ||
+         is_round_a_crowd(ring.length, part.tape_about_mm) ||
          ring.length > kSwollen * ring.round_the_points;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/geometry/plane_vectors.h"
 #include "core/girth/contour_turns.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

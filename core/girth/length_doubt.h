@@ -5,9 +5,6 @@
 
 namespace instep {
 
-/// Half of a 95 % interval, in standard deviations.
-inline constexpr double kDeviations = 1.96;
-
 /// What is not seen of the lengths of a contour on the plane z = 0, read off a fitted surface; in
 /// the unit of the surface.
 ///

@@ -19,15 +19,16 @@ constexpr double kStretch = 6.0;
 constexpr double kOffInDeviations = 5.0;
 /// From the plane, in grains: skin that bends is cut elsewhere than it passes a point further off.
 constexpr double kNearInGrains = 1.0;
-/// Beyond an edge between the plane and a point skin may run aside by so much of its height.
-constexpr double kAsideBeyondEdge = 0.5;
-/// Skin that leans more, against upright, does not tell where it meets the plane.
-constexpr double kTooLeaning = 1.5;
+/// Beyond an edge between the plane and a point as near as that skin may run aside by so much of
+/// its height.
+constexpr double kAsideOfNear = 0.5;
+/// Skin that leans more, against upright, does not tell to a grain where it meets the plane.
+constexpr double kMostLeaning = 1.5;
 /// Of 22 slots and fins that were told wrongly without a word 13 have as many; even skin has one.
 constexpr std::size_t kFewest = 4;
 
 bool is_leaning(const OrientedPoint& point) {
-  return std::abs(point.normal.z()) > kTooLeaning * point.normal.head<2>().norm();
+  return std::abs(point.normal.z()) > kMostLeaning * point.normal.head<2>().norm();
 }
 
 struct PointOff {
@@ -42,7 +43,7 @@ std::vector<PointOff> points_off(const PlaneBand& band, const SectionLoop& secti
     const double height = std::abs(point.position.z());
     if (height > kNearInGrains * band.grain || is_leaning(point)) continue;
     const double noise = kOffInDeviations * std::sqrt(point.variance);
-    const double least = kOff * band.grain + noise + kAsideBeyondEdge * height;
+    const double least = kOff * band.grain + noise + kAsideOfNear * height;
     if (may_run_to(section.index, point, least)) continue;
     const auto foot = section.index.foot_of(point.position.head<2>());
     if (foot.distance > kFarOff * band.grain) continue;

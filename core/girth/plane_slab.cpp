@@ -190,6 +190,14 @@ double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_w
   return least[0] < kInfinity ? std::numbers::pi * (most - least).mean() : 0.0;
 }
 
+double tape_about(const PointCloud& cloud, const TapePlane& plane, double size) {
+  return tape_round(cloud, plane, 0.01 * size);
+}
+
+bool is_round_a_crowd(double length, double tape_about) {
+  return length < 0.5 * tape_about;
+}
+
 std::vector<Eigen::Vector2d> hull_of(const PlaneSlab& slab) {
   std::vector<Eigen::Vector2d> flat;
   flat.reserve(slab.places.size());

@@ -47,6 +47,13 @@ bool is_cut(const std::vector<Eigen::Vector3d>& places);
 /// its widths (Cauchy), to a hundredth. O(n), no memory.
 double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_width);
 
+/// The same for all that lies about the plane: up to a hundredth of the cloud's size from it.
+double tape_about(const PointCloud& cloud, const TapePlane& plane, double size);
+
+/// Whether a line of this length goes round a crowd of points alone, being less than half as long
+/// as the tape_about() all of them.
+bool is_round_a_crowd(double length, double tape_about);
+
 /// The shortest tape round all points of the slab, laid on the plane.
 std::vector<Eigen::Vector2d> hull_of(const PlaneSlab& slab);
 

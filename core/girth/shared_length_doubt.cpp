@@ -7,6 +7,7 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/seen_skin.h"
 #include "core/girth/length_doubt.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/girth/fair_line.h"
 #include "core/girth/finer_skin.h"
 #include "core/girth/length_doubt.h"
+#include "core/normal_spread.h"
 #include "core/surface/ribbon_spline.h"
 
 namespace instep {

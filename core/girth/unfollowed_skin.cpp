@@ -15,10 +15,11 @@ namespace {
 /// Skin lies no further from the loop that follows it: in grains, and in deviations of the noise.
 constexpr double kOffInGrains = 0.7;
 constexpr double kOffInDeviations = 5.0;
-/// Beyond an edge between the plane and a point skin may run aside by so much of its height.
-constexpr double kAsideBeyondEdge = 2.0;
-/// Skin that leans more, against upright, does not tell where it meets the plane.
-constexpr double kTooLeaning = 2.5;
+/// Beyond an edge between the plane and a point at any height in the band skin may run aside by so
+/// much of that.
+constexpr double kAsideInBand = 2.0;
+/// Skin that leans more, against upright, does not even tell which section it belongs to.
+constexpr double kLyingFlat = 2.5;
 /// Skin that hangs together with the section begins this near to it beyond the noise, in grains,
 /// or, where its points are sparser than the section's, in their reaches.
 constexpr double kBegins = 1.5;
@@ -47,7 +48,7 @@ double most_noise_of(const OrientedPoint& point) {
 }
 
 bool may_lie_on(const ContourIndex& contour, const OrientedPoint& point, double grain) {
-  const double aside = kAsideBeyondEdge * std::abs(point.position.z());
+  const double aside = kAsideInBand * std::abs(point.position.z());
   return may_run_to(contour, point, kOffInGrains * grain + most_noise_of(point) + aside);
 }
 
@@ -55,7 +56,7 @@ std::vector<Beside> off_the_section(const PlaneBand& band, const std::vector<Sec
   const ContourIndex& section = loops.front().index;
   std::vector<Beside> beside;
   for (const auto& point : band.points) {
-    if (std::abs(point.normal.z()) > kTooLeaning * point.normal.head<2>().norm()) continue;
+    if (std::abs(point.normal.z()) > kLyingFlat * point.normal.head<2>().norm()) continue;
     if (may_lie_on(section, point, band.grain)) continue;
     const bool followed = std::any_of(
         loops.begin() + 1, loops.end(),

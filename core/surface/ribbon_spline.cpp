@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/median.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {

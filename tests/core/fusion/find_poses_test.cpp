@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "core/degree.h"
 #include "tests/support/random_numbers.h"
 #include "tests/support/ray_cast_scene.h"
 
@@ -14,8 +14,6 @@ namespace instep {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// As large as a foot: a body with a stump on its rear end.
 Surfaces object() {

@@ -6,12 +6,12 @@
 #include <numbers>
 #include <random>
 
+#include "core/degree.h"
+
 namespace instep {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A platform of 600 x 400 mm, tilted about x, with a foot-like clutter above one part of it.
 std::vector<Vector3d> platform_points(double height, double tilt_deg, double sigma,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/degree.h"
 #include "core/fusion/surface_points.h"
 #include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
@@ -13,8 +14,6 @@ namespace instep {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegree = 0.017453292519943295;
 
 Surfaces two_feet() {
   return {ellipsoid_surface({0, 60, 28}, {125, 45, 40}, 8),

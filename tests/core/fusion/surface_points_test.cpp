@@ -6,13 +6,12 @@
 #include <limits>
 #include <numeric>
 
+#include "core/degree.h"
 #include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 
 namespace instep {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 struct Seen {
   CameraGeometry camera;

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/degree.h"
 #include "core/girth/contour_index.h"
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
@@ -16,7 +16,6 @@ namespace instep {
 namespace {
 
 constexpr double kRadius = 0.35;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kCorners = 3600;
 
 /// Ten corners for each degree.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "core/degree.h"
 #include "core/girth/girth.h"
 #include "core/girth/refusals.h"
 #include "tests/support/cylinder_tape.h"
@@ -14,7 +15,6 @@
 namespace instep {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRadius = 0.3;
 
 /// Points on a circle, a degree apart from the one angle to the other, at a height over the plane.

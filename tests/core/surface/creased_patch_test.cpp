@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "core/degree.h"
 #include "tests/support/bent_roof.h"
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
@@ -64,8 +64,6 @@ OrientedPoints roof_points(const Roof& roof, double sigma, std::uint64_t seed) {
 std::optional<CreasedPatch> fit(const OrientedPoints& points, bool clear = false) {
   return CreasedPatch::fit(points, Vector3d::Zero(), 1.0, 1e-3, clear);
 }
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::vector<Roof> roofs() {
   std::vector<Roof> all;

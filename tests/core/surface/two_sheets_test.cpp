@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "core/degree.h"
 #include "tests/support/bent_roof.h"
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector3d;
 using test::BentRoof;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kOnEach = 25;
 constexpr std::uint64_t kSeeds = 40;
 
