@@ -90,11 +90,13 @@ Result<ListeningSocket> ListeningSocket::open(const std::filesystem::path& path)
   return socket;
 }
 
+ListeningSocket::ListeningSocket(ListeningSocket&&) noexcept = default;
+
 ListeningSocket::~ListeningSocket() {
-  if (!lock_) return;
+  if (!lock_.is_open()) return;
   remove_if_same(path_, socket_);
   // While it is locked, so that nobody is robbed of one just locked.
-  remove_if_same(lock_path(), FileIdentity::of(lock_->number()));
+  remove_if_same(lock_path(), FileIdentity::of(lock_.number()));
 }
 
 Result<void> ListeningSocket::lock() {
@@ -102,16 +104,16 @@ Result<void> ListeningSocket::lock() {
   constexpr mode_t kReadable = 0644;
   const std::string name = lock_path();
   while (true) {
-    auto file = std::make_unique<Descriptor>(
+    Descriptor file(
         ::open(name.c_str(), O_RDONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, kReadable));
-    if (!file->is_open()) return failed("locking", name);
-    if (::flock(file->number(), LOCK_EX | LOCK_NB) != 0) {
+    if (!file.is_open()) return failed("locking", name);
+    if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
       if (errno == EINTR) continue;
       return errno == EWOULDBLOCK ? taken(path_) : failed("locking", name);
     }
     // The one that had it may have removed it in between.
-    if (FileIdentity::of(name) != FileIdentity::of(file->number())) continue;
-    ::fchmod(file->number(), kReadable);
+    if (FileIdentity::of(name) != FileIdentity::of(file.number())) continue;
+    ::fchmod(file.number(), kReadable);
     lock_ = std::move(file);
     return {};
   }
@@ -131,9 +133,8 @@ Result<void> ListeningSocket::make_way() const {
 Result<void> ListeningSocket::listen() {
   const auto address = address_of(path_);
   if (!address) return tl::make_unexpected(address.error());
-  descriptor_ = std::make_unique<Descriptor>(
-      ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (!descriptor_->is_open()) return failed("making a socket for", path_);
+  descriptor_ = Descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!descriptor_.is_open()) return failed("making a socket for", path_);
   // The mode is right from the start: with the umask it never was wider for a moment.
   const mode_t before = ::umask(0117);
   const bool bound = ::bind(descriptor(), generic(*address), sizeof *address) == 0;

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -28,10 +27,10 @@ class ListeningSocket {
   /// with kPermissionDenied, kNotFound, kInvalidInput or kIo if it cannot be made.
   static Result<ListeningSocket> open(const std::filesystem::path& path);
   ~ListeningSocket();
-  ListeningSocket(ListeningSocket&&) = default;
+  ListeningSocket(ListeningSocket&&) noexcept;
   ListeningSocket& operator=(ListeningSocket&&) = delete;
 
-  int descriptor() const { return descriptor_->number(); }
+  int descriptor() const { return descriptor_.number(); }
 
  private:
   explicit ListeningSocket(std::filesystem::path path) : path_(std::move(path)) {}
@@ -41,8 +40,8 @@ class ListeningSocket {
 
   std::filesystem::path path_;
   std::filesystem::path lock_path() const { return path_.string() + ".lock"; }
-  std::unique_ptr<Descriptor> lock_;
-  std::unique_ptr<Descriptor> descriptor_;
+  Descriptor lock_;
+  Descriptor descriptor_;
   std::optional<FileIdentity> socket_;
 };
 

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 #include <system_error>
 
 #include "drivers/files/descriptor.h"
@@ -86,10 +85,10 @@ class Surroundings {
   /// turn.
   void inherit(int descriptor, int as) {
     constexpr int kAbove = 64;
-    auto copy = std::make_unique<Descriptor>(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove));
+    Descriptor copy(::fcntl(descriptor, F_DUPFD_CLOEXEC, kAbove));
     // Invalid is a number above the limit on open files.
-    if (!copy->is_open()) return note(errno == EINVAL ? EMFILE : errno);
-    note(::posix_spawn_file_actions_adddup2(&actions_, copy->number(), as));
+    if (!copy.is_open()) return note(errno == EINVAL ? EMFILE : errno);
+    note(::posix_spawn_file_actions_adddup2(&actions_, copy.number(), as));
     copies_.push_back(std::move(copy));
   }
 
@@ -105,7 +104,7 @@ class Surroundings {
 
   posix_spawn_file_actions_t actions_{};
   posix_spawnattr_t attributes_{};
-  std::vector<std::unique_ptr<Descriptor>> copies_;
+  std::vector<Descriptor> copies_;
   int failure_ = 0;
 };
 

@@ -91,7 +91,7 @@ Result<FrameRing> FrameRing::create() {
   }
   void* mapped = map(file.number());
   if (mapped == nullptr) return tl::make_unexpected(no_memory());
-  return FrameRing(file.release(), new (mapped) Memory);
+  return FrameRing(std::move(file), new (mapped) Memory);
 }
 
 Result<FrameRing> FrameRing::attach(int descriptor) {
@@ -104,16 +104,14 @@ Result<FrameRing> FrameRing::attach(int descriptor) {
     return fail(ErrorCode::kCorruptData, "the shared memory is not that of a frame ring",
                 "install the programs of one version together");
   }
-  return FrameRing(-1, static_cast<Memory*>(mapped));
+  return FrameRing(Descriptor(), static_cast<Memory*>(mapped));
 }
 
 FrameRing::FrameRing(FrameRing&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      memory_(std::exchange(other.memory_, nullptr)) {}
+    : file_(std::move(other.file_)), memory_(std::exchange(other.memory_, nullptr)) {}
 
 FrameRing::~FrameRing() {
   if (memory_ != nullptr) ::munmap(memory_, kBytes);
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::uint16_t* FrameRing::pixels_of(std::size_t place) const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/fusion/depth_frame.h"
@@ -54,7 +55,7 @@ class FrameRing {
   ~FrameRing();
 
   /// Of a ring that was created; to be inherited by the other process.
-  int descriptor() const { return descriptor_; }
+  int descriptor() const { return file_.number(); }
 
   /// Puts a frame in. `rows` holds record.pixels values, row by row, each row of record.width
   /// values `stride` values after the last. False if it has more than kMostPixels.
@@ -70,11 +71,11 @@ class FrameRing {
 
  private:
   struct Memory;
-  explicit FrameRing(int descriptor, Memory* memory) : descriptor_(descriptor), memory_(memory) {}
+  FrameRing(Descriptor file, Memory* memory) : file_(std::move(file)), memory_(memory) {}
 
   std::uint16_t* pixels_of(std::size_t place) const;
 
-  int descriptor_ = -1;
+  Descriptor file_;  ///< the creator's
   Memory* memory_ = nullptr;
 };
 

@@ -67,7 +67,7 @@ Result<std::unique_ptr<OpenniChild>> OpenniChild::launch(const OpenniProgram& pr
   child->descriptors = {ring->descriptor(), theirs.number(), arrival->descriptor()};
   auto process = ChildProcess::start(*child);
   if (!process) return tl::make_unexpected(process.error());
-  return std::unique_ptr<OpenniChild>(new OpenniChild(std::move(*ring), ours.release(),
+  return std::unique_ptr<OpenniChild>(new OpenniChild(std::move(*ring), std::move(ours),
                                                       std::move(*process), std::move(arrival),
                                                       choice.opening_limit));
 }

@@ -56,12 +56,12 @@ class OpenniChild {
   Result<void> look();
 
  private:
-  OpenniChild(FrameRing ring, int socket, ChildProcess process, std::unique_ptr<WakeUp> arrival,
-              std::chrono::milliseconds opening_limit)
+  OpenniChild(FrameRing ring, Descriptor socket, ChildProcess process,
+              std::unique_ptr<WakeUp> arrival, std::chrono::milliseconds opening_limit)
       : opening_limit_(opening_limit),
         ring_(std::move(ring)),
         arrival_(std::move(arrival)),
-        socket_(socket),
+        socket_(std::move(socket)),
         process_(std::move(process)),
         phase_since_(std::chrono::steady_clock::now()) {}
 

@@ -66,9 +66,9 @@ Result<SearchTurn> SearchTurn::wait() {
   constexpr std::chrono::milliseconds kPause{10};
   const auto deadline = steady_clock::now() + kLimit;
   // It needs no file of its own, and the kernel unlocks it when the process ends.
-  auto lock = std::make_unique<Descriptor>(::open(library_folder().c_str(), O_RDONLY | O_CLOEXEC));
+  Descriptor lock(::open(library_folder().c_str(), O_RDONLY | O_CLOEXEC));
   // Where there is no locking (a network's file system), nobody waits.
-  while (::flock(lock->number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+  while (::flock(lock.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     if (steady_clock::now() > deadline) {
       return fail(ErrorCode::kTimeout, "another instep-openni hangs at opening a sensor",
                   "unplug the sensors and plug them in again");

@@ -18,8 +18,8 @@ class SearchTurn {
   static Result<SearchTurn> wait();
 
  private:
-  explicit SearchTurn(std::unique_ptr<Descriptor> lock) : lock_(std::move(lock)) {}
-  std::unique_ptr<Descriptor> lock_;
+  explicit SearchTurn(Descriptor lock) : lock_(std::move(lock)) {}
+  Descriptor lock_;
 };
 
 /// Opens the sensor of this serial number; with none, the only one there is. Fails with kNotFound

@@ -19,15 +19,15 @@ class ChildProcessTest : public testing::Test {
   ChildProcessTest() {
     std::array<int, 2> ends{-1, -1};
     EXPECT_EQ(::pipe(ends.data()), 0);
-    reads_ = std::make_unique<Descriptor>(ends[0]);
-    writes_ = std::make_unique<Descriptor>(ends[1]);
+    reads_ = Descriptor(ends[0]);
+    writes_ = Descriptor(ends[1]);
   }
   /// Writes a line to its first descriptor.
   ChildProgram speaker() const {
-    return {"/bin/sh", {"-c", "echo here >&3"}, {}, {writes_->number()}, std::nullopt};
+    return {"/bin/sh", {"-c", "echo here >&3"}, {}, {writes_.number()}, std::nullopt};
   }
-  std::unique_ptr<Descriptor> reads_;
-  std::unique_ptr<Descriptor> writes_;
+  Descriptor reads_;
+  Descriptor writes_;
 };
 
 TEST_F(ChildProcessTest, HasTheDescriptorsThatItIsGiven) {
@@ -35,7 +35,7 @@ TEST_F(ChildProcessTest, HasTheDescriptorsThatItIsGiven) {
   ASSERT_TRUE(child) << child.error().line();
   EXPECT_EQ(child->wait(std::chrono::seconds(30)), "ended with code 0");
   std::array<char, 16> text{};
-  ASSERT_EQ(::read(reads_->number(), text.data(), text.size()), 5);
+  ASSERT_EQ(::read(reads_.number(), text.data(), text.size()), 5);
   EXPECT_STREQ(text.data(), "here\n");
 }
 
