@@ -244,9 +244,7 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
     warnings.emplace_back(
         "it was not seen from all sides: scan it alone, or turn a camera to its hidden side");
   }
-  const SoleClosure closure = settings.close_soles
-                                  ? close_sole(foot, scene.standing_height_mm, settings.sole)
-                                  : SoleClosure{};
+  const SoleClosure closure = close_sole(foot, scene.standing_height_mm, settings.sole);
   if (closure.points_added > 0) {
     warnings.push_back(
         "no camera saw the sole; it is closed by the platform, which it is taken to meet up to " +

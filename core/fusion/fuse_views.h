@@ -40,7 +40,6 @@ struct FusionSettings {
   /// Fit the views to each other, their poses and by how much their lenses stretch what they see;
   /// else both are trusted, with a warning if poses are wrong.
   bool refine_views = true;
-  bool close_soles = true;
   double foot_ceiling_mm = 150.0;  ///< points higher above the platform are leg and are cut
   /// Points further from the station's origin, in plan and in height, are background.
   double region_radius_mm = 600.0;

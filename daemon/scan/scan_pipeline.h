@@ -43,10 +43,11 @@ struct PipelineSettings {
   SizeRules sizes;
 };
 
-/// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Pure
-/// computation; takes no file and no device. What concerns one camera alone runs on a thread of its
-/// own. Gives one record for each foot on the platform, the left one first, and fails if there is
-/// none. A left and a right foot are put side by side, in the records of both.
+/// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Takes no
+/// file and no device; what it measures depends on its arguments alone. The records get ids of
+/// their own, and the time at which they were measured. What concerns one camera alone runs on a
+/// thread of its own. Gives one record for each foot on the platform, the left one first, and fails
+/// if there is none. A left and a right foot are put side by side, in the records of both.
 Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
                                                 const PipelineSettings& settings,
                                                 const ScanProgress& progress);

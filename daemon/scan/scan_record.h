@@ -24,8 +24,8 @@ struct ScannedPair {
 
 /// One measured foot with all that is told about how it came to be: what result.json holds.
 struct ScanRecord {
-  std::string id;  ///< sortable by time, says nothing about the person
-  std::chrono::system_clock::time_point time;
+  std::string id;                              ///< sortable by time, says nothing about the person
+  std::chrono::system_clock::time_point time;  ///< at which it was measured
   std::string station;
   std::vector<CameraDescription> devices;
   std::string calibration;  ///< where the cameras' poses come from

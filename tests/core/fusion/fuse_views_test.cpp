@@ -113,11 +113,6 @@ TEST(FuseViews, ClosesTheSoleInsideTheFootOnly) {
   for (const auto& own : scene->foot_warnings) {
     EXPECT_NE(joined(own).find("no camera saw the sole"), std::string::npos);
   }
-  auto open = at_zero();
-  open.close_soles = false;
-  const auto unclosed = fuse_views(good_views(), open);
-  ASSERT_TRUE(unclosed);
-  for (const auto& foot : unclosed->feet) EXPECT_TRUE(foot.origins.empty());
 }
 
 TEST(FuseViews, LevelsATiltedStation) {

@@ -116,7 +116,6 @@ class UsbDepthCamera::Device {
   struct Faults {
     int flagged = 0;
     int shortened = 0;
-    int lost = 0;
     int stalled = 0;
     bool silent = false;
   } faults;
@@ -263,10 +262,6 @@ class UsbDepthCamera::Device {
     const std::chrono::microseconds interval(1'000'000 / settings.frames_per_second);
     due_ = std::max(due_ + interval, now);
     const std::uint32_t number = frames++;
-    if (faults.lost > 0) {
-      --faults.lost;
-      return false;
-    }
     for (const std::uint16_t depth : scene_(number)) append16(frame_, depth);
     if (faults.shortened > 0) {
       --faults.shortened;
@@ -344,11 +339,6 @@ void UsbDepthCamera::flag_frames(int count) {
 void UsbDepthCamera::shorten_frames(int count) {
   const std::lock_guard lock(device_->mutex);
   device_->faults.shortened = count;
-}
-
-void UsbDepthCamera::lose_frames(int count) {
-  const std::lock_guard lock(device_->mutex);
-  device_->faults.lost = count;
 }
 
 void UsbDepthCamera::fall_silent(bool silent) {

@@ -43,7 +43,6 @@ class UsbDepthCamera {
   // Faults of the frames to come.
   void flag_frames(int count);     ///< the error bit of their payload headers is set
   void shorten_frames(int count);  ///< half of their data is missing
-  void lose_frames(int count);     ///< never sent
   void fall_silent(bool silent);   ///< answers, but sends no frame
   void stall_probes(int count);    ///< refuses as many requests of the stream's negotiation
 
