@@ -26,6 +26,7 @@ constexpr double kFinestStepMm = 0.02;
 constexpr double kWidestBridge = 2.5;  ///< times the smoothing, where samples are missing
 constexpr double kWiden = 1.25;
 constexpr double kStraySampleMm = 1.5;
+constexpr double kStrayInMedians = 4.0;  ///< of how far samples lie off
 
 /// Along, across, outwards: as SkinSummit takes them.
 using Local = Vector3d;
@@ -82,6 +83,59 @@ void drop_deep(std::vector<Local>& points, const BorderView& view) {
   std::erase_if(points, [&](const Local& point) { return point.z() < deepest[bin_of(point)]; });
 }
 
+/// Of points sorted by place, the first that is not before it.
+std::vector<Local>::const_iterator first_from(double place, const std::vector<Local>& sorted) {
+  return std::lower_bound(sorted.begin(), sorted.end(), place,
+                          [](const Local& point, double value) { return point.x() < value; });
+}
+
+/// The points round the furthest one of a place, seen from there.
+struct Surroundings {
+  Local start;
+  std::vector<Local> points;
+  double window_mm = 0.0;  ///< half, along and across
+};
+
+/// Nothing where they are all before the place or behind it: within a hole a fit to its edge runs
+/// away.
+std::optional<Surroundings> surroundings_within(double window, double place,
+                                                const std::vector<Local>& sorted,
+                                                const BorderView& view) {
+  const double thin = 0.5 * window;
+  const auto end = first_from(place + window, sorted);
+  std::vector<Local> strip;
+  for (auto point = first_from(place - thin, sorted); point != end && point->x() < place + thin;
+       ++point) {
+    const bool is_within = point->y() >= view.across_from_mm && point->y() <= view.across_to_mm;
+    if (is_within) strip.push_back(*point);
+  }
+  const auto start = start_of(strip);
+  if (!start) return std::nullopt;
+  Surroundings found{*start, {}, window};
+  bool is_before = false;
+  bool is_behind = false;
+  for (auto point = first_from(place - window, sorted); point != end; ++point) {
+    if (std::abs(point->y() - start->y()) > window) continue;
+    if (point->z() < start->z() - kDeepestMm) continue;
+    found.points.emplace_back(point->x() - place, point->y() - start->y(), point->z());
+    is_behind = is_behind || found.points.back().x() <= 0.0;
+    is_before = is_before || found.points.back().x() >= 0.0;
+  }
+  return is_before && is_behind ? std::optional(std::move(found)) : std::nullopt;
+}
+
+/// Within the narrowest window that holds enough, or in the widest a few.
+std::optional<Surroundings> surroundings_of(double place, const std::vector<Local>& sorted,
+                                            const BorderView& view) {
+  for (double wider = 1.0; wider <= kWidestWindow; wider *= std::sqrt(2.0)) {
+    auto found = surroundings_within(wider * kWindowMm, place, sorted, view);
+    const bool is_last = wider * std::sqrt(2.0) > kWidestWindow;
+    const std::size_t enough = is_last ? kFewestPoints : kEnoughPoints;
+    if (found && found->points.size() >= enough) return found;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& view,
@@ -100,46 +154,16 @@ SkinBorder::SkinBorder(const std::vector<Vector3d>& points, const BorderView& vi
   drop_deep(sorted, view);
   std::sort(sorted.begin(), sorted.end(),
             [](const Local& a, const Local& b) { return a.x() < b.x(); });
-  const auto from = [&](double place) {
-    return std::lower_bound(sorted.begin(), sorted.end(), place,
-                            [](const Local& a, double value) { return a.x() < value; });
-  };
   const double last = sorted.back().x();
-  std::vector<Local> strip;
-  std::vector<Local> close;
   for (double place = std::ceil(sorted.front().x() / kStepMm) * kStepMm; place <= last;
        place += kStepMm) {
-    for (double wider = 1.0; wider <= kWidestWindow; wider *= std::sqrt(2.0)) {
-      const double window = wider * kWindowMm;
-      strip.clear();
-      const auto end = from(place + window);
-      const double thin = 0.5 * window;
-      for (auto point = from(place - thin); point != end && point->x() < place + thin; ++point) {
-        const bool is_within = point->y() >= view.across_from_mm && point->y() <= view.across_to_mm;
-        if (is_within) strip.push_back(*point);
-      }
-      const auto start = start_of(strip);
-      if (!start) continue;
-      close.clear();
-      bool is_before = false;
-      bool is_behind = false;
-      for (auto point = from(place - window); point != end; ++point) {
-        if (std::abs(point->y() - start->y()) > window) continue;
-        if (point->z() < start->z() - kDeepestMm) continue;
-        close.emplace_back(point->x() - place, point->y() - start->y(), point->z());
-        is_behind = is_behind || close.back().x() <= 0.0;
-        is_before = is_before || close.back().x() >= 0.0;
-      }
-      // Within a hole a fit to its edge runs away.
-      if (!is_before || !is_behind) continue;
-      const bool is_last = wider * std::sqrt(2.0) > kWidestWindow;
-      if (close.size() < (is_last ? kFewestPoints : kEnoughPoints)) continue;
-      const auto summit = summit_across(close, std::max(view.across_from_mm - start->y(), -window),
-                                        std::min(view.across_to_mm - start->y(), window));
-      if (summit && std::abs(summit->reach - start->z()) < kDeepestMm) {
-        samples_.push_back({place, summit->reach, start->y() + summit->across});
-      }
-      break;
+    const auto found = surroundings_of(place, sorted, view);
+    if (!found) continue;
+    const auto& [start, close, window] = *found;
+    const auto summit = summit_across(close, std::max(view.across_from_mm - start.y(), -window),
+                                      std::min(view.across_to_mm - start.y(), window));
+    if (summit && std::abs(summit->reach - start.z()) < kDeepestMm) {
+      samples_.push_back({place, summit->reach, start.y() + summit->across});
     }
   }
 }
@@ -196,7 +220,7 @@ std::optional<SkinBorder::Place> SkinBorder::at(double along) const {
       off.push_back(
           std::abs(sample->reach - fitted.col(0).dot(Vector3d(1.0, offset, offset * offset))));
     }
-    limit = std::max(4.0 * median(std::move(off)), kStraySampleMm);
+    limit = std::max(kStrayInMedians * median(std::move(off)), kStraySampleMm);
   }
   return Place{along, fitted(0, 0),
                std::clamp(fitted(0, 1), view_.across_from_mm, view_.across_to_mm),

@@ -20,6 +20,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostPieces = 40;      // the largest ones; the rest is small
+constexpr double kLargeShare = 0.02;         // of the largest piece's surface
 constexpr double kWidestFoot = 0.55;         // width over length
 constexpr double kFootLikeLengthMm = 120.0;  // a piece as long as this may be a foot by itself
 constexpr double kOutlineMarginMm = 6.0;     // a small piece may lie so far outside the outline
@@ -298,46 +299,62 @@ std::vector<std::string> named_short_ones(const std::vector<Piece>& none, double
           " mm are not measured"};
 }
 
+struct PiecesBySize {
+  std::vector<Piece> large;  ///< some of which may be feet, or parts of them
+  std::vector<Piece> small;
+};
+
+PiecesBySize by_size(std::vector<Piece> pieces) {
+  PiecesBySize sorted;
+  const auto largest = pieces.empty() ? 0.0 : static_cast<double>(pieces.front().cells.size());
+  for (auto& piece : pieces) {
+    const bool is_large = static_cast<double>(piece.cells.size()) >= kLargeShare * largest;
+    auto& own = is_large && sorted.large.size() < kMostPieces ? sorted.large : sorted.small;
+    own.push_back(std::move(piece));
+  }
+  return sorted;
+}
+
+/// Splits what touches and joins what belongs together; the largest first.
+void make_whole(std::vector<Piece>& pieces, const std::vector<Vector3d>& positions,
+                const SeparationSettings& settings) {
+  for (std::size_t i = 0, count = pieces.size(); i < count; ++i) {
+    split_piece(pieces, i, positions, settings);
+  }
+  join_pieces(pieces, settings);
+  std::stable_sort(pieces.begin(), pieces.end(), larger);
+}
+
+/// Takes what may be a foot from the large pieces; the others of them are small from now on.
+std::vector<Piece> take_feet(PiecesBySize& pieces, double standing_height_mm,
+                             const SeparationSettings& settings) {
+  std::vector<Piece> feet;
+  for (auto& piece : pieces.large) {
+    const bool long_enough = enclosing_rectangle(piece.hull()).length >= settings.least_length_mm;
+    const bool fair = feet.empty() || is_fair(piece, feet.front(), settings);
+    const bool may_be_foot = stands(piece, standing_height_mm, settings) && long_enough && fair;
+    (may_be_foot ? feet : pieces.small).push_back(std::move(piece));
+  }
+  pieces.large.clear();
+  return feet;
+}
+
 }  // namespace
 
 SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double standing_height_mm,
                             const SeparationSettings& settings) {
   SeparatedFeet separated;
-  auto pieces = find_pieces(positions, settings.link_mm);
-  if (pieces.empty()) return separated;
-  const auto is_small = [&](const Piece& piece) {
-    return static_cast<double>(piece.cells.size()) <
-           0.02 * static_cast<double>(pieces.front().cells.size());
-  };
-  std::vector<Piece> large;
-  std::vector<Piece> small;
-  for (const auto& piece : pieces) {
-    (large.size() < kMostPieces && !is_small(piece) ? large : small).push_back(piece);
-  }
-  for (std::size_t i = 0, count = large.size(); i < count; ++i) {
-    split_piece(large, i, positions, settings);
-  }
-  join_pieces(large, settings);
-  std::stable_sort(large.begin(), large.end(), larger);
-
-  std::vector<Piece> feet;
-  for (auto& piece : large) {
-    const bool long_enough = enclosing_rectangle(piece.hull()).length >= settings.least_length_mm;
-    const bool fair = feet.empty() || is_fair(piece, feet.front(), settings);
-    if (stands(piece, standing_height_mm, settings) && long_enough && fair) {
-      feet.push_back(std::move(piece));
-    } else {
-      small.push_back(std::move(piece));
-    }
-  }
+  auto pieces = by_size(find_pieces(positions, settings.link_mm));
+  make_whole(pieces.large, positions, settings);
+  auto feet = take_feet(pieces, standing_height_mm, settings);
   const bool are_many = feet.size() > 2;
   if (are_many) feet.resize(2);
   if (feet.empty()) {
     separated.strays = positions.size();
-    separated.warnings = named_short_ones(small, standing_height_mm, settings);
+    separated.warnings = named_short_ones(pieces.small, standing_height_mm, settings);
     return separated;
   }
-  const auto left_out = adopt(feet, std::move(small));
+  const auto left_out = adopt(feet, std::move(pieces.small));
   separated.warnings = named_parts(feet, left_out, standing_height_mm, settings);
   if (are_many) {
     separated.warnings.push_back(

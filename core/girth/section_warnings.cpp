@@ -146,53 +146,67 @@ const char* reason_of_doubt(const SectionUnknowns& unknowns, const MeasuredSecti
          "frames";
 }
 
-}  // namespace
+using Warnings = std::vector<std::string>;
 
-std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
-                                     const SectionEvidence& evidence, double unexplained,
-                                     const SectionUnknowns& unknowns,
-                                     const MeasuredSection& section) {
-  const UnfollowedSkin& skin = unknowns.skin;
-  const auto& layers = unknowns.layers;
-  std::vector<std::string> warnings;
-  const auto warn_if = [&](bool so, const char* warning) {
-    if (so) warnings.emplace_back(warning);
-  };
+void warn_of_other_loops(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                         const SectionUnknowns& unknowns, Warnings& warnings) {
   for (std::size_t i = 1; i < loops.size(); ++i) {
     const double length_mm = band.unit_mm * loops[i].contour.length();
     const auto& gap = unknowns.beside.gaps[i - 1];
     warnings.push_back(gap ? near_loop_warning(length_mm, band.unit_mm * *gap)
                            : other_loop_warning(length_mm));
   }
-  warn_if(has_notable_gap(band, evidence), kBridgedWarning);
+}
+
+/// Of those that the section does not follow.
+void warn_of_points_off(const PlaneBand& band, double unexplained, const SectionUnknowns& unknowns,
+                        Warnings& warnings) {
+  const UnfollowedSkin& skin = unknowns.skin;
   if (skin.is_any()) warnings.push_back(warning_of(skin, band.unit_mm));
   if (unknowns.narrow.is_any()) warnings.push_back(warning_of(unknowns.narrow, band.unit_mm));
-  warn_if(!skin.is_any() && unexplained > kNotableUnexplained,
-          "points beside the section lie on no skin that closes: strays, a second layer or another "
-          "body");
-  warn_if(band.stray_share > kNotableUnexplained,
-          "many points near the plane lie off the skin and were left out: take away what shines or "
-          "moves before the cameras");
-  for (auto& disbelief : disbelief_of(band)) warnings.push_back(std::move(disbelief));
+  if (!skin.is_any() && unexplained > kNotableUnexplained) {
+    warnings.emplace_back(
+        "points beside the section lie on no skin that closes: strays, a second layer or another "
+        "body");
+  }
+  if (band.stray_share > kNotableUnexplained) {
+    warnings.emplace_back(
+        "many points near the plane lie off the skin and were left out: take away what shines or "
+        "moves before the cameras");
+  }
+}
+
+void warn_of_layers(const PlaneBand& band, const SectionUnknowns& unknowns, Warnings& warnings) {
+  const auto& layers = unknowns.layers;
   const bool is_layered = layers && layers->are_all_round;
   if (!is_layered && !band.scattered.empty()) {
     warnings.push_back(warning_of(band.scattered, band.unit_mm));
   }
   if (layers) warnings.push_back(warning_of(*layers, band.unit_mm));
+}
+
+void warn_of_fine_skin(const PlaneBand& band, double length, const SectionUnknowns& unknowns,
+                       Warnings& warnings) {
   const MissedLength& finer = unknowns.finer;
-  const bool shows_finer =
-      std::max(finer.contact, finer.stretched) > kNotableFinerSkin * loops.front().contour.length();
+  const bool shows_finer = std::max(finer.contact, finer.stretched) > kNotableFinerSkin * length;
   if (shows_finer) warnings.push_back(warning_of(finer, band.unit_mm));
   if (unknowns.zigzags.way > 0.0 && unknowns.folds == 0.0) {
     warnings.push_back(warning_of_zigzags(band.unit_mm * unknowns.zigzags.way));
   }
-  warn_if(unknowns.folds > 0.0,
-          "the section is folded, by noise or by ribs too fine for it: the contact length is "
-          "uncertain; scan again, with more or better frames");
-  const bool scattered = !layers && band.shown_sigma > kNotableNoise * band.usual_share;
-  warn_if(scattered,
-          "the points scatter so much that they may be two layers of skin; the middle was taken");
-  const bool is_overtold = !scattered && !layers && band.told_scale == 1.0 &&
+  if (unknowns.folds > 0.0) {
+    warnings.emplace_back(
+        "the section is folded, by noise or by ribs too fine for it: the contact length is "
+        "uncertain; scan again, with more or better frames");
+  }
+}
+
+void warn_of_noise(const PlaneBand& band, const SectionUnknowns& unknowns, Warnings& warnings) {
+  const bool scattered = !unknowns.layers && band.shown_sigma > kNotableNoise * band.usual_share;
+  if (scattered) {
+    warnings.emplace_back(
+        "the points scatter so much that they may be two layers of skin; the middle was taken");
+  }
+  const bool is_overtold = !scattered && !unknowns.layers && band.told_scale == 1.0 &&
                            band.sigma > kNotableNoise * band.usual_share;
   if (is_overtold) {
     warnings.push_back(
@@ -201,8 +215,26 @@ std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<Se
         (band.own_sigma ? "have the file's sigma_mm made anew, or leave it out"
                         : "leave --sigma-mm out, or give a smaller one"));
   }
-  warn_if(is_unexplained(unknowns, section, loops.front().contour.length()),
-          reason_of_doubt(unknowns, section));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_of(const PlaneBand& band, const std::vector<SectionLoop>& loops,
+                                     const SectionEvidence& evidence, double unexplained,
+                                     const SectionUnknowns& unknowns,
+                                     const MeasuredSection& section) {
+  const double length = loops.front().contour.length();
+  Warnings warnings;
+  warn_of_other_loops(band, loops, unknowns, warnings);
+  if (has_notable_gap(band, evidence)) warnings.emplace_back(kBridgedWarning);
+  warn_of_points_off(band, unexplained, unknowns, warnings);
+  for (auto& disbelief : disbelief_of(band)) warnings.push_back(std::move(disbelief));
+  warn_of_layers(band, unknowns, warnings);
+  warn_of_fine_skin(band, length, unknowns, warnings);
+  warn_of_noise(band, unknowns, warnings);
+  if (is_unexplained(unknowns, section, length)) {
+    warnings.emplace_back(reason_of_doubt(unknowns, section));
+  }
   return warnings;
 }
 

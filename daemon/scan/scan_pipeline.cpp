@@ -98,6 +98,21 @@ ScanRecord record_of(const Capture& capture, const PipelineSettings& settings, F
   return record;
 }
 
+Result<ScanRecord> measure_one(FootScan aligned, const Capture& capture,
+                               const PipelineSettings& settings, StageClock& clock) {
+  const GoOn go_on = [&clock] { return clock.go_on(); };
+  if (!clock.begin("landmarks", 0.7)) return cancelled();
+  auto foot = find_landmarks_by(on_all_processors, std::move(aligned), go_on);
+  if (!foot) return tl::make_unexpected(foot.error());
+
+  if (!clock.begin("girths", 0.7)) return cancelled();
+  MeasureOptions options;
+  options.workers = on_all_processors;
+  auto measures = measure_foot(*foot, options, go_on);
+  if (!measures) return tl::make_unexpected(measures.error());
+  return record_of(capture, settings, std::move(*foot), std::move(*measures));
+}
+
 void name(std::vector<ScanRecord>& records, std::chrono::system_clock::time_point time) {
   const auto ids = new_scan_ids(time, records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -174,16 +189,9 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   for (auto& aligned : *feet) {
     const auto& own = scene->foot_warnings.at(aligned.cloud_number);
     aligned.warnings.insert(aligned.warnings.begin(), own.begin(), own.end());
-    if (!clock.begin("landmarks", 0.7)) return cancelled();
-    auto foot = find_landmarks_by(on_all_processors, std::move(aligned), go_on);
-    if (!foot) return noticed(foot.error());
-
-    if (!clock.begin("girths", 0.7)) return cancelled();
-    MeasureOptions options;
-    options.workers = on_all_processors;
-    auto measures = measure_foot(*foot, options, go_on);
-    if (!measures) return noticed(measures.error());
-    records.push_back(record_of(capture, settings, std::move(*foot), std::move(*measures)));
+    auto record = measure_one(std::move(aligned), capture, settings, clock);
+    if (!record) return noticed(record.error());
+    records.push_back(std::move(*record));
   }
   clock.end();
 
