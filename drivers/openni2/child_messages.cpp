@@ -76,20 +76,25 @@ json to_json(const CameraStopped&) {
   return {{"event", "stopped"}};
 }
 
-ChildMessage message_from(const json& object) {
-  const auto event = object.at("event").get<std::string>();
-  if (event == "started") return CameraStarted{};
-  if (event == "stopped") return CameraStopped{};
-  if (event == "error") return error_from(object);
-  return CameraOpened{device_from(object.at("device")), mode_from(object.at("mode")),
-                      object.at("horizontal_fov_rad").get<double>(),
-                      object.at("vertical_fov_rad").get<double>()};
+CameraOpened opened_from(const json& object) {
+  return {device_from(object.at("device")), mode_from(object.at("mode")),
+          object.at("horizontal_fov_rad").get<double>(),
+          object.at("vertical_fov_rad").get<double>()};
 }
 
 tl::unexpected<Error> not_understood() {
   return fail(ErrorCode::kCorruptData, Remedy::kReopen,
               "instep-openni says what nobody understands",
               "install the programs of one version together");
+}
+
+Result<ChildMessage> message_from(const json& object) {
+  const auto event = object.at("event").get<std::string>();
+  if (event == "opened") return opened_from(object);
+  if (event == "started") return CameraStarted{};
+  if (event == "stopped") return CameraStopped{};
+  if (event == "error") return ChildMessage(error_from(object));
+  return not_understood();
 }
 
 }  // namespace

@@ -55,6 +55,15 @@ TEST(ChildMessages, ThatMakeNoSenseAreErrors) {
   }
 }
 
+// It was taken for a camera that had opened.
+TEST(ChildMessages, OfAnEventThatNobodyKnowsAreErrorsWhateverTheyHold) {
+  std::string text = to_text(ChildMessage(some_camera()));
+  text.replace(text.find("opened"), 6, "dimmed");
+  const auto message = parse_child_message(text);
+  ASSERT_FALSE(message);
+  EXPECT_EQ(message.error().code, ErrorCode::kCorruptData);
+}
+
 std::string damaged(std::string text, test::RandomNumbers& random) {
   for (int i = 0; i < 3; ++i) {
     text[random.below(text.size())] = static_cast<char>(random.below(256));
