@@ -43,11 +43,9 @@ Json chip_json(const GpioChipState& chip, const Settings& settings) {
                      {"is_pedal", use == "pedal"},
                      {"configured_as", or_null(use)}});
   }
-  return {{"node", chip.node.string()},
-          {"label", chip.label},
-          {"line_count", chip.line_count},
-          {"may_open", chip.may_open},
-          {"lines", std::move(lines)}};
+  return {{"node", chip.node.string()},       {"label", chip.label},
+          {"line_count", chip.line_count},    {"may_open", chip.may_open},
+          {"trouble", or_null(chip.trouble)}, {"lines", std::move(lines)}};
 }
 
 Json switch_json(const InputNode& node, const PedalSettings& pedal) {
@@ -71,7 +69,7 @@ std::string camera_text(const PluggedCamera& camera) {
       "  {}\n    kind \"{}\", {}{}\n", camera.device.text(), camera.kind, link_text(camera.device),
       camera.configured_as.empty() ? "" : ", configured as " + camera.configured_as);
   for (const auto& node : camera.nodes) text += "    " + node.string() + "\n";
-  if (!camera.trouble.empty()) text += "    cannot be opened: " + camera.trouble + "\n";
+  if (!camera.trouble.empty()) text += "    cannot be used now: " + camera.trouble + "\n";
   for (const auto& mode : camera.modes) {
     text += fmt::format("    {:<4} {}\n", mode.format, fmt::join(mode.sizes, " "));
   }
@@ -79,9 +77,10 @@ std::string camera_text(const PluggedCamera& camera) {
 }
 
 std::string chip_text(const GpioChipState& chip, const Settings& settings) {
-  if (!chip.may_open) return fmt::format("  {}: you may not open it\n", chip.node.string());
-  std::string text =
-      fmt::format("  \"{}\", {} lines, now {}\n", chip.label, chip.line_count, chip.node.string());
+  const std::string node = chip.node.string();
+  if (!chip.may_open) return fmt::format("  {}: you may not open it\n", node);
+  if (!chip.trouble.empty()) return fmt::format("  {} cannot be opened: {}\n", node, chip.trouble);
+  std::string text = fmt::format("  \"{}\", {} lines, now {}\n", chip.label, chip.line_count, node);
   for (const auto& line : chip.lines) {
     const auto use = use_of_line(settings, chip, line);
     text += fmt::format("    {:>4} {}{}{}\n", line.offset,

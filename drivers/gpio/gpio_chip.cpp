@@ -2,6 +2,8 @@
 
 #include <gpiod.h>
 
+#include <cerrno>
+
 namespace instep {
 
 namespace fs = std::filesystem;
@@ -12,6 +14,10 @@ void CloseGpioChip::operator()(gpiod_chip* chip) const {
 
 GpioChipHandle open_gpio_chip(const fs::path& node) {
   return GpioChipHandle(gpiod_chip_open(node.c_str()));
+}
+
+bool fails_the_system(int reason) {
+  return reason == EMFILE || reason == ENFILE || reason == ENOMEM || reason == EIO;
 }
 
 FolderEntries gpio_chip_nodes(const fs::path& devices) {

@@ -20,6 +20,10 @@ using GpioChipHandle = std::unique_ptr<gpiod_chip, CloseGpioChip>;
 /// Null, with errno, if it cannot be opened.
 GpioChipHandle open_gpio_chip(const std::filesystem::path& node);
 
+/// Whether that is trouble of the system, and not of a chip that has just left, a node that is none
+/// or a user who may not.
+bool fails_the_system(int reason);
+
 /// The nodes of chips in `devices` (/dev), by name. libgpiod's own search gives up at the first
 /// chip that this user may not open.
 FolderEntries gpio_chip_nodes(const std::filesystem::path& devices);

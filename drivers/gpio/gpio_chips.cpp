@@ -3,6 +3,7 @@
 #include <gpiod.h>
 
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include "drivers/gpio/gpio_chip.h"
@@ -27,14 +28,20 @@ std::vector<GpioLineState> lines_of(gpiod_chip* chip) {
 
 std::vector<GpioChipState> list_gpio_chips(const std::filesystem::path& devices) {
   std::vector<GpioChipState> chips;
-  for (const auto& node : gpio_chip_nodes(devices).paths) {
+  const auto nodes = gpio_chip_nodes(devices);
+  if (const int reason = nodes.failure.value(); fails_the_system(reason)) {
+    chips.push_back({devices, {}, 0, {}, true, std::strerror(reason)});
+  }
+  for (const auto& node : nodes.paths) {
     GpioChipState state;
     state.node = node;
     if (const auto chip = open_gpio_chip(node)) {
       state.label = text_or_empty(gpiod_chip_label(chip.get()));
       state.line_count = gpiod_chip_num_lines(chip.get());
       state.lines = lines_of(chip.get());
-    } else if (errno == EACCES || errno == EPERM) {
+    } else if (const int reason = errno; fails_the_system(reason)) {
+      state.trouble = std::strerror(reason);
+    } else if (reason == EACCES || reason == EPERM) {
       state.may_open = false;
     } else {
       continue;  // no chip, or one that has just left

@@ -20,9 +20,11 @@ struct GpioChipState {
   unsigned line_count = 0;
   std::vector<GpioLineState> lines;
   bool may_open = true;  ///< if this user may not, the rest is unknown
+  std::string trouble;   ///< of the system, which opens none now; the rest is unknown then too
 };
 
-/// The chips of `devices`, by name. Requests no line.
+/// The chips of `devices`, by name; where that itself cannot be read, it stands for them with its
+/// trouble. Requests no line.
 std::vector<GpioChipState> list_gpio_chips(const std::filesystem::path& devices = "/dev");
 
 }  // namespace instep

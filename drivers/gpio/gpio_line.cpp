@@ -19,11 +19,6 @@ tl::unexpected<Error> not_looked_at(const fs::path& node, int reason) {
               "check the limits on open files and memory");
 }
 
-/// Not of a chip that has just left, nor of a node that is none.
-bool fails_the_system(int reason) {
-  return reason == EMFILE || reason == ENFILE || reason == ENOMEM || reason == EIO;
-}
-
 tl::unexpected<Error> not_found(const std::string& line, const std::vector<fs::path>& chips) {
   // The same of every line: one cause, which a board with several of them has to say but once.
   if (chips.empty()) {

@@ -114,7 +114,7 @@ TEST_F(InventoryOfAMachine, KnowsTheConfiguredSensorByTheNumberThatOpenniTells) 
   EXPECT_EQ(heel.modes[0].format, "0.1 mm");
   EXPECT_THAT(heel.modes[0].sizes, ElementsAre("640x480"));
   const auto text = to_text(inventory, settings_);
-  EXPECT_THAT(text, HasSubstr("    cannot be opened: it is in use\n"));
+  EXPECT_THAT(text, HasSubstr("    cannot be used now: it is in use\n"));
   EXPECT_THAT(text, HasSubstr("kind \"openni2\", 480 Mbit/s (it could be faster: use a USB 3 "
                               "socket), configured as heel\n"));
 }
@@ -207,6 +207,18 @@ TEST_F(InventoryOfAMachine, SaysWhatALineIsFor) {
   projector.chip = "another board";
   EXPECT_EQ(use_of_line(settings_, board, board.lines[1]), "");
   EXPECT_THAT(to_text(inventory, settings_), HasSubstr("3 \"lamp\", the lamp.busy\n"));
+}
+
+TEST_F(InventoryOfAMachine, SaysWhyAChipCannotBeOpened) {
+  Inventory inventory;
+  inventory.gpio_chips = {{"/dev/gpiochip0", "", 0, {}, true, "Too many open files"},
+                          {"/dev/gpiochip1", "", 0, {}, false, ""}};
+  EXPECT_THAT(to_text(inventory, settings_),
+              HasSubstr("  /dev/gpiochip0 cannot be opened: Too many open files\n"
+                        "  /dev/gpiochip1: you may not open it\n"));
+  const auto chips = to_json(inventory, settings_)["gpio_chips"];
+  EXPECT_EQ(chips[0]["trouble"], "Too many open files");
+  EXPECT_TRUE(chips[1]["trouble"].is_null());
 }
 
 TEST_F(InventoryOfAMachine, IsEmptyWhereTheKernelShowsNothing) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <cstring>
 #include <fstream>
 
+#include "drivers/gpio/gpio_chips.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -38,6 +40,27 @@ TEST(GpioLineSearch, SaysWhyAChipCannotBeOpened) {
   EXPECT_EQ(code_at(EACCES), ErrorCode::kPermissionDenied);
   for (const int of_none : {ENOENT, ENODEV, ENOTTY}) {
     EXPECT_EQ(code_at(of_none), ErrorCode::kNotFound) << of_none;
+  }
+}
+
+// The list had none of them, as if there were no board.
+TEST(GpioChips, AreListedWithWhatKeepsTheSystemFromOpeningThem) {
+  const test::TemporaryFolder devices;
+  std::ofstream(devices.path() / "gpiochip0");
+  for (const int of_system : {EMFILE, ENFILE, ENOMEM, EIO}) {
+    failure = of_system;
+    const auto chips = list_gpio_chips(devices.path());
+    ASSERT_EQ(chips.size(), 1U) << of_system;
+    EXPECT_EQ(chips[0].trouble, std::strerror(of_system));
+    EXPECT_TRUE(chips[0].may_open);
+  }
+  failure = EACCES;
+  const auto closed = list_gpio_chips(devices.path());
+  ASSERT_EQ(closed.size(), 1U);
+  EXPECT_FALSE(closed[0].may_open);
+  for (const int of_none : {ENOENT, ENODEV, ENOTTY}) {
+    failure = of_none;
+    EXPECT_TRUE(list_gpio_chips(devices.path()).empty()) << of_none;
   }
 }
 
