@@ -23,6 +23,13 @@ std::string camera_of(const Settings& settings, const UsbDevice& device) {
   return {};
 }
 
+/// That a user may not open a node, or that it has just left, is no trouble of the camera's.
+void note_trouble(const Error& error, PluggedCamera& camera) {
+  const bool is_its_own =
+      error.code != ErrorCode::kPermissionDenied && error.code != ErrorCode::kNotFound;
+  if (is_its_own) camera.trouble = error.message;
+}
+
 void add_video_cameras(const Settings& settings, const DeviceFolders& folders, VideoSystem& system,
                        std::vector<PluggedCamera>& cameras) {
   for (const auto& node : list_video_nodes(folders)) {
@@ -31,7 +38,10 @@ void add_video_cameras(const Settings& settings, const DeviceFolders& folders, V
     }
     cameras.back().nodes.push_back(node.path);
     auto modes = list_video_modes(system, node.path);
-    if (!modes) continue;
+    if (!modes) {
+      note_trouble(modes.error(), cameras.back());
+      continue;
+    }
     for (auto& mode : *modes) cameras.back().modes.push_back(std::move(mode));
   }
 }

@@ -24,7 +24,7 @@ struct PluggedCamera {
   std::vector<std::filesystem::path> nodes;
   std::vector<VideoModes> modes;  ///< as far as this user may open the device
   std::string configured_as;
-  std::string trouble;  ///< why OpenNI2 cannot open it now; empty if it can
+  std::string trouble;  ///< why OpenNI2 cannot open it now, or a driver lists no modes; or empty
 };
 
 /// What could serve a station and is plugged into this machine, configured or not.

@@ -6,23 +6,49 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "drivers/v4l2/depth_format.h"
 #include "drivers/v4l2/video_call.h"
+#include "drivers/v4l2/video_error.h"
 
 namespace instep {
 namespace {
 
-std::vector<std::string> sizes_of(VideoSystem& system, int node, std::uint32_t format) {
+/// Takes one entry of a list of the driver's. False at its end, which EINVAL is, or ENOTTY of a
+/// driver that has no such list.
+Result<bool> takes_next(VideoSystem& system, int node, unsigned long request, void* entry) {
+  if (video_call(system, node, request, entry) == 0) return true;
+  if (errno == EINVAL || errno == ENOTTY) return false;
+  return tl::make_unexpected(video_error(errno, "listing what it sends"));
+}
+
+Result<std::vector<std::string>> sizes_of(VideoSystem& system, int node, std::uint32_t format) {
   std::vector<std::string> sizes;
   v4l2_frmsizeenum size{};
   size.pixel_format = format;
   for (; size.index < kMostListed; ++size.index) {
-    if (video_call(system, node, VIDIOC_ENUM_FRAMESIZES, &size) != 0) break;
-    if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) break;
+    const auto taken = takes_next(system, node, VIDIOC_ENUM_FRAMESIZES, &size);
+    if (!taken) return tl::make_unexpected(taken.error());
+    if (!*taken || size.type != V4L2_FRMSIZE_TYPE_DISCRETE) break;
     sizes.push_back(fmt::format("{}x{}", size.discrete.width, size.discrete.height));
   }
   return sizes;
+}
+
+Result<std::vector<VideoModes>> modes_of(VideoSystem& system, int node) {
+  std::vector<VideoModes> modes;
+  v4l2_fmtdesc format{};
+  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  for (; format.index < kMostListed; ++format.index) {
+    const auto taken = takes_next(system, node, VIDIOC_ENUM_FMT, &format);
+    if (!taken) return tl::make_unexpected(taken.error());
+    if (!*taken) break;
+    auto sizes = sizes_of(system, node, format.pixelformat);
+    if (!sizes) return tl::make_unexpected(sizes.error());
+    modes.push_back({to_string_of_four(format.pixelformat), std::move(*sizes)});
+  }
+  return modes;
 }
 
 }  // namespace
@@ -36,14 +62,7 @@ Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
                 fmt::format("{} cannot be opened: {}", path.string(), std::strerror(errno)),
                 denied ? "sudo usermod -aG video $USER, then log in again" : "plug it in again");
   }
-  std::vector<VideoModes> modes;
-  v4l2_fmtdesc format{};
-  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  for (; format.index < kMostListed; ++format.index) {
-    if (video_call(system, node, VIDIOC_ENUM_FMT, &format) != 0) break;
-    modes.push_back(
-        {to_string_of_four(format.pixelformat), sizes_of(system, node, format.pixelformat)});
-  }
+  auto modes = modes_of(system, node);
   system.close(node);
   return modes;
 }

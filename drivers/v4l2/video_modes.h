@@ -17,7 +17,7 @@ struct VideoModes {
 
 /// All that the node `path` offers, as the driver lists it; empty for a node that sends no images.
 /// Opens the node and disturbs no one who streams from it. Fails with kPermissionDenied or
-/// kNotFound.
+/// kNotFound, and with kDeviceGone or kIo if the list ends before its time.
 Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
                                                  const std::filesystem::path& path);
 

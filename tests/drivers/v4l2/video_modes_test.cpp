@@ -50,6 +50,31 @@ TEST_F(VideoModesTest, AreAllThoughASignalCutsACallShort) {
   }
 }
 
+// The list ended there, as if the camera had no more to send.
+TEST_F(VideoModesTest, AreNoneWhereTheListFailsBeforeItsEnd) {
+  const int before = kernel_.calls();
+  expect_all();
+  const int calls = kernel_.calls() - before;
+  for (const int error : {EIO, ENODEV}) {
+    for (int k = 2; k < calls; ++k) {  // the first opens the node, and the last closes it
+      SCOPED_TRACE(k);
+      kernel_.fail_call(k, error);
+      const auto modes = list_video_modes(kernel_, kNode);
+      ASSERT_FALSE(modes);
+      EXPECT_EQ(modes.error().code, error == EIO ? ErrorCode::kIo : ErrorCode::kDeviceGone);
+      EXPECT_EQ(kernel_.held(), 0);
+    }
+  }
+}
+
+// Not every driver lists the sizes that it takes.
+TEST_F(VideoModesTest, MayBeOfAnySize) {
+  kernel_.fail_call(3, ENOTTY);
+  const auto modes = list_video_modes(kernel_, kNode);
+  ASSERT_TRUE(modes) << modes.error().line();
+  EXPECT_TRUE(modes->front().sizes.empty());
+}
+
 TEST_F(VideoModesTest, OfNoNodeAreNone) {
   EXPECT_EQ(list_video_modes(kernel_, "/dev/video1").error().code, ErrorCode::kNotFound);
 }
