@@ -21,6 +21,12 @@ Error chattering_pedal() {
           "check its plug and its cable, or try another pedal"};
 }
 
+/// Of a scan that nobody cancelled, too.
+Error stopping() {
+  return {ErrorCode::kCancelled, Remedy::kRetry, "the station is stopping",
+          "scan once instepd runs again"};
+}
+
 }  // namespace
 
 Station::Station(EventLoop& loop, Settings settings, MeasureCapture measure,
@@ -154,8 +160,9 @@ void Station::act(StationAction action) {
     case StationAction::kAnnounceResult:
       return listener_.on_result(outcome_.stored);
     case StationAction::kAnnounceFailure:
-    case StationAction::kAnnounceCancelled:
       return listener_.on_failure(*outcome_.error);
+    case StationAction::kAnnounceCancelled:
+      return listener_.on_failure(machine_.is_leaving() ? stopping() : *outcome_.error);
     case StationAction::kCheckCameras:
       return check_cameras();
     case StationAction::kLeave:
@@ -376,6 +383,7 @@ void Station::scan_ended(const ScanOutcome& outcome) {
 }
 
 Error Station::refusal() const {
+  if (machine_.is_leaving()) return stopping();
   const Error starting{ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
                        "wait a moment and scan again"};
   return first_trouble().value_or(starting);

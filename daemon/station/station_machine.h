@@ -54,6 +54,7 @@ class StationMachine {
   StationState state() const;
   std::uint64_t ignored_presses() const { return ignored_presses_; }
   bool is_busy() const { return phase_ >= Phase::kCapturing; }
+  bool is_leaving() const { return leaving_; }
 
   std::vector<StationAction> handle(StationEvent event);
 

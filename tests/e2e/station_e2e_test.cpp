@@ -187,6 +187,23 @@ TEST(Station, EndsWithinASecondOfSigtermInTheMiddleOfAScan) {
   }
 }
 
+// It was told of a scan that somebody cancelled.
+TEST(Station, SaysThatItStopsToWhoWaitsForAScan) {
+  StationProcess station;
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  auto client = station.connect();
+  ASSERT_TRUE(client);
+  ASSERT_TRUE(client->ask("watch"));
+  ASSERT_TRUE(client->ask("scan"));
+  station.signal(SIGTERM);
+  auto line = client->next(kLong);
+  while (line && line->value("event", "") != "failure") line = client->next(kLong);
+  ASSERT_TRUE(line) << line.error().line();
+  EXPECT_EQ(line->at("error").at("message"), "the station is stopping");
+  EXPECT_EQ(station.wait_for_exit(kLong), 0) << station.log();
+}
+
 /// Of its memory, what is in RAM.
 double resident_mb(pid_t process) {
   std::ifstream status("/proc/" + std::to_string(process) + "/status");
