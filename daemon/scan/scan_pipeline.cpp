@@ -19,8 +19,10 @@
 namespace instep {
 namespace {
 
-std::map<std::string, double> frame_quality(const std::vector<FusedDepth>& images) {
+std::map<std::string, double> frame_quality(const Capture& capture,
+                                            const std::vector<FusedDepth>& images) {
   std::map<std::string, double> quality;
+  quality["frames_rejected"] = static_cast<double>(capture.frames_rejected);
   for (const auto& image : images) {
     quality["frames_used"] += image.frames_used;
     quality["frames_rejected"] += image.frames_rejected;
@@ -168,7 +170,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   if (!clock.begin("fuse frames", 0.0)) return cancelled();
   auto images = camera_images(capture, go_on);
   if (!images) return tl::make_unexpected(images.error());
-  auto quality = frame_quality(*images);
+  auto quality = frame_quality(capture, *images);
   auto warnings = movement_warnings(*images);
   for (auto& warning : rejection_warnings(*images)) warnings.push_back(std::move(warning));
 

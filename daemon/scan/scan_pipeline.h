@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -19,7 +20,8 @@ namespace instep {
 /// Everything that one press of the pedal brought in.
 struct Capture {
   std::vector<CameraDescription> cameras;
-  std::vector<DepthFrame> frames;  ///< of all cameras, in any order
+  std::vector<DepthFrame> frames;     ///< of all cameras, in any order
+  std::uint64_t frames_rejected = 0;  ///< that came meanwhile and are not among them, being faulty
   std::optional<double> platform_height_mm;
   bool simulated = false;
   std::string calibration;

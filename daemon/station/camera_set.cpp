@@ -227,6 +227,12 @@ FrameCounts CameraSet::frame_counts(std::size_t camera) const {
   return workers_[camera]->tally->counts();
 }
 
+std::uint64_t CameraSet::faulty_frames() const {
+  std::uint64_t sum = 0;
+  for (const auto& worker : workers_) sum += worker->tally->counts().faulty();
+  return sum;
+}
+
 Result<Frames> CameraSet::capture(const CaptureSettings& settings,
                                   const std::function<bool()>& go_on) {
   const auto deadline = steady_clock::now() + settings.deadline;

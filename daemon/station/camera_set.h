@@ -33,6 +33,8 @@ class CameraSet {
   std::vector<CameraDescription> descriptions() const;
   /// Of all frames that this camera has given here.
   FrameCounts frame_counts(std::size_t camera) const;
+  /// Of all cameras.
+  std::uint64_t faulty_frames() const;
 
   /// The good frames of all cameras, or nothing: a partial set is never returned. Starts the
   /// cameras, drops what warms them up and what is damaged or empty, and stops them again. If a

@@ -33,6 +33,8 @@ struct FrameCounts {
   std::uint64_t stale = 0;
   std::uint64_t empty = 0;
   std::uint64_t lost = 0;  ///< never came, as gaps in the sequence show
+
+  std::uint64_t faulty() const { return error_flagged + short_of_pixels + stale + empty; }
 };
 
 /// Judges the frames of one camera, and counts them. Safe from any thread.

@@ -37,6 +37,7 @@ class ScanSession {
  private:
   Result<Capture> take_capture() {
     tell("capture", 0.0);
+    const auto faulty_before = tools_.cameras->faulty_frames();
     auto frames = tools_.cameras->capture(tools_.capture, [this] {
       progress_.step();
       return !cancelled_;
@@ -45,6 +46,7 @@ class ScanSession {
     Capture capture;
     capture.cameras = tools_.cameras->descriptions();
     capture.frames = std::move(*frames);
+    capture.frames_rejected = tools_.cameras->faulty_frames() - faulty_before;
     capture.platform_height_mm = tools_.platform_height_mm;
     capture.simulated = tools_.simulated;
     capture.calibration = tools_.calibration;

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <deque>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/go_on.h"
 #include "daemon/store/posix_storage.h"
 #include "sim/simulated_station.h"
+#include "tests/support/scripted_camera.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -128,6 +131,42 @@ TEST(ScanSession, TellsInTheResultHowTheFramesWereTaken) {
   const auto result = nlohmann::json::parse(file);
   const auto warnings = result.at("warnings").get<std::vector<std::string>>();
   EXPECT_EQ(std::count(warnings.begin(), warnings.end(), "the projector was off"), 1);
+}
+
+/// Those that the cameras' own threads leave out never come to the fusion, which counts others.
+TEST(ScanSession, CountsTheFaultyFramesOfItsCapture) {
+  using Step = test::ScriptedCamera::Step;
+  const test::TemporaryFolder folder;
+  ScanTools tools = small_tools(folder.path() / "scans");
+  tools.capture.warmup_frames = 0;
+  std::vector<std::unique_ptr<DepthCamera>> cameras;
+  cameras.push_back(std::make_unique<test::ScriptedCamera>(
+      "left", std::deque<Step>{Step::kGood, Step::kEmpty, Step::kGood, Step::kGood}));
+  cameras.push_back(std::make_unique<test::ScriptedCamera>(
+      "right", std::deque<Step>{Step::kCorrupt, Step::kZero, Step::kGood, Step::kGood}));
+  tools.cameras = std::make_shared<CameraSet>(std::move(cameras));
+  std::vector<std::uint64_t> counts;
+  tools.measure = [&](const Capture& capture, const PipelineSettings&,
+                      const ScanProgress&) -> Result<std::vector<ScanRecord>> {
+    counts.push_back(capture.frames_rejected);
+    return cancelled();
+  };
+  scan_with(tools);
+  scan_with(tools);
+  EXPECT_EQ(counts, (std::vector<std::uint64_t>{3, 0}));
+}
+
+TEST(ScanSession, TellsInTheResultHowManyFramesWereFaulty) {
+  const test::TemporaryFolder folder;
+  ScanTools tools = small_tools(folder.path() / "scans");
+  tools.measure = [](Capture capture, const PipelineSettings& settings, const ScanProgress& told) {
+    capture.frames_rejected = 3;
+    return measure_capture(capture, settings, told);
+  };
+  const auto outcome = scan_with(tools);
+  ASSERT_FALSE(outcome.error) << outcome.error->line();
+  std::ifstream file(outcome.stored.at(0).folder / "result.json");
+  EXPECT_EQ(nlohmann::json::parse(file).at("quality").at("frames_rejected"), 3.0);
 }
 
 /// Whoever scanned again had one foot twice.
