@@ -1,5 +1,7 @@
 #include "tests/support/simulated_scan.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,6 +34,27 @@ int number_held(const MeasureSet& measures, const std::map<std::string, double>&
         return measure.u95() && known != truth.end() &&
                std::abs(measure.value() - known->second) <= *measure.u95();
       }));
+}
+
+void expect_true_measures(const MeasureSet& measures, const std::map<std::string, double>& truth) {
+  for (const auto& [id, value] : truth) {
+    const Measure* measure = measures.find(id);
+    if (id == "arch_height") {
+      EXPECT_EQ(measure, nullptr) << "no camera sees the arch";
+      continue;
+    }
+    ASSERT_NE(measure, nullptr) << id;
+    // A tape round the heel runs over its lower edge, which no camera sees.
+    const double guessed_mm = id == "short_heel_girth" || id == "long_heel_girth" ? 1.5 : 1.0;
+    // Where the scan leaves a landmark in doubt by more, the measure says so.
+    EXPECT_NEAR(measure->value(), value, std::max(guessed_mm, measure->u95().value_or(0.0))) << id;
+  }
+}
+
+bool is_said(const std::string& words, const std::vector<std::string>& warnings) {
+  return std::any_of(warnings.begin(), warnings.end(), [&words](const auto& warning) {
+    return warning.find(words) != std::string::npos;
+  });
 }
 
 }  // namespace instep::test

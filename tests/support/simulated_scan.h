@@ -25,4 +25,10 @@ int number_known(const MeasureSet& measures, const std::map<std::string, double>
 /// Of these, those whose interval holds the truth.
 int number_held(const MeasureSet& measures, const std::map<std::string, double>& truth);
 
+/// Every measure that has a truth meets it, to a millimetre where its interval is narrower.
+void expect_true_measures(const MeasureSet& measures, const std::map<std::string, double>& truth);
+
+/// Whether one of the warnings has these words.
+bool is_said(const std::string& words, const std::vector<std::string>& warnings);
+
 }  // namespace instep::test
