@@ -64,20 +64,22 @@ struct Girth {
 /// core/surface), its zero contour traced on the plane.
 ///
 /// Refuses, with the reason, where no closed section can be told from the points: too few points
-/// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput).
-/// A section of which more than a quarter has no points is refused; a narrower hole is bridged by
+/// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput). A
+/// section of which more than a quarter has no points is refused; a narrower hole is bridged by
 /// the surface and reported, as far as patches span it: a slit along the body that opens more than
 /// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
 /// than a tenth of it to each side, or that of its contact length than a fifth. Strays and loops
-/// that far fewer points make are left out; of several loops the one round the largest area counts,
-/// and the others are named in a warning. A crease such as a last's featherline stays sharp, and so
-/// does the edge of a thin part down to some 15 degrees; how round a tip may be that no point
-/// shows is in the interval. Of thin parts with noise, and of slots, many are refused.
+/// that far fewer points make are left out; of several loops the one that all three control points
+/// lie on counts (control_points.h), or if none has them that round the largest area, and the
+/// others are named in a warning. A crease such as a last's featherline stays sharp, and so does
+/// the edge of a thin part down to some 15 degrees; how round a tip may be that no point shows is
+/// in the interval. Of thin parts with noise, and of slots, many are refused.
 ///
 /// Where nothing closes, or what does leaves much doubt or many points beside it, the bodies near
 /// the plane are looked at alone (core/girth/bodies_apart.h), for a wall or a floor beside a body
-/// takes part in its noise and its normals. The one with the largest section counts, with a
-/// warning, unless a larger one closes alone but leaves doubt. It takes several times as long.
+/// takes part in its noise and its normals. The one that the control points lie on counts, else
+/// that with the largest section, unless a larger one closes alone but leaves doubt; a warning
+/// says so. It takes several times as long.
 ///
 /// Normals that come with exact points too far apart to tell the skin between them count with their
 /// slopes, where they agree with the points as right ones do; others only tell inside from outside,
@@ -164,9 +166,9 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
 /// Cuts the faces that a mesh already has; no surface is fitted. All loops are chained; of several
-/// the one round the largest area counts and the others are named in a warning. An open section is
-/// bridged for the stretched length, and the contact length is that of the pieces, with a warning.
-/// What encloses no area is refused.
+/// the one counts that girth_by_rbf() would choose, and the others are named in a warning. An open
+/// section is bridged for the stretched length, and the contact length is that of the pieces, with
+/// a warning. What encloses no area is refused.
 Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane);
 
 }  // namespace instep

@@ -116,7 +116,7 @@ Result<Girth> girth_by_mesh(const PointCloud& cloud, const TapePlane& plane,
     for (auto& point : line.points) point = band->to_plane(point);
   }
   Girth girth;
-  SectionLine loop = choose_loop(std::move(*lines), girth.warnings);
+  SectionLine loop = choose_loop(std::move(*lines), plane, girth.warnings);
   girth.contour = std::move(loop.points);
   const auto hull = convex_hull(girth.contour);
   if (!is_ring(hull)) return no_mesh();

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +9,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/girth/bodies_apart.h"
+#include "core/girth/control_points.h"
 #include "core/girth/girth.h"
 #include "core/girth/section_warnings.h"
 #include "core/girth/shared_length_doubt.h"
@@ -16,10 +18,18 @@
 namespace instep {
 namespace {
 
+/// Whether the section goes by the control points.
+bool is_pointed_at(const ToldGirth& told, const TapePlane& plane) {
+  return goes_by_control_points(told.girth.contour, plane);
+}
+
 /// By how much the section of a body may be the larger, taken apart in another way.
 constexpr double kSameBody = 1.2;
 /// The doubt of a body alone against that of all together, which is blind to what they share.
 constexpr double kAboutAsSure = 1.2;
+
+/// Round the points of a body, for control points that are read off noisy ones.
+constexpr double kBeyondBox = 0.05;
 
 std::string alone_warning(std::size_t own_points, std::size_t points) {
   return "the body was measured alone, by " + std::to_string(own_points) + " of the " +
@@ -99,6 +109,62 @@ class BodiesAlone : public BodiesLook {
   std::vector<Unsure> unsure_;
 };
 
+constexpr const char* kPointedWarning =
+    "of several bodies the one that all three control points lie on was measured; what lies beside "
+    "it does not count";
+
+/// The girth of the body alone that the control points lie on, taken apart in the way that leaves
+/// the least doubt.
+class PointedBody : public BodiesLook {
+ public:
+  PointedBody(const PointCloud& cloud, const TapePlane& plane, const GirthOptions& options)
+      : cloud_(cloud), plane_(plane), options_(options) {}
+
+  bool may_count(const BodyApart&) const override { return true; }
+
+  bool look_at(const BodyApart& body) override {
+    if (!may_have_control_points(body)) return true;
+    auto told = girth_of_all(cloud_.subset(body.points), plane_, options_);
+    if (!told || told->refusal || !is_pointed_at(*told, plane_)) return true;
+    if (!best_ || told->doubt() < best_->doubt()) best_ = std::move(*told);
+    return false;
+  }
+
+  void pass_over(const BodyApart&) override {}
+
+  bool is_settled() const override { return best_ && best_->is_plain(); }
+
+  std::optional<ToldGirth> best() && { return std::move(best_); }
+
+ private:
+  /// None lies far outside of the box round its points.
+  bool may_have_control_points(const BodyApart& body) const {
+    Eigen::AlignedBox3d box;
+    for (const std::size_t point : body.points) box.extend(cloud_.positions[point]);
+    const double beyond = kBeyondBox * box.diagonal().norm();
+    const auto& points = plane_.control_points();
+    return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+      return box.exteriorDistance(point) < beyond;
+    });
+  }
+
+  const PointCloud& cloud_;
+  const TapePlane& plane_;
+  const GirthOptions& options_;
+  std::optional<ToldGirth> best_;
+};
+
+std::optional<ToldGirth> girth_of_pointed_body(const PointCloud& cloud, const TapePlane& plane,
+                                               const GirthOptions& options) {
+  PointedBody pointed(cloud, plane, options);
+  look_at_bodies_apart(cloud, plane, pointed);
+  auto told = std::move(pointed).best();
+  if (!told) return told;
+  told->girth.warnings.emplace_back(kPointedWarning);
+  told->girth.points = cloud.size();
+  return told;
+}
+
 std::optional<ToldGirth> girth_of_one_body(const PointCloud& cloud, const TapePlane& plane,
                                            const GirthOptions& options) {
   BodiesAlone alone(cloud, plane, options);
@@ -154,8 +220,14 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   auto told = girth_of_all(cloud, plane, options);
   if (!told || told->is_doubtful() || told->has_others_beside) {
-    auto one = girth_of_one_body(cloud, plane, options);
-    if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
+    if (!(told && told->is_smaller)) {
+      auto one = girth_of_one_body(cloud, plane, options);
+      if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
+    }
+    if (!told || told->is_smaller || !is_pointed_at(*told, plane)) {
+      auto pointed = girth_of_pointed_body(cloud, plane, options);
+      if (pointed) told = std::move(*pointed);
+    }
   }
   if (!told) return tl::make_unexpected(std::move(told).error());
   if (told->refusal) return tl::make_unexpected(std::move(*told->refusal));

@@ -71,11 +71,11 @@ bool is_open(const std::vector<SectionLine>& lines) {
   return open_length > loop_length && signed_area(convex_hull(std::move(open))) > largest_loop;
 }
 
-Girth closed_girth(std::vector<SectionLine> lines, double harmless_seam) {
+Girth closed_girth(std::vector<SectionLine> lines, const TapePlane& plane, double harmless_seam) {
   Girth girth;
   const auto open = std::count_if(lines.begin(), lines.end(),
                                   [](const SectionLine& line) { return !line.closed; });
-  SectionLine loop = choose_loop(std::move(lines), girth.warnings);
+  SectionLine loop = choose_loop(std::move(lines), plane, girth.warnings);
   girth.largest_gap_mm = loop.widest_seam;
   girth.contour = std::move(loop.points);
   girth.contact_mm = perimeter(girth.contour);
@@ -133,7 +133,7 @@ Result<Girth> girth_by_section(const TriangleMesh& mesh, const TapePlane& plane)
                 "give control points on the body");
   }
   Girth girth = is_open(lines) ? open_girth(std::move(lines))
-                               : closed_girth(std::move(lines), kHarmlessSeam * size);
+                               : closed_girth(std::move(lines), plane, kHarmlessSeam * size);
   if (!is_ring(convex_hull(girth.contour))) {
     return fail(ErrorCode::kInvalidInput, "the tape plane cuts no ring of faces",
                 "give control points on the body");

@@ -6,13 +6,18 @@
 #include <utility>
 
 #include "core/geometry/polygon.h"
+#include "core/girth/control_points.h"
 
 namespace instep {
 
-SectionLine choose_loop(std::vector<SectionLine> lines, std::vector<std::string>& warnings) {
+SectionLine choose_loop(std::vector<SectionLine> lines, const TapePlane& plane,
+                        std::vector<std::string>& warnings) {
   std::erase_if(lines, [](const SectionLine& line) { return !line.closed; });
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) {
     return std::abs(signed_area(a.points)) > std::abs(signed_area(b.points));
+  });
+  std::stable_partition(lines.begin(), lines.end(), [&](const SectionLine& line) {
+    return lines.size() > 1 && goes_by_control_points(line.points, plane);
   });
   for (std::size_t i = 1; i < lines.size(); ++i) {
     warnings.push_back(other_loop_warning(lines[i].length()));

@@ -7,6 +7,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/girth/contour.h"
+#include "core/girth/control_points.h"
 #include "core/girth/length_doubt.h"
 #include "core/girth/plane_band.h"
 #include "core/girth/refusals.h"
@@ -192,6 +193,24 @@ Result<void> check_one_body(const PlaneBand& band, const std::vector<SectionLoop
   return {};
 }
 
+/// Of several loops the one that goes by the control points.
+void put_pointed_first(const PlaneBand& band, const TapePlane& plane,
+                       std::vector<SectionLoop>& loops) {
+  if (loops.size() < 2) return;
+  std::stable_partition(loops.begin(), loops.end(), [&](const SectionLoop& loop) {
+    auto corners = loop.contour.points;
+    for (auto& corner : corners) corner = band.to_plane(corner);
+    return goes_by_control_points(corners, plane);
+  });
+}
+
+bool is_smaller_than_another(const std::vector<SectionLoop>& loops) {
+  const double area = signed_area(loops.front().contour.points);
+  return std::any_of(loops.begin() + 1, loops.end(), [&](const SectionLoop& loop) {
+    return signed_area(loop.contour.points) > area;
+  });
+}
+
 /// Of the first of the loops, if so much is known of it.
 ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
                       const PlaneBand& band, SlabSource& slabs) {
@@ -226,6 +245,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.has_layers = unknowns.layers && unknowns.layers->are_all_round;
   told.has_others_beside =
       unknowns.skin.is_any() || unknowns.beside.contact > 0.0 || unexplained > kNotableUnexplained;
+  told.is_smaller = is_smaller_than_another(loops);
   told.of_few = unexplained > kMostUnexplained;
   told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);
   if (neck) told.girth.warnings.push_back(waist_warning(band.unit_mm * neck->width));
@@ -239,8 +259,9 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
   if (!band) return tl::make_unexpected(band.error());
   // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
-  const auto loops = loops_on(*band, surface);
+  auto loops = loops_on(*band, surface);
   if (loops.empty()) return girth_without_loops(*band, slabs.cloud(), slabs.plane(), options);
+  put_pointed_first(*band, slabs.plane(), loops);
   return girth_along(loops, surface, *band, slabs);
 }
 

@@ -55,6 +55,18 @@ TEST(GirthBySection, CutsThroughCornersOnThePlane) {
   EXPECT_NEAR(girth->contact_mm, 100, 1e-9);
 }
 
+TEST(GirthBySection, ChoosesTheLoopThatTheControlPointsLieOn) {
+  TriangleMesh mesh;
+  add_walls(mesh, {0, 0, 0}, {30, 20, 10});
+  add_walls(mesh, {50, 0, 0}, {60, 10, 10});
+  const auto girth =
+      girth_by_section(mesh, *TapePlane::through({50, 5, 4}, {60, 5, 4}, {55, 10, 4}));
+  ASSERT_TRUE(girth) << girth.error().line();
+  EXPECT_NEAR(girth->contact_mm, 40, 1e-9);
+  ASSERT_EQ(girth->warnings.size(), 1U);
+  EXPECT_NE(girth->warnings.front().find("100.0"), std::string::npos) << girth->warnings.front();
+}
+
 TEST(GirthBySection, ChoosesTheLargerLoopAndNamesTheOther) {
   TriangleMesh mesh;
   add_walls(mesh, {50, 0, 0}, {60, 10, 10});
