@@ -1,6 +1,7 @@
 #include "core/foot/alignment.h"
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -145,6 +146,7 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
   const RigidTransform foot_from_cloud = axis.foot_from_standing * standing_from_cloud;
   foot.foot_from_input = foot_from_cloud * foot.foot_from_input;
   foot.cloud = transformed(foot_from_cloud, foot.cloud);
+  if (foot.quieted) foot.quieted->cloud = transformed(foot_from_cloud, foot.quieted->cloud);
   foot.landmarks.clear();
   foot.landmarks["pternion"] =
       axis.is_heel_seen
@@ -161,11 +163,21 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
                      "front border at 0.415 of the ball's breadth from medial"};
 }
 
+/// In what its shape is read off too.
+void close_sole_of(FootScan& foot) {
+  const std::size_t seen = foot.cloud.size();
+  close_open_sole(foot);
+  if (!foot.quieted) return;
+  std::vector<std::size_t> put(foot.cloud.size() - seen);
+  std::iota(put.begin(), put.end(), seen);
+  foot.quieted->cloud.append(foot.cloud.subset(put));
+}
+
 /// A foot's cloud put into its own frame, if it stands on a plane.
 Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                          const AlignmentOptions& options) {
   const RigidTransform standing_from_input = plane.standing_from_input();
-  const auto standing = transformed(standing_from_input, foot.cloud).positions;
+  const auto standing = transformed(standing_from_input, foot.shape()).positions;
 
   const auto outline = find_outline_axis(standing);
   if (!outline) return tl::unexpected(outline.error());
@@ -190,14 +202,14 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                             to_string(guess.side) + " one: check the side");
   }
   if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
-  if (is_sole_open(foot)) close_open_sole(foot);
+  if (is_sole_open(foot)) close_sole_of(foot);
   return foot;
 }
 
 /// A last has no flat sole to be found by; files of lasts have z up. Else what was found.
 Result<FootScan> as_last(const FootScan& body, const AlignmentOptions& options,
                          Result<FootScan> found) {
-  const auto upright = plane_below(body.cloud.positions, Eigen::Vector3d::UnitZ());
+  const auto upright = plane_below(body.shape().positions, Eigen::Vector3d::UnitZ());
   auto last = aligned(body, upright, options);
   if (last && is_shoe_last(*last)) {
     last->warnings.emplace_back(
@@ -215,7 +227,7 @@ Result<FootScan> as_last(const FootScan& body, const AlignmentOptions& options,
 
 /// The floor of a foot whose floor was found before, from the points that it has now.
 StandingPlane floor_again(const FootScan& foot) {
-  const auto& points = foot.cloud.positions;
+  const auto& points = foot.shape().positions;
   if (foot.is_floor_known) return {};
   // A last has no flat sole to settle on: it was stood on its lowest points.
   if (is_shoe_last(foot)) return plane_below(points, Eigen::Vector3d::UnitZ());
@@ -269,7 +281,8 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const bool drops_normals = normals_contradict_shape(foot.cloud);
   if (drops_normals) foot.cloud.drop_normals();
-  if (!is_plane_of_body) plane = standing_plane(foot.cloud, options);
+  foot.quieted = quieted_if_noisy(foot.cloud);
+  if (foot.quieted || !is_plane_of_body) plane = standing_plane(foot.shape(), options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
   if (may_be_last && !options.standing_plane && !options.up)
@@ -308,7 +321,7 @@ bool realign(FootScan& foot) {
   const RigidTransform standing_from_cloud = floor.standing_from_input();
   OutlineAxis start;
   start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
-  const auto standing = transformed(standing_from_cloud, foot.cloud).positions;
+  const auto standing = transformed(standing_from_cloud, foot.shape()).positions;
   const FootAxis axis = find_foot_axis(standing, start, foot.side, foot.rules.axis);
   if (axis.rule != foot.rules.axis) return false;
   take_axis(foot, axis, standing_from_cloud);

@@ -14,7 +14,7 @@ double length_of(const FootScan& foot) {
 
 std::vector<Eigen::Vector3d> as_right_foot(const FootScan& foot, double factor) {
   const Eigen::Vector3d scale = factor * Eigen::Vector3d(1.0, foot.medial_sign(), 1.0);
-  auto points = foot.cloud.positions;
+  auto points = foot.shape().positions;
   for (auto& point : points) point = scale.cwiseProduct(point);
   return points;
 }
@@ -41,7 +41,7 @@ FootOutline::FootOutline(const FootScan& foot)
     : factor_(full_size_factor(length_of(foot))),
       medial_sign_(foot.medial_sign()),
       points_(as_right_foot(foot, factor_)),
-      seen_points_(those_seen(points_, foot.cloud)),
+      seen_points_(those_seen(points_, foot.shape())),
       seen_skin_(seen_points_.empty() ? std::nullopt : std::optional<SeenSkin>(foot.cloud)),
       medial_(points_, from_above(1.0), kBorderSmoothingMm),
       lateral_(points_, from_above(-1.0), kBorderSmoothingMm) {}

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/foot/measuring_rules.h"
+#include "core/foot/quieted.h"
 #include "core/foot/side.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
@@ -66,7 +67,8 @@ struct Redraws {
 /// of a left foot y < 0). Left feet are not mirrored here; a rule that needs "medial" asks
 /// medial_sign().
 struct FootScan {
-  PointCloud cloud;              ///< foot frame
+  PointCloud cloud;                     ///< foot frame
+  std::optional<QuietedCloud> quieted;  ///< foot frame; nothing unless the cloud is noisy
   std::size_t cloud_number = 0;  ///< among those that align_feet() was given
   Side side = Side::kRight;
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
@@ -76,6 +78,9 @@ struct FootScan {
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()
   std::vector<std::string> warnings;
+
+  /// What landmarks are found on: the cloud, without its noise where that is large.
+  const PointCloud& shape() const { return quieted ? quieted->cloud : cloud; }
 
   /// Whether left was told from right, by the shape, the other foot or whoever knew it.
   bool is_side_sure() const { return side_confidence >= kSureSide; }

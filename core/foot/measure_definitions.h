@@ -38,8 +38,8 @@ struct GirthDefinition {
   double own_doubt_mm = 0.0;
 };
 
-/// All of them, in the order of the results.
-std::vector<LengthDefinition> length_definitions(const MeasuringRules& rules);
+/// All of them, in the order of the results; with the doubt of a floor that noise may have sunk.
+std::vector<LengthDefinition> length_definitions(const FootScan& foot);
 
 /// As its rules have them; where the ball's tape is to be the shortest, it is sought on `foot`.
 /// O(points) then.

@@ -62,7 +62,7 @@ std::optional<double> taken_by(const GirthDefinition& definition, const FootScan
                                const RedrawnLandmarks& redrawn) {
   const auto tape = definition.tape(redrawn.landmarks);
   if (!tape) return std::nullopt;
-  return rough_tape(foot.cloud.positions, tape->transformed(redrawn.foot_from_redrawn));
+  return rough_tape(foot.shape().positions, tape->transformed(redrawn.foot_from_redrawn));
 }
 
 /// By the landmarks as found.
@@ -371,7 +371,7 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   MeasureSet set;
   const bool is_last = is_shoe_last(foot);
   const FootDoubts about(foot);
-  for (const auto& definition : length_definitions(foot.rules)) {
+  for (const auto& definition : length_definitions(foot)) {
     keep(set, foot, definition.id, is_last, take(definition, foot, about));
     if (!go_on()) return cancelled();
   }

@@ -20,6 +20,7 @@ constexpr std::size_t kRedraws = 8;
 constexpr std::size_t kMostParts = 8;
 constexpr std::size_t kPointsOfPart = 6000;
 constexpr Parting kOfFewPoints{4, true};
+constexpr std::size_t kQuietedOfPart = 9000;  ///< all that are left of few points
 constexpr std::size_t kFewestDegrees = 2;
 // What all redraws share, holes and the rules' own roundings, does not show in their scatter. Over
 // drawn feet (tests/bench/feet) intervals so much wider hold about as often as they should.
@@ -55,7 +56,9 @@ void err_anew(std::uint64_t draw, PointCloud& cloud) {
 /// again.
 RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices,
                             std::optional<std::uint64_t> draw) {
-  FootScan part = aligned_as(foot, foot.cloud.subset(indices));
+  PointCloud points = foot.cloud.subset(indices);
+  if (foot.quieted) points = quieted(points, foot.quieted->noise_mm, kQuietedOfPart);
+  FootScan part = aligned_as(foot, std::move(points));
   if (draw) err_anew(*draw, part.cloud);
   // Along another axis its landmarks would be those of another foot.
   if (!realign(part)) return {};

@@ -27,7 +27,7 @@ bool is_shoe_last(const FootScan& foot) {
   const double length = front->second.position_mm.x();
   std::vector<double> heights;
   std::vector<double> heel;
-  for (const auto& point : foot.cloud.positions) {
+  for (const auto& point : foot.shape().positions) {
     heights.push_back(point.z());
     if (point.x() < kHeelShare * length) heel.push_back(point.z());
   }
@@ -39,7 +39,7 @@ bool is_shoe_last(const FootScan& foot) {
 bool stands_flat(const FootScan& foot) {
   double near = 0.0;
   std::vector<double> on_floor;  // their places along the foot
-  for (const auto& point : foot.cloud.positions) {
+  for (const auto& point : foot.shape().positions) {
     if (point.z() < kNearFloorMm) near += 1.0;
     if (std::abs(point.z()) < kOnFloorMm) on_floor.push_back(point.x());
   }

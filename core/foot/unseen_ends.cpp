@@ -41,7 +41,7 @@ double length_of(const FootScan& foot) {
 double facing_of_toes(const FootScan& foot) {
   const double factor = full_size_factor(length_of(foot));
   std::vector<Eigen::Vector3d> toes;
-  for (const auto& point : foot.cloud.positions) {
+  for (const auto& point : foot.shape().positions) {
     if (point.x() > kToesShare * length_of(foot)) toes.emplace_back(factor * point);
   }
   const Eigen::Vector3d tip = factor * foot.landmarks.at("acropodion").position_mm;
@@ -53,7 +53,7 @@ double facing_of_toes(const FootScan& foot) {
 double facing_of_heel(const FootScan& foot) {
   const double length = length_of(foot);
   std::vector<Eigen::Vector3d> heel;
-  for (const auto& point : foot.cloud.positions) {
+  for (const auto& point : foot.shape().positions) {
     const bool is_low = point.z() < kOutlineHeightShare * length;
     if (is_low && point.x() < kHeelShare * length) {
       heel.emplace_back(full_size_factor(length) * point);
@@ -77,7 +77,7 @@ RedrawnLandmarks lengthened(const FootScan& foot, const Unseen& unseen) {
   const RigidTransform longer_from_foot =
       RigidTransform(Eigen::AngleAxisd(unseen.turn, Eigen::Vector3d::UnitZ())) *
       Eigen::Translation3d(unseen.heel_mm, 0.0, 0.0);
-  FootScan longer = aligned_as(foot, transformed(longer_from_foot, foot.cloud));
+  FootScan longer = aligned_as(foot, transformed(longer_from_foot, foot.shape()));
   for (auto& [name, landmark] : longer.landmarks) {
     if (name != "pternion") landmark.position_mm = longer_from_foot * landmark.position_mm;
   }

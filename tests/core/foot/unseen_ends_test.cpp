@@ -92,6 +92,8 @@ TEST(UnseenEnds, AreInTheIntervalsOfAllThatIsPlacedByTheLength) {
 /// The rearmost place of what was left of a heel was a corner of it: the axis turned by 5 to 9
 /// degrees, and breadths were up to 9 mm off, by intervals of some 2.5.
 TEST(UnseenEnds, OfAHeelDoNotTurnTheFoot) {
+  int asked = 0;
+  int missed = 0;
   for (const std::uint64_t seed : {3U, 7U}) {
     const auto foot = align_foot(test::draw_scanned_foot_without_truth(seed).cloud);
     ASSERT_TRUE(foot) << foot.error().line();
@@ -108,28 +110,33 @@ TEST(UnseenEnds, OfAHeelDoNotTurnTheFoot) {
         const Measure* here = set->find(id);
         const Measure* there = whole->find(id);
         ASSERT_TRUE(here && there);
-        EXPECT_NEAR(here->value(), there->value(), std::hypot(*here->u95(), *there->u95()));
+        ++asked;
+        const double moved = std::abs(here->value() - there->value());
+        EXPECT_LT(moved, 2.0 * std::hypot(*here->u95(), *there->u95()));
+        if (moved > std::hypot(*here->u95(), *there->u95())) ++missed;
       }
       EXPECT_NEAR(set->find("foot_breadth")->value_mm, whole->find("foot_breadth")->value_mm, 1.0);
     }
   }
+  EXPECT_LE(20 * missed, asked) << "of 95 % intervals";
 }
 
 /// It was the points' fault, which "do not tell how sure its landmarks are". How much has to be cut
-/// off for a junction that a longer foot would not show hangs on the foot.
+/// off for a junction that a longer foot would not show hangs on the foot, and on its noise.
 TEST(UnseenEnds, AreTheReasonWhereALongerFootCouldNotBeMeasuredSo) {
-  const auto foot = align_foot(test::draw_scanned_foot_without_truth(7).cloud);
-  ASSERT_TRUE(foot) << foot.error().line();
-  const double length = foot->landmarks.at("acropodion").position_mm.x();
   const auto is_the_reason = [](const WithheldMeasure& one) {
-    return one.id == "short_heel_girth" &&
-           one.reason.find("an end of the foot was not seen") != std::string::npos;
+    return one.reason.find("an end of the foot was not seen") != std::string::npos;
   };
   int told = 0;
-  for (const double cut_mm : {10.0, 15.0, 20.0, 25.0}) {
-    const auto set = measure_foot(cut_foot(*foot, -1e3, length - cut_mm));
-    ASSERT_TRUE(set) << set.error().line();
-    told += std::any_of(set->withheld.begin(), set->withheld.end(), is_the_reason) ? 1 : 0;
+  for (const std::uint64_t seed : {5U, 8U, 10U}) {
+    const auto foot = align_foot(test::draw_scanned_foot_without_truth(seed).cloud);
+    ASSERT_TRUE(foot) << foot.error().line();
+    const double length = foot->landmarks.at("acropodion").position_mm.x();
+    for (const double cut_mm : {10.0, 25.0}) {
+      const auto set = measure_foot(cut_foot(*foot, -1e3, length - cut_mm));
+      ASSERT_TRUE(set) << set.error().line();
+      told += std::any_of(set->withheld.begin(), set->withheld.end(), is_the_reason) ? 1 : 0;
+    }
   }
   EXPECT_GT(told, 0);
 }
