@@ -1,7 +1,6 @@
 #include "core/foot/alignment.h"
 
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -163,16 +162,6 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
                      "front border at 0.415 of the ball's breadth from medial"};
 }
 
-/// In what its shape is read off too.
-void close_sole_of(FootScan& foot) {
-  const std::size_t seen = foot.cloud.size();
-  close_open_sole(foot);
-  if (!foot.quieted) return;
-  std::vector<std::size_t> put(foot.cloud.size() - seen);
-  std::iota(put.begin(), put.end(), seen);
-  foot.quieted->cloud.append(foot.cloud.subset(put));
-}
-
 /// A foot's cloud put into its own frame, if it stands on a plane.
 Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                          const AlignmentOptions& options) {
@@ -202,7 +191,7 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                             to_string(guess.side) + " one: check the side");
   }
   if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
-  if (is_sole_open(foot)) close_sole_of(foot);
+  if (is_sole_open(foot)) close_open_sole(foot);
   return foot;
 }
 

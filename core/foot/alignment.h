@@ -39,8 +39,8 @@ struct AlignmentOptions {
 /// A floor round the foot (seen_floor()) is the one it stands on; it is left out with what lies
 /// under the foot, and a warning says so. Strays, what stands apart and what stands beside the foot
 /// are left out; a warning tells of large parts of one foot, and of what stands near it or touches
-/// it. Normals that contradict the shape
-/// are dropped, with a warning. A sole that was not seen is closed on the floor
+/// it. Normals that contradict the shape are dropped, with a warning. Of a noisy cloud the shape is
+/// read off quieted points (FootScan::shape()). A sole that was not seen is closed on the floor
 /// (close_open_sole()), with a warning. A leg above the foot, an open sole and a cut at any height
 /// above the instep are fine. Fails with kInsufficientData under 200 points, and for a scan whose
 /// sole was closed if half of its heel or toes was not seen (unseen_half()); and with

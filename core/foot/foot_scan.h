@@ -69,7 +69,7 @@ struct Redraws {
 struct FootScan {
   PointCloud cloud;                     ///< foot frame
   std::optional<QuietedCloud> quieted;  ///< foot frame; nothing unless the cloud is noisy
-  std::size_t cloud_number = 0;  ///< among those that align_feet() was given
+  std::size_t cloud_number = 0;         ///< among those that align_feet() was given
   Side side = Side::kRight;
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();

@@ -106,6 +106,7 @@ void close_open_sole(FootScan& foot) {
   PointCloud sole = walls.subset(added);
   for (auto& place : sole.positions) place /= factor;
   foot.cloud.append(sole);
+  if (foot.quieted) foot.quieted->cloud.append(sole);
   foot.warnings.emplace_back("the sole was not seen: it is taken to stand flat on the floor");
 }
 

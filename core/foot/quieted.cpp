@@ -7,6 +7,7 @@
 #include "core/geometry/point_index.h"
 #include "core/geometry/quadratic_skin.h"
 #include "core/median.h"
+#include "core/picked.h"
 #include "core/some_of.h"
 #include "core/surface/noise_estimate.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Places at which the points are asked for their noise: it is told to a twentieth.
+/// Places at which the points are asked for their noise: of a real foot it is told to a tenth.
 constexpr std::size_t kAskedPlaces = 100;
 constexpr double kNoisyMm = 0.2;
 /// Neighbours are taken from so many: of a denser cloud more say nothing new.
@@ -59,14 +60,6 @@ Vector3d on_skin(const PointIndex& index, const Vector3d& point, double radius, 
   return std::abs(off) < kFurthestOff * noise_mm ? Vector3d(point + off * normal) : point;
 }
 
-std::vector<Vector3d> picked(const std::vector<Vector3d>& points,
-                             const std::vector<std::size_t>& numbers) {
-  std::vector<Vector3d> some;
-  some.reserve(numbers.size());
-  for (const std::size_t number : numbers) some.push_back(points[number]);
-  return some;
-}
-
 }  // namespace
 
 PointCloud quieted(const PointCloud& cloud, double noise_mm, std::size_t most) {
@@ -81,7 +74,7 @@ PointCloud quieted(const PointCloud& cloud, double noise_mm, std::size_t most) {
 }
 
 std::optional<QuietedCloud> quieted_if_noisy(const PointCloud& cloud) {
-  const auto all = PointIndex(cloud.positions);
+  const PointIndex all(cloud.positions);
   const double noise_mm = estimate_noise(all, some_of(cloud.size(), kAskedPlaces), {}).shown;
   if (noise_mm < kNoisyMm) return std::nullopt;
   return QuietedCloud{quieted(cloud, noise_mm, kMostQuieted), noise_mm};

@@ -220,13 +220,13 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
   if (auto sound = check_options(options); !sound) return tl::make_unexpected(sound.error());
   auto told = girth_of_all(cloud, plane, options);
   if (!told || told->is_doubtful() || told->has_others_beside) {
-    if (!(told && told->is_smaller)) {
-      auto one = girth_of_one_body(cloud, plane, options);
-      if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
-    }
-    if (!told || told->is_smaller || !is_pointed_at(*told, plane)) {
-      auto pointed = girth_of_pointed_body(cloud, plane, options);
-      if (pointed) told = std::move(*pointed);
+    // Beside the larger body, which does not count then.
+    const bool is_smaller = told && told->is_smaller;
+    auto one = is_smaller ? girth_of_pointed_body(cloud, plane, options)
+                          : girth_of_one_body(cloud, plane, options);
+    if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
+    if (!told || !is_pointed_at(*told, plane)) {
+      if (auto pointed = girth_of_pointed_body(cloud, plane, options)) told = std::move(*pointed);
     }
   }
   if (!told) return tl::make_unexpected(std::move(told).error());

@@ -245,7 +245,6 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.has_layers = unknowns.layers && unknowns.layers->are_all_round;
   told.has_others_beside =
       unknowns.skin.is_any() || unknowns.beside.contact > 0.0 || unexplained > kNotableUnexplained;
-  told.is_smaller = is_smaller_than_another(loops);
   told.of_few = unexplained > kMostUnexplained;
   told.girth.warnings = warnings_of(band, loops, evidence, unexplained, unknowns, section);
   if (neck) told.girth.warnings.push_back(waist_warning(band.unit_mm * neck->width));
@@ -262,7 +261,9 @@ Result<ToldGirth> girth_at(SlabSource& slabs, const GirthOptions& options,
   auto loops = loops_on(*band, surface);
   if (loops.empty()) return girth_without_loops(*band, slabs.cloud(), slabs.plane(), options);
   put_pointed_first(*band, slabs.plane(), loops);
-  return girth_along(loops, surface, *band, slabs);
+  ToldGirth told = girth_along(loops, surface, *band, slabs);
+  told.is_smaller = is_smaller_than_another(loops);
+  return told;
 }
 
 bool is_surer(const ToldGirth& one, const ToldGirth& other) {

@@ -57,10 +57,10 @@ TapePlane by_large(double apart_mm) {
 TEST(PointedBodyGirth, IsOfTheOneThatTheControlPointsLieOn) {
   for (const double apart_mm : {3.0, 8.0, 40.0}) {
     for (const double noise_mm : {0.0, 0.3}) {
-      // Skin that runs so near beside is no more told from its own.
-      if (apart_mm < 5.0 && noise_mm > 0.0) continue;
       const auto cloud = two_bodies(apart_mm, noise_mm);
       const auto small = girth_by_rbf(cloud, by_small());
+      // Noisy skin that runs so near beside is not told from its own; the larger body is no answer.
+      if (!small && apart_mm < 5.0 && noise_mm > 0.0) continue;
       ASSERT_TRUE(small) << small.error().line();
       EXPECT_NEAR(small->contact_mm, 2.0 * M_PI * kSmall, 0.02 + *small->contact_u95_mm);
       EXPECT_FALSE(small->warnings.empty());
