@@ -26,6 +26,8 @@ constexpr double kWidestMm = 12.0;
 constexpr double kRadiusInNoise = 4.0;
 constexpr std::size_t kFewest = 12;
 constexpr std::size_t kUsual = 20;
+/// Points within this part of the circle share its skin, which tells them no worse.
+constexpr double kSharedBy = 0.5;
 /// A point further off in deviations is a stray.
 constexpr double kFurthestOff = 4.0;
 
@@ -40,24 +42,47 @@ double radius_for(const PointIndex& index, double noise_mm) {
   return std::clamp(asked, kNarrowestMm, kWidestMm);
 }
 
-Vector3d on_skin(const PointIndex& index, const Vector3d& point, double radius, double noise_mm) {
-  const auto neighbours = index.around(point, radius);
-  if (neighbours.size() < kFewest) return point;
+/// A place on the skin, and the skin's directions there.
+struct SkinFrame {
+  Vector3d place;
+  Vector3d across;
+  Vector3d upright;
+  Vector3d normal;
+
+  Vector3d seen(const Vector3d& point) const {
+    const Vector3d arm = point - place;
+    return {across.dot(arm), upright.dot(arm), normal.dot(arm)};
+  }
+};
+
+/// The skin round a place, as its neighbours show it.
+struct LocalSkin {
+  SkinFrame frame;
+  QuadraticSkin shape;
+
+  /// How far along the normal a point has to go to lie on it.
+  double off(const Vector3d& point) const {
+    const Vector3d seen = frame.seen(point);
+    return shape.at(seen.x(), seen.y()) - seen.z();
+  }
+};
+
+std::optional<LocalSkin> skin_round(const Vector3d& place, const PointIndex& index, double radius) {
+  const auto neighbours = index.around(place, radius);
+  if (neighbours.size() < kFewest) return std::nullopt;
   Moments moments;
-  for (const auto& neighbour : neighbours) moments.add(index.points()[neighbour.index] - point);
+  for (const auto& neighbour : neighbours) moments.add(index.points()[neighbour.index] - place);
   const Vector3d normal = moments.flattest();
   const Vector3d across = normal.unitOrthogonal();
-  const Vector3d upright = normal.cross(across);
+  const SkinFrame frame{place, across, normal.cross(across), normal};
   SkinPatch patch;
   patch.reserve(neighbours.size());
   for (const auto& neighbour : neighbours) {
-    const Vector3d offset = index.points()[neighbour.index] - point;
-    patch.emplace_back(across.dot(offset), upright.dot(offset), normal.dot(offset));
+    patch.push_back(frame.seen(index.points()[neighbour.index]));
   }
-  const auto skin = QuadraticSkin::through(patch);
-  if (!skin) return point;
-  const double off = skin->at(0.0, 0.0);
-  return std::abs(off) < kFurthestOff * noise_mm ? Vector3d(point + off * normal) : point;
+  const auto shape = QuadraticSkin::through(patch);
+  if (!shape) return std::nullopt;
+  return LocalSkin{frame, *shape};
 }
 
 }  // namespace
@@ -65,10 +90,21 @@ Vector3d on_skin(const PointIndex& index, const Vector3d& point, double radius, 
 PointCloud quieted(const PointCloud& cloud, double noise_mm, std::size_t most) {
   const PointIndex index(picked(cloud.positions, some_of(cloud.size(), kMostNeighbours)));
   PointCloud quiet = cloud.subset(some_of(cloud.size(), most));
+  const PointIndex kept(quiet.positions);
   const double radius = radius_for(index, noise_mm);
+  std::vector<bool> is_settled(quiet.size(), false);
   for (std::size_t i = 0; i < quiet.size(); ++i) {
-    if (quiet.was_seen(i))
-      quiet.positions[i] = on_skin(index, quiet.positions[i], radius, noise_mm);
+    if (is_settled[i] || !quiet.was_seen(i)) continue;
+    const Vector3d& place = kept.points()[i];
+    const auto skin = skin_round(place, index, radius);
+    if (!skin) continue;
+    for (const auto& [near, square] : kept.around(place, kSharedBy * radius)) {
+      const double off = skin->off(kept.points()[near]);
+      if (is_settled[near] || !quiet.was_seen(near)) continue;
+      if (std::abs(off) >= kFurthestOff * noise_mm) continue;
+      quiet.positions[near] += off * skin->frame.normal;
+      is_settled[near] = true;
+    }
   }
   return quiet;
 }

@@ -22,8 +22,8 @@ inline constexpr std::size_t kMostQuieted = 20000;
 /// too long, for all that robust_extreme() does.
 ///
 /// Each point is put on a quadratic surface through its neighbours, of a circle that is wider the
-/// more they scatter and the fewer they are, 6 to 12 mm; strays that lie far off it stay where they
-/// are, and so do points that nobody saw. No more than kMostQuieted are kept. `cloud` has passed
+/// more they scatter and the fewer they are, 6 to 12 mm; those amid one share it. Strays that lie
+/// far off it stay where they are, and so do points that nobody saw. No more than kMostQuieted are kept. `cloud` has passed
 /// check_cloud(). O(n log n): some 10 ms where points are quiet, a quarter of a second where not.
 std::optional<QuietedCloud> quieted_if_noisy(const PointCloud& cloud);
 
