@@ -1,12 +1,14 @@
 #include "core/foot/alignment.h"
 
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "core/foot/foot_axis.h"
 #include "core/foot/full_size.h"
+#include "core/foot/left_out_strays.h"
 #include "core/foot/normals_of_shape.h"
 #include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
@@ -28,6 +30,7 @@ constexpr std::size_t kFewestPoints = 200;
 constexpr std::size_t kPointsOfLength = 10000;
 constexpr double kLargePieceShare = 0.1;   ///< a piece apart that is worth a word
 constexpr double kLargeBesideShare = 0.5;  ///< of the foot, that touches it
+constexpr double kManyStrays = 0.002;      ///< of the points, that are worth a word
 
 std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double factor) {
   for (auto& point : points) point *= factor;
@@ -60,10 +63,14 @@ std::optional<double> rough_length(const PointCloud& cloud) {
   return outline ? std::optional(outline->length_mm) : std::nullopt;
 }
 
+double length_for_now(const PointCloud& cloud) {
+  const auto length = rough_length(cloud);
+  return length ? *length : longest_extent(cloud.positions);
+}
+
 /// How it stands shows once its size is known.
 Result<StandingPlane> plane_under(const PointCloud& cloud) {
-  const auto length = rough_length(cloud);
-  return plane_at_size(cloud, length ? *length : longest_extent(cloud.positions));
+  return plane_at_size(cloud, length_for_now(cloud));
 }
 
 Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOptions& options) {
@@ -118,6 +125,15 @@ std::string beside(const StandingBody& body) {
   }
   return "something touches the foot, or nearly does; it is left out as far as the points tell it "
          "from skin: take it away and scan again";
+}
+
+std::string strays_left_out(double share) {
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * share);
+  return std::string(percent) +
+         " of the points are strays off the skin and are left out: see to what shines or moves, "
+         "and "
+         "to the cameras' poses";
 }
 
 std::vector<std::string> doubts(const FootScan& foot) {
@@ -258,6 +274,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   FootScan foot;
   // Files of triangles name a corner once for each face.
   foot.cloud = cloud.subset(distinct_points(cloud));
+  const double stray_share = leave_out_strays(foot.cloud);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   AlignmentOptions options = told;
   auto plane = standing_plane(foot.cloud, options);
@@ -270,7 +287,9 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
   const bool drops_normals = normals_contradict_shape(foot.cloud);
   if (drops_normals) foot.cloud.drop_normals();
-  foot.quieted = quieted_if_noisy(foot.cloud);
+  if (const auto noise_mm = moving_noise_mm(foot.cloud)) {
+    foot.quieted = quieted(foot.cloud, {*noise_mm, length_for_now(foot.cloud)});
+  }
   if (foot.quieted || !is_plane_of_body) plane = standing_plane(foot.shape(), options);
   auto found = plane ? aligned(foot, *plane, options) : tl::make_unexpected(plane.error());
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
@@ -281,6 +300,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
     found->warnings.emplace_back(
         "the floor round the foot was left out; heights are taken over it");
   }
+  if (stray_share > kManyStrays) found->warnings.push_back(strays_left_out(stray_share));
   warn_of(body, found->warnings);
   if (drops_normals) {
     found->warnings.emplace_back(

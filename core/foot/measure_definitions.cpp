@@ -1,6 +1,5 @@
 #include "core/foot/measure_definitions.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,6 +8,7 @@
 #include "core/foot/foot_lengths.h"
 #include "core/foot/foot_tapes.h"
 #include "core/foot/rough_tape.h"
+#include "core/foot/sunk_floor.h"
 
 namespace instep {
 namespace {
@@ -118,16 +118,6 @@ std::vector<LengthDefinition> outline_definitions(const MeasuringRules& rules) {
        0.0,
        0.3},
   };
-}
-
-/// What noise over 0.5 mm leaves open of how high an open sole's edge lies: its lowest points are
-/// those that noise moved down along the wall, where no neighbours show it. Of 12 clouds of a real
-/// foot with 1.5 to 3 mm of noise its back was 0.9 to 1.05 times as much too high on average.
-double sunk_floor_mm(const FootScan& foot) {
-  constexpr double kHarmlessMm = 0.5;
-  constexpr double kSinks = 1.2;
-  if (!foot.quieted || foot.is_floor_known || !foot.cloud.stands_on_platform()) return 0.0;
-  return kSinks * std::max(foot.quieted->noise_mm - kHarmlessMm, 0.0);
 }
 
 std::vector<LengthDefinition> height_definitions(const FootScan& foot) {

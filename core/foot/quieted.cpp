@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "core/foot/full_size.h"
 #include "core/geometry/moments.h"
+#include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/quadratic_skin.h"
-#include "core/median.h"
 #include "core/picked.h"
-#include "core/some_of.h"
 #include "core/surface/noise_estimate.h"
 
 namespace instep {
@@ -18,29 +20,23 @@ using Eigen::Vector3d;
 
 /// Places at which the points are asked for their noise: of a real foot it is told to a tenth.
 constexpr std::size_t kAskedPlaces = 100;
-constexpr double kNoisyMm = 0.2;
-/// Neighbours are taken from so many: of a denser cloud more say nothing new.
-constexpr std::size_t kMostNeighbours = 40000;
+constexpr double kMovingMm = 0.2;
+/// Of a whole cloud so many are kept and asked, of a part at most so many kept: all of few points.
+constexpr std::size_t kMostAsked = 100000;
+constexpr std::size_t kMostOfPart = 9000;
+/// Of circles, at full size.
 constexpr double kNarrowestMm = 6.0;
 constexpr double kWidestMm = 12.0;
 constexpr double kRadiusInNoise = 4.0;
+/// How far off the skin of a place points may lie that tell of it.
+constexpr double kColumnInNoise = 3.0;
+constexpr double kColumnInRadii = 0.25;
 constexpr std::size_t kFewest = 12;
 constexpr std::size_t kUsual = 20;
 /// Points within this part of the circle share its skin, which tells them no worse.
-constexpr double kSharedBy = 0.5;
+constexpr double kSharedBy = 0.4;
 /// A point further off in deviations is a stray.
 constexpr double kFurthestOff = 4.0;
-
-/// As wide as the noise asks for, and as holds enough neighbours at most places.
-double radius_for(const PointIndex& index, double noise_mm) {
-  std::vector<double> reaches;
-  for (const std::size_t place : some_of(index.points().size(), kAskedPlaces)) {
-    const auto neighbours = index.nearest(index.points()[place], kUsual);
-    reaches.push_back(std::sqrt(neighbours.back().squared_distance));
-  }
-  const double asked = std::max(kRadiusInNoise * noise_mm, median(std::move(reaches)));
-  return std::clamp(asked, kNarrowestMm, kWidestMm);
-}
 
 /// A place on the skin, and the skin's directions there.
 struct SkinFrame {
@@ -67,53 +63,88 @@ struct LocalSkin {
   }
 };
 
-std::optional<LocalSkin> skin_round(const Vector3d& place, const PointIndex& index, double radius) {
-  const auto neighbours = index.around(place, radius);
+/// Those that may tell of others.
+PointIndex asked_of(const PointCloud& cloud, std::size_t most) {
+  std::vector<Vector3d> seen;
+  seen.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.was_seen(i)) seen.push_back(cloud.positions[i]);
+  }
+  if (seen.size() > most) seen = picked(seen, some_by_place(seen, most));
+  return PointIndex(std::move(seen));
+}
+
+/// As wide as the noise asks for, and as holds enough of those round a place.
+double radius_at(const Vector3d& place, const PointIndex& asked, const Quieting& quieting) {
+  const double size = 1.0 / full_size_factor(quieting.length_mm);
+  const auto usual = asked.nearest(place, kUsual + 1);
+  const double wanted =
+      std::max(kRadiusInNoise * quieting.noise_mm, std::sqrt(usual.back().squared_distance));
+  return std::clamp(wanted, size * kNarrowestMm, size * kWidestMm);
+}
+
+/// Of a round column that stands on the skin: of a ball round a place, noise towards the place
+/// would count for more than noise away from it, and bend the skin inwards.
+std::optional<LocalSkin> skin_round(const Vector3d& place, const PointIndex& asked, double radius,
+                                    double noise_mm) {
+  const double height = std::min(radius, kColumnInNoise * noise_mm + kColumnInRadii * radius);
+  const auto neighbours = asked.around(place, std::hypot(radius, height));
   if (neighbours.size() < kFewest) return std::nullopt;
   Moments moments;
-  for (const auto& neighbour : neighbours) moments.add(index.points()[neighbour.index] - place);
+  for (const auto& neighbour : neighbours) moments.add(asked.points()[neighbour.index] - place);
   const Vector3d normal = moments.flattest();
   const Vector3d across = normal.unitOrthogonal();
   const SkinFrame frame{place, across, normal.cross(across), normal};
   SkinPatch patch;
   patch.reserve(neighbours.size());
   for (const auto& neighbour : neighbours) {
-    patch.push_back(frame.seen(index.points()[neighbour.index]));
+    const Vector3d seen = frame.seen(asked.points()[neighbour.index]);
+    if (seen.head<2>().norm() < radius) patch.push_back(seen);
   }
+  if (patch.size() < kFewest) return std::nullopt;
   const auto shape = QuadraticSkin::through(patch);
   if (!shape) return std::nullopt;
   return LocalSkin{frame, *shape};
 }
 
-}  // namespace
-
-PointCloud quieted(const PointCloud& cloud, double noise_mm, std::size_t most) {
-  const PointIndex index(picked(cloud.positions, some_of(cloud.size(), kMostNeighbours)));
-  PointCloud quiet = cloud.subset(some_of(cloud.size(), most));
-  const PointIndex kept(quiet.positions);
-  const double radius = radius_for(index, noise_mm);
-  std::vector<bool> is_settled(quiet.size(), false);
-  for (std::size_t i = 0; i < quiet.size(); ++i) {
-    if (is_settled[i] || !quiet.was_seen(i)) continue;
-    const Vector3d& place = kept.points()[i];
-    const auto skin = skin_round(place, index, radius);
+/// Puts each on the skin round the first of them that it lies near.
+void settle(std::vector<Vector3d>& places, const std::vector<bool>& is_seen,
+            const PointIndex& asked, const Quieting& quieting) {
+  const PointIndex before(places);
+  std::vector<bool> is_settled(places.size(), false);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (is_settled[i] || !is_seen[i]) continue;
+    const Vector3d& place = before.points()[i];
+    const double radius = radius_at(place, asked, quieting);
+    const auto skin = skin_round(place, asked, radius, quieting.noise_mm);
     if (!skin) continue;
-    for (const auto& [near, square] : kept.around(place, kSharedBy * radius)) {
-      const double off = skin->off(kept.points()[near]);
-      if (is_settled[near] || !quiet.was_seen(near)) continue;
-      if (std::abs(off) >= kFurthestOff * noise_mm) continue;
-      quiet.positions[near] += off * skin->frame.normal;
+    for (const auto& [near, square] : before.around(place, kSharedBy * radius)) {
+      if (is_settled[near] || !is_seen[near]) continue;
+      const double off = skin->off(places[near]);
+      if (std::abs(off) >= kFurthestOff * quieting.noise_mm) continue;
+      places[near] += off * skin->frame.normal;
       is_settled[near] = true;
     }
   }
-  return quiet;
 }
 
-std::optional<QuietedCloud> quieted_if_noisy(const PointCloud& cloud) {
+}  // namespace
+
+std::optional<double> moving_noise_mm(const PointCloud& cloud) {
   const PointIndex all(cloud.positions);
-  const double noise_mm = estimate_noise(all, some_of(cloud.size(), kAskedPlaces), {}).shown;
-  if (noise_mm < kNoisyMm) return std::nullopt;
-  return QuietedCloud{quieted(cloud, noise_mm, kMostQuieted), noise_mm};
+  const auto places = some_by_place(cloud.positions, kAskedPlaces);
+  const double noise_mm = estimate_noise(all, places, {}).shown;
+  return noise_mm < kMovingMm ? std::nullopt : std::optional(noise_mm);
+}
+
+QuietedCloud quieted(const PointCloud& cloud, const Quieting& quieting) {
+  const PointIndex asked = asked_of(cloud, kMostAsked / quieting.parts);
+  const std::size_t most = quieting.parts > 1 ? kMostOfPart : kMostQuieted;
+  QuietedCloud quiet{cloud.subset(some_by_place(cloud.positions, most)), quieting};
+  std::vector<bool> is_seen;
+  for (std::size_t i = 0; i < quiet.cloud.size(); ++i) is_seen.push_back(quiet.cloud.was_seen(i));
+  settle(quiet.cloud.positions, is_seen, asked, quieting);
+  return quiet;
 }
 
 }  // namespace instep

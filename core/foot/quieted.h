@@ -2,32 +2,42 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 #include "core/geometry/point_cloud.h"
 
 namespace instep {
 
-/// A noisy cloud as its shape is read off it.
-struct QuietedCloud {
-  PointCloud cloud;       ///< some of the points, each on the skin that its neighbours show
-  double noise_mm = 0.0;  ///< standard deviation that the points show along the skin's normal
+/// How a noisy cloud is quieted.
+struct Quieting {
+  double noise_mm = 0.0;   ///< standard deviation that the points show along the skin's normal
+  double length_mm = 0.0;  ///< of the foot: skin bends within circles in proportion
+  std::size_t parts = 1;   ///< that the cloud was parted into: this is one of them
 };
 
-/// Points that are kept, which show a foot no worse than more.
+/// A noisy cloud as its shape is read off it.
+struct QuietedCloud {
+  PointCloud cloud;  ///< some of the points, each on the skin that its neighbours show
+  Quieting quieting;
+};
+
+/// Points that are kept of a whole cloud; more show a foot no better, for their neighbours count.
 inline constexpr std::size_t kMostQuieted = 20000;
 
-/// Nothing where the points show less noise than moves what is read off single ones of them: the
-/// floor, the ends, the borders. By the outermost of its points a foot with 2 mm of noise was 3 mm
-/// too long, for all that robust_extreme() does.
-///
-/// Each point is put on a quadratic surface through its neighbours, of a circle that is wider the
-/// more they scatter and the fewer they are, 6 to 12 mm; those amid one share it. Strays that lie
-/// far off it stay where they are, and so do points that nobody saw. No more than kMostQuieted are kept. `cloud` has passed
-/// check_cloud(). O(n log n): some 10 ms where points are quiet, a quarter of a second where not.
-std::optional<QuietedCloud> quieted_if_noisy(const PointCloud& cloud);
+/// Standard deviation of the noise where it is so much that it moves what is read off single
+/// points: the floor, the ends, the borders. By the outermost of its points a foot with 2 mm of
+/// noise was 3 mm too long, for all that robust_extreme() does. `cloud` has passed check_cloud().
+/// Some 10 ms.
+std::optional<double> moving_noise_mm(const PointCloud& cloud);
 
-/// The same of points whose noise is known, such as a part of the same cloud; no more than `most`.
-PointCloud quieted(const PointCloud& cloud, double noise_mm, std::size_t most);
+/// Each point is put on a quadratic surface through those round it, of a circle that is wider the
+/// more the cloud scatters and the fewer they are there: 6 to 12 mm on a foot of full size
+/// (full_size.h). Points amid one circle share it. Strays that lie far off it, points with fewer
+/// than a dozen round them, and those that nobody saw, which tell nothing of others, stay where
+/// they are.
+///
+/// No more than kMostQuieted are kept, and no more than 160,000 are asked, the same ones in
+/// whatever order they come; of a part as much less, so that parts tell how sure the whole is.
+/// O(n log n): a quarter of a second, of a part much less.
+QuietedCloud quieted(const PointCloud& cloud, const Quieting& quieting);
 
 }  // namespace instep

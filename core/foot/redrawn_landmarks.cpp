@@ -9,6 +9,7 @@
 #include "core/foot/landmarks.h"
 #include "core/fusion/wall_foot.h"
 #include "core/geometry/drawn_local_errors.h"
+#include "core/geometry/place_hash.h"
 #include "core/normal_spread.h"
 
 namespace instep {
@@ -20,7 +21,6 @@ constexpr std::size_t kRedraws = 8;
 constexpr std::size_t kMostParts = 8;
 constexpr std::size_t kPointsOfPart = 6000;
 constexpr Parting kOfFewPoints{4, true};
-constexpr std::size_t kQuietedOfPart = 9000;  ///< all that are left of few points
 constexpr std::size_t kFewestDegrees = 2;
 // What all redraws share, holes and the rules' own roundings, does not show in their scatter. Over
 // drawn feet (tests/bench/feet) intervals so much wider hold about as often as they should.
@@ -28,21 +28,6 @@ constexpr double kSharedDoubt = 1.6;
 
 /// Student's 97.5 % points for 1 to 8 degrees of freedom.
 constexpr std::array<double, 8> kStudent{12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31};
-
-std::uint64_t mixed(std::uint64_t bits) {
-  bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBULL;
-  return bits ^ (bits >> 31U);
-}
-
-/// By whole micrometres: in its last bits a place depends on the processor.
-std::uint64_t hash_of(const Vector3d& point) {
-  std::uint64_t hash = 0x9E3779B97F4A7C15ULL;
-  for (int axis = 0; axis < 3; ++axis) {
-    hash = mixed(hash + static_cast<std::uint64_t>(std::llround(1e3 * point(axis))));
-  }
-  return hash;
-}
 
 /// Moves the points by local errors as they may be.
 void err_anew(std::uint64_t draw, PointCloud& cloud) {
@@ -52,12 +37,21 @@ void err_anew(std::uint64_t draw, PointCloud& cloud) {
   }
 }
 
+/// Of one part.
+std::optional<Quieting> quieting_of(const FootScan& foot, const Parting& parting) {
+  if (!foot.quieted) return std::nullopt;
+  Quieting quieting = foot.quieted->quieting;
+  if (!parting.is_part_left_out) quieting.parts = parting.parts;
+  return quieting;
+}
+
 /// On some of the points, moved by such a draw of local errors; none where the axis is not found
 /// again.
 RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices,
+                            const std::optional<Quieting>& quieting,
                             std::optional<std::uint64_t> draw) {
   PointCloud points = foot.cloud.subset(indices);
-  if (foot.quieted) points = quieted(points, foot.quieted->noise_mm, kQuietedOfPart);
+  if (quieting) points = quieted(points, *quieting).cloud;
   FootScan part = aligned_as(foot, std::move(points));
   if (draw) err_anew(*draw, part.cloud);
   // Along another axis its landmarks would be those of another foot.
@@ -70,7 +64,7 @@ RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>
 /// share their luck.
 std::uint64_t first_draw_of(const PointCloud& cloud) {
   const auto reach = static_cast<std::uint64_t>(std::llround(10.0 * cloud.local_errors.reach_mm));
-  return mixed(mixed(cloud.size()) + reach) & ~std::uint64_t{1};
+  return mixed_bits(mixed_bits(cloud.size()) + reach) & ~std::uint64_t{1};
 }
 
 /// Of the skin that was put where nobody saw it: an upright piece tells where a landmark may lie,
@@ -143,18 +137,19 @@ Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
   const std::size_t partings = (kRedraws + parts / 2) / parts;
   std::vector<std::uint64_t> hashes;
   hashes.reserve(foot.cloud.size());
-  for (const auto& point : foot.cloud.positions) hashes.push_back(hash_of(point));
+  for (const auto& point : foot.cloud.positions) hashes.push_back(hash_of_place(point));
   const std::size_t count = partings * parts;
   redraws.landmarks.resize(count);
   redraws.erring.resize(foot.cloud.local_errors.empty() ? 0 : count);
   const std::uint64_t first_draw = first_draw_of(foot.cloud);
+  const auto quieting = quieting_of(foot, redraws.parting);
   workers(count + redraws.erring.size(), [&](std::size_t job) {
     const std::size_t redraw = job % count;
     const auto taken = points_of(foot.cloud, hashes, redraws.parting, redraw);
     if (job < count) {
-      redraws.landmarks[redraw] = redrawn_on(foot, taken, std::nullopt);
+      redraws.landmarks[redraw] = redrawn_on(foot, taken, quieting, std::nullopt);
     } else {
-      redraws.erring[redraw] = redrawn_on(foot, taken, first_draw + redraw);
+      redraws.erring[redraw] = redrawn_on(foot, taken, quieting, first_draw + redraw);
     }
   });
   return redraws;

@@ -6,11 +6,9 @@
 #include <utility>
 
 #include "core/geometry/cell_crowds.h"
-#include "core/geometry/hovering_points.h"
 #include "core/geometry/near_copies.h"
-#include "core/geometry/off_skin_points.h"
 #include "core/geometry/point_spacing.h"
-#include "core/geometry/stray_points.h"
+#include "core/geometry/strays.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_probe.h"
 #include "core/girth/sure_noise.h"
@@ -31,11 +29,6 @@ constexpr int kMostRounds = 3;
 /// of points along rows half.
 constexpr double kCopy = 0.15;
 constexpr double kManyCopies = 0.6;
-/// Shares of the points that are strays, with which those over the skin, and those near it, are
-/// looked for: clean noisy clouds have a fortieth of a percent that stand alone. Of 7,984 girths of
-/// lasts, feet and drawn bodies none differs from what it is with four times the first share.
-constexpr double kSomeStrays = 0.0005;
-constexpr double kManyStrays = 0.005;
 /// Places where noise is looked for lie so near to the plane.
 constexpr double kNoisePlacesInSpacings = 1.5;
 /// A grain is this many standard deviations of the noise, up to this part of the section.
@@ -127,18 +120,11 @@ PlaneBand gather_enough(SlabSource& slabs, const SectionProbe& found, double sig
 
 void drop_strays(bool near_skin, PlaneBand& band) {
   if (!(band.spacing > 0.0)) return;
+  const auto strays = strays_among(band.index, band.spacing, {band.stray_share, near_skin});
+  if (std::find(strays.begin(), strays.end(), true) == strays.end()) return;
   const double all = static_cast<double>(band.sources.size()) / (1.0 - band.stray_share);
-  const auto drop_strays_among = [&](const std::vector<bool>& strays) {
-    drop(strays, band);
-    band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / all;
-  };
-  const auto alone = stray_points(band.index, band.spacing);
-  if (std::find(alone.begin(), alone.end(), true) != alone.end()) drop_strays_among(alone);
-  // Of many some have others beside them, and some came to lie near to the skin.
-  if (band.stray_share > kSomeStrays) drop_strays_among(hovering_points(band.index, band.spacing));
-  if (near_skin || band.stray_share > kManyStrays) {
-    drop_strays_among(off_skin_points(band.index, band.spacing));
-  }
+  drop(strays, band);
+  band.stray_share = 1.0 - static_cast<double>(band.sources.size()) / all;
 }
 
 /// Points next to the plane that were seen, in the order in which they lie round the middle. Those

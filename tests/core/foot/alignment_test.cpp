@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "core/foot/shoe_last.h"
 #include "tests/support/foot_body.h"
+#include "tests/support/random_numbers.h"
 
 namespace instep {
 namespace {
@@ -129,6 +132,32 @@ TEST(Alignment, IsNotMovedByStrays) {
   const auto foot = align_foot(cloud);
   ASSERT_TRUE(clean && foot);
   EXPECT_NEAR(length(*foot), length(*clean), 0.5);
+}
+
+// The foot was taken for a last, and its floor lay 10 mm too low.
+TEST(Alignment, LeavesManyStraysOutAndSaysSo) {
+  auto cloud = FootBody{}.points();
+  const auto clean = align_foot(cloud);
+  test::RandomNumbers random(3);
+  const auto off = [&] { return random.uniform(-15.0, 15.0); };
+  for (std::size_t i = 0; i < cloud.size(); i += 50) {
+    cloud.positions[i] += Eigen::Vector3d(off(), off(), off());
+  }
+  const auto foot = align_foot(cloud);
+  ASSERT_TRUE(clean && foot);
+  EXPECT_NEAR(length(*foot), length(*clean), 0.5);
+  const auto floor = [](const FootScan& aligned) {
+    return (aligned.foot_from_input * Eigen::Vector3d(130.0, 0.0, 0.0)).z();
+  };
+  EXPECT_NEAR(floor(*foot), floor(*clean), 0.3);
+  EXPECT_FALSE(is_shoe_last(*foot));
+  const auto warns = [](const FootScan& aligned) {
+    return std::any_of(aligned.warnings.begin(), aligned.warnings.end(), [](const auto& warning) {
+      return warning.find("strays off the skin") != warning.npos;
+    });
+  };
+  EXPECT_TRUE(warns(*foot));
+  EXPECT_FALSE(warns(*clean));
 }
 
 TEST(Alignment, DropsRepeatedPoints) {

@@ -54,5 +54,21 @@ TEST_P(DrawnFeet, HaveAllTheirMeasuresWithinTheBars) {
 // Strays stand under the arches of the last two.
 INSTANTIATE_TEST_SUITE_P(Seeds, DrawnFeet, testing::Values(12, 13, 15, 529, 532));
 
+// One 7 mm beside the arch drew the sole out to it: the girth was 14 mm too long.
+TEST(DrawnOpenSoles, AreNotLaidOutToAStray) {
+  const auto drawn = test::draw_scanned_foot(22);
+  ASSERT_FALSE(drawn.sole_is_seen);
+  AlignmentOptions options;
+  options.standing_plane =
+      StandingPlane{Eigen::Vector3d::UnitZ(), drawn.input_from_solid.translation().z()};
+  const auto foot = align_foot(drawn.cloud, options).and_then(find_landmarks);
+  ASSERT_TRUE(foot) << foot.error().line();
+  const auto set = measure_foot(*foot);
+  ASSERT_TRUE(set) << set.error().line();
+  const Measure* waist = set->find("waist_girth");
+  ASSERT_NE(waist, nullptr);
+  EXPECT_NEAR(waist->value(), drawn.truth.measures.at("waist_girth"), *waist->u95());
+}
+
 }  // namespace
 }  // namespace instep

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/geometry/point_cloud.h"
+
+namespace instep {
+
+/// Takes strays (strays_among()) out of a cloud before anything is read off it: one under a foot
+/// would be its floor, one before it its toe, and the skin of an open sole would be laid out to one
+/// beside it. Returns their share of the points.
+///
+/// Nothing of a cloud to which points were added where nobody looked: it comes from cameras, whose
+/// strays are left out where views are fused, and what was added stands as far apart as it was put.
+double leave_out_strays(PointCloud& cloud);
+
+}  // namespace instep
