@@ -10,12 +10,14 @@
 
 #include "core/geometry/mesh_sampling.h"
 #include "core/median.h"
+#include "core/noticed.h"
 #include "daemon/cloud_files/mesh_reader.h"
 #include "daemon/cloud_files/pcd_reader.h"
 #include "daemon/cloud_files/ply_reader.h"
 #include "daemon/cloud_files/raw_cloud.h"
 #include "daemon/cloud_files/text_cloud_reader.h"
 #include "daemon/cloud_files/text_tokens.h"
+#include "daemon/cloud_files/unseen_points.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {
@@ -62,22 +64,10 @@ Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::
               "give PLY, XYZ or CSV text, PCD, OBJ or STL");
 }
 
-/// A coordinate beyond this is damage in any unit: a million kilometres of millimetres.
-constexpr double kLargestInFile = 1e15;
-
-/// The longest side of the box round the points. Fails on what is no number or absurd in any unit.
-Result<double> extent_of(const std::vector<Eigen::Vector3d>& positions, const std::string& file) {
+/// The longest side of the box round the points.
+double extent_of(const std::vector<Eigen::Vector3d>& positions) {
   Eigen::AlignedBox3d box;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const auto& position = positions[i];
-    if (!position.allFinite() || position.cwiseAbs().maxCoeff() > kLargestInFile) {
-      return fail(ErrorCode::kInvalidInput,
-                  fmt::format("point {} of {} has a coordinate that is no number or absurdly large",
-                              i, file),
-                  "repair or export it again");
-    }
-    box.extend(position);
-  }
+  for (const auto& position : positions) box.extend(position);
   return box.sizes().maxCoeff();
 }
 
@@ -203,10 +193,11 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   if (raw->cloud.empty()) {
     return fail(ErrorCode::kInsufficientData, file + " has no points", "scan or export it again");
   }
-  const auto extent = extent_of(raw->cloud.positions, file);
-  if (!extent) return tl::make_unexpected(extent.error());
-  const auto settled = settle_unit(unit, *extent, file);
-  if (!settled) return tl::make_unexpected(settled.error());
+  const std::size_t points_in_file = raw->cloud.size();
+  if (auto good = leave_out_unseen(*raw, file); !good) return tl::make_unexpected(good.error());
+  const double extent = extent_of(raw->cloud.positions);
+  const auto settled = settle_unit(unit, extent, file);
+  if (!settled) return tl::make_unexpected(with_what_was_noticed(settled.error(), raw->notes));
 
   CloudFile read;
   read.cloud = std::move(raw->cloud);
@@ -218,18 +209,18 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   }
   if (unit == LengthUnit::kAuto) {
     read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
-                                     to_string(*settled), *extent * scale));
+                                     to_string(*settled), extent * scale));
   }
   std::move(raw->notes.begin(), raw->notes.end(), std::back_inserter(read.notes));
   if (raw->surplus_bytes > 0) {
     read.notes.push_back(fmt::format(
         "the file goes on for {} bytes after all that its header names, which were not read; if "
         "any are missing of its {} points, export it again",
-        raw->surplus_bytes, read.cloud.size()));
+        raw->surplus_bytes, points_in_file));
   }
-  if (doubt_of_unit(*settled, *extent)) {
+  if (doubt_of_unit(*settled, extent)) {
     const double most = extent_of_most(read.cloud.positions) / scale;
-    if (const auto doubt = doubt_of_size(*settled, *extent, most)) read.notes.push_back(*doubt);
+    if (const auto doubt = doubt_of_size(*settled, extent, most)) read.notes.push_back(*doubt);
   }
   drop_colours(*raw, read);
   settle_normals(read);

@@ -26,10 +26,11 @@ struct CloudFile {
 
 /// Reads PLY (ASCII, binary of both byte orders), XYZ or CSV text, PCD (ASCII, binary), OBJ and
 /// STL. The content decides, then the extension. sigma_mm and shared errors are taken from PLY and
-/// always mean millimetres.
+/// always mean millimetres. Points without coordinates are left out, with a note
+/// (leave_out_unseen()).
 ///
 /// Every fault is an error with its file's name and advice: files that are missing, empty, cut
-/// short or lie about their size (kCorruptData), numbers that are none or absurd (kInvalidInput),
+/// short or lie about their size (kCorruptData), many numbers that are absurd (kInvalidInput),
 /// formats not handled (kUnsupported), no points (kInsufficientData), a unit that makes no sense
 /// (kInvalidInput). Files up to 4 GiB and 50 million points. Nothing is allocated on the word of a
 /// header alone.

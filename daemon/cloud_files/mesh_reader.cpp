@@ -14,6 +14,7 @@
 
 #include "core/geometry/mesh_sampling.h"
 #include "daemon/cloud_files/text_tokens.h"
+#include "daemon/cloud_files/unseen_points.h"
 
 namespace instep {
 namespace {
@@ -64,15 +65,12 @@ Result<RawCloud> import(std::string_view bytes, const char* kind, const std::str
   } catch (const std::exception&) {
     return damaged_file(file, "it is no sound mesh file");
   }
-  for (const auto& position : mesh.positions) {
-    // Ordering the corners, for welding, needs numbers; the message is that of check_cloud().
-    if (!position.allFinite()) {
-      return fail(ErrorCode::kInvalidInput, file + " has a coordinate that is no number",
-                  "repair or export it again");
-    }
-  }
-  mesh = welded(mesh);
   RawCloud raw;
+  raw.cloud.positions = std::move(mesh.positions);
+  raw.triangles = std::move(mesh.triangles);
+  // Here already: ordering the corners, for welding, needs numbers.
+  if (auto good = leave_out_unseen(raw, file); !good) return tl::make_unexpected(good.error());
+  mesh = welded({std::move(raw.cloud.positions), std::move(raw.triangles)});
   raw.cloud.positions = std::move(mesh.positions);
   raw.triangles = std::move(mesh.triangles);
   return raw;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/noticed.h"
 #include "core/surface/constrained_surface.h"
 #include "daemon/cloud_files/mesh_ply_writer.h"
 #include "daemon/cloud_files/text_tokens.h"
@@ -53,7 +54,7 @@ Result<void> run(const SurfaceCommand& command) {
   const auto mesh = constrained_surface(file->cloud.positions, options, [&](double done) {
     line.show("reconstructing the surface", done);
   });
-  if (!mesh) return tl::make_unexpected(mesh.error());
+  if (!mesh) return tl::make_unexpected(with_what_was_noticed(mesh.error(), file->notes));
   if (auto written = write_mesh_ply(*mesh, command.out); !written) return written;
   const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
   return print_json({{"file", command.out},

@@ -134,13 +134,29 @@ TEST_F(BadInput, BadCloudsAreOne) {
   expect_bad_girth(file("empty.ply", ""), "is empty");
   expect_bad_girth(file("three.xyz", "0 0 0\n50 0 0\n0 50 0\n"), "");
   expect_bad_girth(file("same.xyz", "1 1 1\n1 1 1\n1 1 1\n1 1 1\n"), "the same");
-  expect_bad_girth(file("nan.xyz", cylinder() + "nan 0 0\n"), "no number");
-  expect_bad_girth(file("huge.xyz", cylinder() + "1e30 0 0\n"), "absurdly large");
+  expect_bad_girth(file("nan.xyz", "nan 0 0\nnan nan nan\n"), "no number");
+  expect_bad_girth(file("huge.xyz", "0 0 0\n9 0 0\n1e30 0 0\n"), "absurdly large");
   expect_bad_girth(file("metres.xyz", cylinder(0.001)), "--unit m");
   const auto sound = file("c.xyz", cylinder());
   expect_bad_girth(sound, "", "0,0,900,1,0,900,0,1,900");
   expect_bad_girth(sound, "on one line", "0,0,0,1,1,1,2,2,2");
   expect_failure({"girth", sound, "--plane", kPlane, "--method", "section"}, 1, "no faces");
+}
+
+TEST_F(BadInput, PointsThatAreNoneAreWarnedOf) {
+  const auto cloud = file("nan.xyz", "nan nan nan\n" + cylinder() + "nan 0 0\n1e30 0 0\n");
+  const auto mesh = folder_.path() / "mesh.ply";
+  for (const auto& arguments : {std::vector<std::string>{"girth", cloud, "--plane", kPlane},
+                                {"surface", cloud, "--out", mesh}}) {
+    const auto run = test::run_program("instep", arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.errors;
+    EXPECT_NE(run.output.find("2 of the file's 1667 points were left out"), std::string::npos)
+        << run.output;
+    EXPECT_NE(run.output.find("absurdly large"), std::string::npos) << run.output;
+  }
+  // Too few for a foot: the reason may be that most are none.
+  expect_failure({"measure", file("few.xyz", "0 0 0\n100 0 0\nnan nan nan\n")}, 1,
+                 "1 of the file's 3 points were left out");
 }
 
 TEST_F(BadInput, UnitsThatAreOffAreNamed) {

@@ -25,7 +25,7 @@ TEST_F(DamagedFiles, AreToldWithTheirFault) {
   expect_fault("none.ply", head + "0" + xyz, ErrorCode::kInsufficientData, "no points");
   expect_fault("noz.ply", head + "1\nproperty float x\nproperty float y\nend_header\n1 2\n",
                corrupt, "lack");
-  expect_fault("nan.ply", head + "2" + xyz + "nan 2 3\n1 2 3\n", ErrorCode::kInvalidInput,
+  expect_fault("nan.ply", head + "2" + xyz + "nan 2 3\nnan 2 3\n", ErrorCode::kInsufficientData,
                "no number");
   expect_fault("huge.ply", head + "2" + xyz + "1e30 2 3\n1 2 3\n", ErrorCode::kInvalidInput,
                "absurdly large");
