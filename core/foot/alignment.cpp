@@ -211,22 +211,40 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   return foot;
 }
 
-/// A last has no flat sole to be found by; files of lasts have z up. Else what was found.
+/// A body stood on its lowest points along the file's z, or against it, if it is a last then.
+std::optional<FootScan> last_standing(const FootScan& body, const AlignmentOptions& options,
+                                      const Eigen::Vector3d& up) {
+  auto last = aligned(body, plane_below(body.shape().positions, up), options);
+  if (!last || !is_shoe_last(*last)) return std::nullopt;
+  return *std::move(last);
+}
+
+/// A last has no flat sole to be found by; files of lasts have z up, or down. Upside down no last
+/// passes for one: both its ends are high then. Else what was found, but for a last: it rests on
+/// heel and ball, or on its top, not as in its shoe.
 Result<FootScan> as_last(const FootScan& body, const AlignmentOptions& options,
                          Result<FootScan> found) {
-  const auto upright = plane_below(body.shape().positions, Eigen::Vector3d::UnitZ());
-  auto last = aligned(body, upright, options);
-  if (last && is_shoe_last(*last)) {
+  if (auto last = last_standing(body, options, Eigen::Vector3d::UnitZ())) {
     last->warnings.emplace_back(
         "how the last stands is taken from its file: by z, which points up");
-    return last;
+    return *std::move(last);
   }
-  if (found && !is_shoe_last(*found)) {
-    found->warnings.emplace_back(
-        "no toes were seen and no sole lies flat on the floor: if this is a last, turn it so that "
-        "z "
-        "points up as it stands in its shoe; if it is a foot, see that its sole is in the cloud");
+  if (auto last = last_standing(body, options, -Eigen::Vector3d::UnitZ())) {
+    last->warnings.emplace_back(
+        "the last stands upside down in its file and was turned over: how it stands is taken from "
+        "z, which points down");
+    return *std::move(last);
   }
+  if (!found) return found;
+  if (is_shoe_last(*found)) {
+    return fail(ErrorCode::kInvalidInput,
+                "this is a shoe last that stands askew in its file, and nothing but the file tells "
+                "how it stands in its shoe",
+                "turn it so that z points up as it stands in its shoe");
+  }
+  found->warnings.emplace_back(
+      "no toes were seen and no sole lies flat on the floor: if this is a last, turn it so that z "
+      "points up as it stands in its shoe; if it is a foot, see that its sole is in the cloud");
   return found;
 }
 

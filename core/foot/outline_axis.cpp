@@ -32,8 +32,8 @@ const char* const kAdvice =
     "measure one whole foot that stands on its sole, in millimetres, without the floor, a wall or "
     "another foot round it";
 
-tl::unexpected<Error> no_foot(const std::string& what) {
-  return fail(ErrorCode::kInvalidInput, "this is not a foot: " + what, kAdvice);
+tl::unexpected<Error> no_foot(const std::string& what, const std::string& advice = kAdvice) {
+  return fail(ErrorCode::kInvalidInput, "this is not a foot: " + what, advice);
 }
 
 std::string rounded(double value) {
@@ -108,7 +108,8 @@ Result<void> check_heights(const Points& points, const Vector2d& forward, double
     return forward.dot(point.head<2>()) - rear > (1.0 - kEndShare) * length;
   });
   if (toes > kHighestToeShare * length) {
-    return no_foot("both its ends are higher than toes (" + rounded(toes) + " at the lower end)");
+    return no_foot("both its ends are higher than toes (" + rounded(toes) + " at the lower end)",
+                   std::string(kAdvice) + "; turn a last so that z points up");
   }
   const double instep = height_of(points, [&](const Vector3d& point) {
     const double place = forward.dot(point.head<2>()) - rear;

@@ -239,6 +239,34 @@ TEST_F(RealFeet, AreToldFromLasts) {
   EXPECT_FALSE(is_shoe_last(measured(cloud("lab_left.ply", 1.0)).foot));
 }
 
+/// Of the last with a heel of 25 mm the girth of the instep was 335 mm instead of 291: it was stood
+/// on heel and ball.
+TEST_F(RealFeet, AreNoLastsThatStandUpsideDown) {
+  for (const char* name : {"Uomo_STD_T10_42.ply", "Uomo_STD_T25_43.ply", "Donna_STD_38_T30.ply"}) {
+    const auto upright = test::read_shape(test::trial_data() / "lasts" / name).cloud;
+    const auto whole = measured(upright);
+    for (const auto& axis : {Eigen::Vector3d(1.0, 0.0, 0.0), Eigen::Vector3d(0.6, 0.8, 0.0)}) {
+      const Eigen::AngleAxisd over(std::numbers::pi, axis);
+      const auto last = measured(transformed(RigidTransform(over), upright));
+      EXPECT_TRUE(is_shoe_last(last.foot)) << name;
+      EXPECT_EQ(last.foot.side, whole.foot.side) << name;
+      expect_same(whole, last, 0.01);
+      EXPECT_TRUE(std::any_of(last.foot.warnings.begin(), last.foot.warnings.end(), [](auto& one) {
+        return one.find("upside down") != std::string::npos;
+      })) << name;
+    }
+  }
+}
+
+TEST_F(RealFeet, AreNoLastsThatStandAskew) {
+  const auto upright = test::read_shape(test::trial_data() / "lasts" / "Uomo_STD_T25_43.ply").cloud;
+  const Eigen::AngleAxisd on_end(std::numbers::pi / 2.0, Eigen::Vector3d::UnitY());
+  const auto last = align_foot(transformed(RigidTransform(on_end), upright));
+  ASSERT_FALSE(last);
+  EXPECT_NE(last.error().message.find("shoe last"), std::string::npos);
+  EXPECT_NE(last.error().advice.find("z points up"), std::string::npos);
+}
+
 /// A crest drawn out through few and uneven points reached 5 to 8 mm beyond the heel or fell short
 /// of it, and the length with it, in 3 of 80 halves: these.
 TEST_F(RealFeet, OfWhichHalfThePointsAreLeftEndWhereTheirSkinDoes) {
