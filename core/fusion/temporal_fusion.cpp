@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "core/fusion/camera_limits.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr int kBlock = 8;                 // pixels a side of a block that is watched for movement
 constexpr double kDeepestBlockMm = 40.0;  // a block with more depth in it lies on a silhouette
 constexpr double kMovingShare = 0.01;     // of the blocks has to move for it to count
+constexpr double kSureOfMove = 5.0;       // standard deviations
 constexpr double kModelFrames = 2.0;      // the sensor model weighs as much as so many frames
 
 /// The values that a pixel showed, ascending.
@@ -104,6 +106,33 @@ float block_mean(const DepthFrame& frame, int column, int row, int lowest, int h
   }
   if (most - least > deepest) return 0.0F;
   return static_cast<float>(sum) / (kBlock * kBlock);
+}
+
+/// How far a block's depth moved between two frames, in raw units.
+struct BlockMove {
+  double mean = 0.0;
+  double noise = 0.0;  ///< of the mean, one sigma, by how the moves of its pixels scatter
+};
+
+/// Of a block that has a mean in both.
+BlockMove block_move(const std::vector<std::uint16_t>& before,
+                     const std::vector<std::uint16_t>& after, int width, int column, int row) {
+  constexpr int kPixels = kBlock * kBlock;
+  std::int64_t sum = 0;
+  std::int64_t squares = 0;
+  for (int y = row; y < row + kBlock; ++y) {
+    for (int x = column; x < column + kBlock; ++x) {
+      const auto pixel = static_cast<std::size_t>(y * width + x);
+      const std::int64_t move = std::int64_t{after[pixel]} - before[pixel];
+      sum += move;
+      squares += move * move;
+    }
+  }
+  BlockMove found;
+  found.mean = static_cast<double>(sum) / kPixels;
+  const double spread = static_cast<double>(squares) / kPixels - found.mean * found.mean;
+  found.noise = std::sqrt(std::max(0.0, spread) / (kPixels - 1));
+  return found;
 }
 
 }  // namespace
@@ -205,15 +234,22 @@ void TemporalFusion::note_movement(const DepthFrame& frame) {
     }
   }
   if (frames_used_ == 0) {
+    first_raw_ = frame.raw;
     first_blocks_ = std::move(blocks);
     return;
   }
   std::vector<double> moves;
+  const int columns = width_ / kBlock;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks[i] == 0.0F || first_blocks_[i] == 0.0F) continue;
-    const double move = std::abs(blocks[i] - first_blocks_[i]) * unit_mm_;
-    const double noise = settings_.noise.axial_sigma_mm(first_blocks_[i] * unit_mm_);
-    moves.push_back(move > 5.0 * std::numbers::sqrt2 * noise / kBlock ? move : 0.0);
+    const auto place = std::div(static_cast<int>(i), columns);
+    const BlockMove move =
+        block_move(first_raw_, frame.raw, width_, place.rem * kBlock, place.quot * kBlock);
+    const double told = settings_.noise.axial_sigma_mm(first_blocks_[i] * unit_mm_);
+    // A camera may be noisier than its model says, and is on skin that it sees from the side.
+    const double noise = std::max(std::numbers::sqrt2 * told / kBlock, move.noise * unit_mm_);
+    const double moved_mm = std::abs(move.mean) * unit_mm_;
+    moves.push_back(moved_mm > kSureOfMove * noise ? moved_mm : 0.0);
   }
   if (moves.empty()) return;
   const auto rank = static_cast<std::ptrdiff_t>(kMovingShare * static_cast<double>(moves.size()));

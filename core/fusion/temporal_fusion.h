@@ -90,7 +90,8 @@ class TemporalFusion {
   std::size_t room_ = 0;               ///< values that a pixel has room for
   std::vector<std::uint16_t> sorted_;  ///< pixel by pixel, ascending
   std::vector<std::uint8_t> counts_;
-  std::vector<float> first_blocks_;  ///< mean depth of blocks of the first frame
+  std::vector<std::uint16_t> first_raw_;  ///< the first frame
+  std::vector<float> first_blocks_;       ///< mean depth of its blocks
   double movement_mm_ = 0.0;
 };
 

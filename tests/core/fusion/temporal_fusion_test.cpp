@@ -162,21 +162,29 @@ TEST(TemporalFusion, UsesAllFramesThatAStationMayTakeAndCallsNoneBeyondBad) {
   }
 }
 
-TEST(TemporalFusion, NoticesAFootThatMoves) {
-  const auto scene = [](double x) {
-    return Surfaces{disc_surface({0, 0, 0}, {0, 0, 1}, 1000),
-                    ellipsoid_surface({x, 0, 10}, {125, 45, 60})};
-  };
-  TemporalFusion still;
-  TemporalFusion moving;
+/// A foot on the floor of which each frame sees this much more of x.
+FusedDepth foot_that_moves(double by_mm, double axial_per_mm) {
+  TemporalFusion fusion;
   for (int i = 0; i < 10; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i) + 1;
-    const RenderNoise noise{2.9e-6, 0, 0};
-    EXPECT_TRUE(still.add(render(small_camera(), scene(0), noise, seed)));
-    EXPECT_TRUE(moving.add(render(small_camera(), scene(0.8 * i), noise, seed)));
+    const Surfaces scene = {disc_surface({0, 0, 0}, {0, 0, 1}, 1000),
+                            ellipsoid_surface({by_mm * i, 0, 10}, {125, 45, 60})};
+    EXPECT_TRUE(fusion.add(
+        render(small_camera(), scene, {axial_per_mm, 0, 0}, static_cast<std::uint64_t>(i) + 1)));
   }
-  EXPECT_FALSE(still.result()->moved) << still.result()->movement_mm;
-  EXPECT_TRUE(moving.result()->moved) << moving.result()->movement_mm;
+  return fusion.result().value();
+}
+
+TEST(TemporalFusion, NoticesAFootThatMoves) {
+  EXPECT_FALSE(foot_that_moves(0.0, 2.9e-6).moved);
+  EXPECT_TRUE(foot_that_moves(0.8, 2.9e-6).moved);
+}
+
+/// Four times as noisy as its model: a foot that stood still was said to have moved by 1.4 mm.
+TEST(TemporalFusion, TakesNoiseOfACameraThatIsWorseThanItsModelForNoMovement) {
+  const FusedDepth still = foot_that_moves(0.0, 1.2e-5);
+  EXPECT_FALSE(still.moved) << still.movement_mm;
+  const FusedDepth moving = foot_that_moves(1.5, 1.2e-5);
+  EXPECT_TRUE(moving.moved) << moving.movement_mm;
 }
 
 TEST(TemporalFusion, DoesNotDependOnTheOrderOfFrames) {

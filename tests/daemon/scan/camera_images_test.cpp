@@ -8,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "tests/support/simulated_scan.h"
+
 namespace instep {
 namespace {
 
@@ -115,6 +117,17 @@ TEST(CameraImages, AreGivenUpWhenNobodyWantsThem) {
   ASSERT_FALSE(images);
   EXPECT_EQ(images.error().code, ErrorCode::kCancelled);
   EXPECT_LE(asked, 2) << "once for each camera";
+}
+
+/// Skin seen from the side is noisiest: a foot that stood still was said to have moved by 1.5 mm.
+TEST(CameraImages, OfAFootThatStandsStillBeforeNoisyCamerasTellOfNoMovement) {
+  SimulationSettings settings;
+  settings.noise = NoiseLaw::kPessimistic;
+  auto scan = test::scan_of(settings);
+  ASSERT_TRUE(scan) << scan.error().line();
+  const auto images = camera_images(scan->capture, always);
+  ASSERT_TRUE(images) << images.error().line();
+  for (const auto& image : *images) EXPECT_FALSE(image.moved) << image.movement_mm;
 }
 
 }  // namespace

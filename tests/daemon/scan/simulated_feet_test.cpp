@@ -37,13 +37,29 @@ TEST_P(SimulatedFeet, AreMeasuredWithinAMillimetre) {
   expect_true_measures(records->front().measures, scan->truth.front().measures);
 }
 
-/// Two cameras see it, each by more than a millimetre.
+/// As of a foot that stepped aside before the last frames of each camera.
+void shift_last_frames(Capture& capture, int pixels) {
+  constexpr int kLast = 5;
+  for (const auto& camera : capture.cameras) {
+    int left = kLast;
+    for (auto frame = capture.frames.rbegin(); frame != capture.frames.rend() && left > 0;
+         ++frame) {
+      if (frame->camera != camera.geometry.id) continue;
+      for (auto row = frame->raw.begin(); row != frame->raw.end(); row += frame->width) {
+        std::rotate(row, row + frame->width - pixels, row + frame->width);
+      }
+      --left;
+    }
+  }
+}
+
+/// All cameras see it.
 TEST(SimulatedFoot, ThatMovedIsSpokenOfOnce) {
   SimulationSettings simulation;
   simulation.seed = 3;
-  simulation.noise = NoiseLaw::kPessimistic;
   auto scan = scan_of(simulation);
   ASSERT_TRUE(scan);
+  shift_last_frames(scan->capture, 4);
   const auto records = measure_capture(scan->capture, {}, {});
   ASSERT_TRUE(records) << records.error().line();
   const auto& warnings = records->front().warnings;
