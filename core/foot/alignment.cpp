@@ -17,6 +17,7 @@
 #include "core/foot/side_from_shape.h"
 #include "core/foot/standing_body.h"
 #include "core/foot/unseen_half.h"
+#include "core/foot/whole_leg.h"
 #include "core/geometry/distinct_points.h"
 #include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
@@ -284,6 +285,17 @@ bool take_off_floor(const StandingPlane& plane, PointCloud& cloud, AlignmentOpti
   return true;
 }
 
+/// Leaves out most of a leg, which would be taken for a body that lies on its side. Where it is
+/// known which way is up a leg does no harm. What to warn of, if so.
+std::optional<std::string> take_off_leg(const AlignmentOptions& options, PointCloud& cloud) {
+  if (options.standing_plane || options.up) return std::nullopt;
+  const auto foot = foot_under_leg(cloud.positions);
+  if (!foot) return std::nullopt;
+  cloud = cloud.subset(foot->points);
+  return "the cloud holds most of a leg: what lies more than " + in_millimetres(foot->kept_mm) +
+         " from the sole along it was left out";
+}
+
 }  // namespace
 
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& told) {
@@ -294,6 +306,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   foot.cloud = cloud.subset(distinct_points(cloud));
   const double stray_share = leave_out_strays(foot.cloud);
   if (foot.cloud.size() < kFewestPoints) return too_few(foot.cloud.size());
+  const auto leg = take_off_leg(told, foot.cloud);
   AlignmentOptions options = told;
   auto plane = standing_plane(foot.cloud, options);
   const bool is_floor_seen = plane && take_off_floor(*plane, foot.cloud, options);
@@ -314,6 +327,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   if (may_be_last && !options.standing_plane && !options.up)
     found = as_last(foot, options, std::move(found));
   if (!found) return found;
+  if (leg) found->warnings.push_back(*leg);
   if (is_floor_seen) {
     found->warnings.emplace_back(
         "the floor round the foot was left out; heights are taken over it");

@@ -42,10 +42,11 @@ struct AlignmentOptions {
 /// it. Normals that contradict the shape are dropped, with a warning. Of a noisy cloud the shape is
 /// read off quieted points (FootScan::shape()). A sole that was not seen is closed on the floor
 /// (close_open_sole()), with a warning. A leg above the foot, an open sole and a cut at any height
-/// above the instep are fine. Fails with kInsufficientData under 200 points, and for a scan whose
-/// sole was closed if half of its heel or toes was not seen (unseen_half()); and with
-/// kInvalidInput, saying why, for what is no whole foot or is touched by something half as large. A
-/// mirrored cloud gives the mirrored result. O(n log n).
+/// above the instep are fine; most of a leg is left out, with a warning (foot_under_leg()). Fails
+/// with kInsufficientData under 200 points, and for a scan whose sole was closed if half of its
+/// heel or toes was not seen (unseen_half()); and with kInvalidInput, saying why, for what is no
+/// whole foot or is touched by something half as large. A mirrored cloud gives the mirrored result.
+/// O(n log n).
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
 
 /// The foot by another cloud in its frame: side, floor and rules, and the three landmarks of

@@ -30,7 +30,7 @@ constexpr double kStrayShare = 0.02;
 
 const char* const kAdvice =
     "measure one whole foot that stands on its sole, in millimetres, without the floor, a wall or "
-    "another foot round it";
+    "another foot round it, nor most of a leg on it";
 
 tl::unexpected<Error> no_foot(const std::string& what, const std::string& advice = kAdvice) {
   return fail(ErrorCode::kInvalidInput, "this is not a foot: " + what, advice);
