@@ -43,11 +43,34 @@ bool looks_like_pcd(std::string_view bytes) {
   return false;
 }
 
+/// Text whose letters take two bytes each: one of each pair is zero, and the other a letter, but
+/// for a mark of two bytes before the first.
+bool looks_like_utf16(std::string_view bytes) {
+  constexpr std::size_t kLetters = 16;
+  const bool is_marked = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  if (is_marked) bytes.remove_prefix(2);
+  if (bytes.size() < 2 * kLetters) return false;
+  bool any_letter_first = false;
+  bool any_zero_first = false;
+  for (std::size_t i = 0; i < 2 * kLetters; i += 2) {
+    const bool is_zero_first = bytes[i] == '\0';
+    const auto letter = static_cast<unsigned char>(bytes[is_zero_first ? i + 1 : i]);
+    const bool is_pair = bytes[is_zero_first ? i : i + 1] == '\0';
+    if (!is_pair || (std::isprint(letter) == 0 && std::isspace(letter) == 0)) return false;
+    (is_zero_first ? any_zero_first : any_letter_first) = true;
+  }
+  return any_letter_first != any_zero_first;
+}
+
 /// The content decides where it can be told; STL and OBJ have no sure mark, so their names do.
 Result<RawCloud> read_by_content(std::string_view bytes, const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::string extension = lower_extension(path);
   const std::string_view start = bytes.substr(0, 4096);
+  if (looks_like_utf16(start)) {
+    return fail(ErrorCode::kUnsupported, file + " is text in UTF-16",
+                "save it as UTF-8 or plain text");
+  }
   if (start.substr(0, 3) == "ply" && start.size() > 3 &&
       std::isspace(static_cast<unsigned char>(start[3])) != 0) {
     return read_ply(bytes, file);

@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::string_view kSeparators = " \t,;\v\f";
 constexpr std::string_view kSeparatorsButCommas = " \t;\v\f";
+constexpr std::string_view kQuotes = "\"'";
 constexpr std::size_t kMostColumns = 64;
+constexpr int kMostLinesBefore = 3;  ///< without numbers, before the first point
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// The numbers of one line.
@@ -22,6 +24,7 @@ struct Row {
   std::array<double, kMostColumns> values{};
   std::size_t words = 0;
   bool all_numbers = true;
+  bool any_number = false;
 };
 
 bool is_empty_or_comment(std::string_view line) {
@@ -73,10 +76,20 @@ Row parse_row(std::string_view line) {
     if (decimal_commas) std::replace(word.begin(), word.end(), ',', '.');
     const auto value = number_in(word);
     row.all_numbers = row.all_numbers && value.has_value();
+    row.any_number = row.any_number || value.has_value();
     if (value && row.words < kMostColumns) row.values[row.words] = *value;
     ++row.words;
   }
   return row;
+}
+
+/// As some programs write every cell of a table.
+bool has_quoted_numbers(std::string_view line) {
+  if (line.find_first_of(kQuotes) == line.npos) return false;
+  std::string plain(line);
+  std::erase_if(plain, [](char letter) { return kQuotes.find(letter) != kQuotes.npos; });
+  const Row row = parse_row(plain);
+  return row.all_numbers && row.words > 0;
 }
 
 tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
@@ -103,6 +116,11 @@ class Columns {
     heading_seen_ = true;
     named_ = columns_named_by(line);
     return true;
+  }
+
+  /// A line of words, where a heading stood before and no point yet.
+  bool is_second_heading(const Row& row) const {
+    return heading_seen_ && !columns_ && !row.any_number;
   }
 
   /// Nobody named them.
@@ -179,7 +197,18 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
       continue;
     }
     const Row row = parse_row(*line);
+    if (has_quoted_numbers(*line)) {
+      return fail(ErrorCode::kCorruptData,
+                  fmt::format("line {} of {} has its numbers in quotes", number, file),
+                  "export it without quotes round numbers");
+    }
     if (columns.is_heading(*line, row)) continue;
+    if (columns.is_second_heading(row)) {
+      return fail(ErrorCode::kCorruptData,
+                  fmt::format("line {} of {} is a second heading", number, file),
+                  "leave one line before the points, which names the columns; begin all others "
+                  "with #");
+    }
     if (!row.all_numbers || row.words > kMostColumns) return bad_line(file, number, "is no point");
     const auto own = columns.of(row.words, file, number);
     if (!own) return tl::unexpected(own.error());
@@ -202,8 +231,8 @@ bool looks_like_text_cloud(std::string_view text) {
   while (const auto line = lines.next()) {
     if (is_empty_or_comment(*line)) continue;
     const Row row = parse_row(*line);
-    if (row.all_numbers && row.words >= 3) return true;
-    if (++looked_at >= 2) return false;
+    if ((row.all_numbers && row.words >= 3) || has_quoted_numbers(*line)) return true;
+    if (++looked_at > kMostLinesBefore) return false;
   }
   return false;
 }

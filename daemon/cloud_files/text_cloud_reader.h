@@ -15,12 +15,13 @@ namespace instep {
 /// comment before the first point with as many words as it has numbers, that names x, y and z says
 /// which columns count (columns_named_by()).
 ///
-/// Fails with kCorruptData and the number of the line where another line is no point or has another
-/// number of columns than the heading or the first, and where it cannot be told what commas mean.
+/// Fails with kCorruptData and the number of the line where another line is no point, a second
+/// heading, has its numbers in quotes or another number of columns than the heading or the first,
+/// and where it cannot be told what commas mean.
 Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file);
 
-/// True if the first line that is not a comment or a heading begins with numbers: to tell a cloud
-/// from other text.
+/// True if one of the first four lines that are no comments is of numbers, in quotes or not: to tell
+/// a cloud from other text, be there a heading too many in it.
 bool looks_like_text_cloud(std::string_view text);
 
 }  // namespace instep

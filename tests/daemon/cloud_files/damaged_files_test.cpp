@@ -72,6 +72,38 @@ TEST_F(DamagedFiles, AreToldWithTheirFault) {
             std::string::npos);
 }
 
+/// As spreadsheets and loggers write them; all that was said is that it is no cloud.
+TEST_F(DamagedFiles, OfTextThatIsNearlyACloudTellTheLineAndWhatToDo) {
+  const auto corrupt = ErrorCode::kCorruptData;
+  for (const char* text :
+       {"\"1.5\",\"2.0\",\"3.0\"\n", "\"1,5\";\"2,0\";\"3,0\"\n", "'1' '2' '3'\n"}) {
+    expect_fault("quotes.csv", text, corrupt, "line 1 of");
+    expect_fault("quotes.csv", text, corrupt, "without quotes");
+    expect_fault("quotes.csv", std::string("\"x\",\"y\",\"z\"\n") + text, corrupt, "line 2 of");
+  }
+  for (const char* text :
+       {"x y z\nmm mm mm\n1 2 3\n4 5 6\n", "Foot of Anna\nx,y,z\n1,2,3\n4,5,6\n"}) {
+    expect_fault("headings.xyz", text, corrupt, "line 2 of");
+    expect_fault("headings.xyz", text, corrupt, "begin all others with #");
+  }
+  expect_fault("broken.xyz", "x y z\n1 2 abc\n4 5 6\n", corrupt, "line 2 of");
+  expect_fault("essay.txt", "one\ntwo\nthree\nfour\n1 2 3\n", ErrorCode::kUnsupported, "give PLY");
+}
+
+TEST_F(DamagedFiles, OfTextInUtf16SayHowToSaveIt) {
+  for (const bool is_big : {false, true}) {
+    std::string wide;
+    for (const char letter : std::string("x y z\r\n1.5 2.5 3.5\r\n4 5 6\r\n")) {
+      wide += is_big ? std::string{'\0', letter} : std::string{letter, '\0'};
+    }
+    const std::string mark = is_big ? "\xFE\xFF" : "\xFF\xFE";
+    for (const auto& text : {mark + wide, wide}) {
+      expect_fault("wide.xyz", text, ErrorCode::kUnsupported, "UTF-16");
+      expect_fault("wide.csv", text, ErrorCode::kUnsupported, "save it as UTF-8");
+    }
+  }
+}
+
 /// Damages sound files at random; whatever happens must be a value or an error.
 TEST_F(DamagedFiles, TwoThousandAreSurvived) {
   std::string ascii =
