@@ -51,17 +51,32 @@ Result<std::vector<VideoModes>> modes_of(VideoSystem& system, int node) {
   return modes;
 }
 
+/// Of a node that cannot be opened; a camera that is away is only one of the reasons.
+Error not_opened(int error_number, const std::filesystem::path& path) {
+  const std::string what =
+      fmt::format("{} cannot be opened: {}", path.string(), std::strerror(error_number));
+  switch (error_number) {
+    case EACCES:
+    case EPERM:
+      return fail(ErrorCode::kPermissionDenied, what,
+                  "sudo usermod -aG video $USER, then log in again")
+          .value();
+    case ENOENT:
+    case ENOTDIR:
+    case ENODEV:
+    case ENXIO:
+      return fail(ErrorCode::kNotFound, what, "plug it in again").value();
+    default:
+      return video_error(error_number, "opening " + path.string());
+  }
+}
+
 }  // namespace
 
 Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
                                                  const std::filesystem::path& path) {
   const int node = system.open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-  if (node < 0) {
-    const bool denied = errno == EACCES || errno == EPERM;
-    return fail(denied ? ErrorCode::kPermissionDenied : ErrorCode::kNotFound,
-                fmt::format("{} cannot be opened: {}", path.string(), std::strerror(errno)),
-                denied ? "sudo usermod -aG video $USER, then log in again" : "plug it in again");
-  }
+  if (node < 0) return tl::make_unexpected(not_opened(errno, path));
   auto modes = modes_of(system, node);
   system.close(node);
   return modes;

@@ -17,7 +17,8 @@ struct VideoModes {
 
 /// All that the node `path` offers, as the driver lists it; empty for a node that sends no images.
 /// Opens the node and disturbs no one who streams from it. Fails with kPermissionDenied or
-/// kNotFound, and with kDeviceGone or kIo if the list ends before its time.
+/// kNotFound, as video_error() where it cannot be opened for another reason, and with kDeviceGone
+/// or kIo if the list ends before its time.
 Result<std::vector<VideoModes>> list_video_modes(VideoSystem& system,
                                                  const std::filesystem::path& path);
 

@@ -79,5 +79,24 @@ TEST_F(VideoModesTest, OfNoNodeAreNone) {
   EXPECT_EQ(list_video_modes(kernel_, "/dev/video1").error().code, ErrorCode::kNotFound);
 }
 
+// A program without open files to spare was told to plug the camera in again.
+TEST_F(VideoModesTest, OfANodeThatCannotBeOpenedTellWhy) {
+  const auto error_of = [&](int error) {
+    kernel_.fail_call(1, error);
+    return list_video_modes(kernel_, kNode).error();
+  };
+  for (const int error : {EMFILE, ENFILE, ENOMEM}) {
+    const Error short_of_files = error_of(error);
+    EXPECT_EQ(short_of_files.code, ErrorCode::kIo);
+    EXPECT_THAT(short_of_files.line(), testing::HasSubstr("open files"));
+    EXPECT_THAT(short_of_files.line(), testing::HasSubstr(kNode));
+  }
+  EXPECT_EQ(error_of(EBUSY).code, ErrorCode::kBusy);
+  EXPECT_EQ(error_of(EACCES).code, ErrorCode::kPermissionDenied);
+  for (const int error : {ENOENT, ENODEV, ENXIO}) {
+    EXPECT_EQ(error_of(error).code, ErrorCode::kNotFound);
+  }
+}
+
 }  // namespace
 }  // namespace instep
