@@ -20,8 +20,8 @@ namespace instep {
 /// and where it cannot be told what commas mean.
 Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file);
 
-/// True if one of the first four lines that are no comments is of numbers, in quotes or not: to tell
-/// a cloud from other text, be there a heading too many in it.
+/// True if one of the first four lines that are no comments is of numbers, in quotes or not: to
+/// tell a cloud from other text, be there a heading too many in it.
 bool looks_like_text_cloud(std::string_view text);
 
 }  // namespace instep
