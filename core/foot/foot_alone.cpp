@@ -12,6 +12,7 @@
 #include "core/foot/whole_leg.h"
 #include "core/geometry/distinct_points.h"
 #include "core/in_millimetres.h"
+#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -19,7 +20,8 @@ namespace {
 constexpr std::size_t kFewestPoints = 200;
 constexpr double kLargePieceShare = 0.1;   ///< a piece apart that is worth a word
 constexpr double kLargeBesideShare = 0.5;  ///< of the foot, that touches it
-constexpr double kManyStrays = 0.002;      ///< of the points, that are worth a word
+constexpr double kManyStrays = 0.005;      ///< of the points, that are worth a word
+constexpr double kUprightLeg = 0.866;      ///< cosine: of a leg, on the sole
 
 Result<void> check_count(const PointCloud& cloud) {
   if (cloud.size() >= kFewestPoints) return {};
@@ -48,11 +50,24 @@ void leave_out_strays(FootAlone& foot) {
                           "shines or moves, and to the cameras' poses");
 }
 
-/// It would be taken for a body that lies on its side.
-void leave_out_leg(FootAlone& foot) {
-  const auto under = foot_under_leg(foot.cloud.positions);
+/// Of the largest body, for things that stand in line with a foot look like a leg.
+std::optional<FootUnderLeg> foot_of_largest(const PointCloud& cloud, bool is_one_foot) {
+  if (!foot_under_leg(cloud.positions)) return std::nullopt;
+  const auto body = standing_body(cloud.positions, is_one_foot).points;
+  auto foot = foot_under_leg(picked(cloud.positions, body));
+  if (foot) foot->points = picked(body, foot->points);
+  return foot;
+}
+
+/// It would be taken for a body that lies on its side. Across one that leans toes would be left out
+/// with it.
+void leave_out_leg(bool is_one_foot, FootAlone& foot) {
+  const auto under = foot_of_largest(foot.cloud, is_one_foot);
   if (!under) return;
-  foot.cloud = foot.cloud.subset(under->points);
+  PointCloud rest = foot.cloud.subset(under->points);
+  const auto plane = plane_under_foot(rest);
+  if (plane && plane->up.dot(under->up) < kUprightLeg) return;
+  foot.cloud = std::move(rest);
   foot.warnings.push_back("the cloud holds most of a leg: what lies more than " +
                           in_millimetres(under->kept_mm) + " from the sole along it was left out");
 }
@@ -108,7 +123,7 @@ Result<FootAlone> foot_alone(const PointCloud& cloud, bool is_told, bool is_one_
   leave_out_strays(foot);
   if (auto checked = check_count(foot.cloud); !checked) return tl::unexpected(checked.error());
   if (!is_told) {
-    leave_out_leg(foot);
+    leave_out_leg(is_one_foot, foot);
     foot.plane = plane_under_foot(foot.cloud);
     if (*foot.plane) leave_out_floor(foot);
     if (foot.floor) foot.plane.reset();

@@ -35,7 +35,7 @@ std::optional<double> moving_noise_mm(const PointCloud& cloud);
 /// than a dozen round them, and those that nobody saw, which tell nothing of others, stay where
 /// they are.
 ///
-/// No more than kMostQuieted are kept, and no more than 160,000 are asked, the same ones in
+/// No more than kMostQuieted are kept, and no more than 100,000 are asked, the same ones in
 /// whatever order they come; of a part as much less, so that parts tell how sure the whole is.
 /// O(n log n): a quarter of a second, of a part much less.
 QuietedCloud quieted(const PointCloud& cloud, const Quieting& quieting);

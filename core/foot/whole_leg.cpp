@@ -110,6 +110,7 @@ std::optional<FootUnderLeg> foot_under_leg(const Points& points) {
   const Leg& leg = !other || (one && one->foot_mm > other->foot_mm) ? *one : *other;
   FootUnderLeg foot;
   foot.kept_mm = kKept * leg.foot_mm;
+  foot.up = leg.up;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (leg.up.dot(points[i]) - leg.sole_mm < foot.kept_mm) foot.points.push_back(i);
   }

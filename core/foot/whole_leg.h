@@ -11,6 +11,7 @@ namespace instep {
 struct FootUnderLeg {
   std::vector<std::size_t> points;  ///< indices, ascending
   double kept_mm = 0.0;             ///< from the sole along the leg
+  Eigen::Vector3d up;               ///< along the leg, of length 1
 };
 
 /// Most of a leg, with the foot at its end, in any pose: 400 mm and 1.4 times as long as the foot

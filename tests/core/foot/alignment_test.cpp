@@ -160,6 +160,20 @@ TEST(Alignment, LeavesManyStraysOutAndSaysSo) {
   EXPECT_FALSE(warns(*clean));
 }
 
+// In line with the foot it looked like a leg, and most of the foot like what lies over its ankle.
+TEST(Alignment, TakesNoBoxBeforeTheToesForALeg) {
+  auto cloud = FootBody{}.points();
+  const auto clean = align_foot(cloud);
+  for (double x = 280.0; x <= 580.0; x += 4.0) {
+    for (double across = -40.0; across <= 40.0; across += 4.0) {
+      for (const double z : {0.0, 50.0}) cloud.positions.emplace_back(x, across, z);
+    }
+  }
+  const auto foot = align_foot(cloud);
+  ASSERT_TRUE(clean && foot);
+  EXPECT_NEAR(length(*foot), length(*clean), 0.5);
+}
+
 TEST(Alignment, DropsRepeatedPoints) {
   auto cloud = FootBody{}.points();
   const auto once = align_foot(cloud);
