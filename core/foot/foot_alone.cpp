@@ -65,9 +65,10 @@ void leave_out_leg(bool is_one_foot, FootAlone& foot) {
   const auto under = foot_of_largest(foot.cloud, is_one_foot);
   if (!under) return;
   PointCloud rest = foot.cloud.subset(under->points);
-  const auto plane = plane_under_foot(rest);
+  auto plane = plane_under_foot(rest);
   if (plane && plane->up.dot(under->up) < kUprightLeg) return;
   foot.cloud = std::move(rest);
+  foot.plane = std::move(plane);
   foot.warnings.push_back("the cloud holds most of a leg: what lies more than " +
                           in_millimetres(under->kept_mm) + " from the sole along it was left out");
 }
@@ -124,7 +125,7 @@ Result<FootAlone> foot_alone(const PointCloud& cloud, bool is_told, bool is_one_
   if (auto checked = check_count(foot.cloud); !checked) return tl::unexpected(checked.error());
   if (!is_told) {
     leave_out_leg(is_one_foot, foot);
-    foot.plane = plane_under_foot(foot.cloud);
+    if (!foot.plane) foot.plane = plane_under_foot(foot.cloud);
     if (*foot.plane) leave_out_floor(foot);
     if (foot.floor) foot.plane.reset();
     if (auto checked = check_count(foot.cloud); !checked) return tl::unexpected(checked.error());

@@ -18,8 +18,9 @@ struct FootAlone {
   std::vector<std::string> warnings;           ///< of what was left out
 };
 
-/// Leaves out repeated points, strays, most of a leg, a floor, and bodies apart from the foot or
-/// beside it. Refuses fewer than 200 points, and a foot that something large touches.
+/// Leaves out repeated points, strays, most of a leg that stands upright on the foot (across one
+/// that leans toes would go with it), a floor, and bodies apart from the foot or beside it. Refuses
+/// fewer than 200 points, and a foot that something large touches.
 ///
 /// `is_told`: how the foot stands is known; then neither a floor nor a leg is looked for, which do
 /// no harm. `is_one_foot`: as standing_body() takes it. `cloud` has passed check_cloud(). O(n log

@@ -6,7 +6,8 @@ namespace instep {
 
 /// Takes strays (strays_among()) out of a cloud before anything is read off it: one under a foot
 /// would be its floor, one before it its toe, and the skin of an open sole would be laid out to one
-/// beside it. Returns their share of the points.
+/// beside it. A clump of eight or more, or a line of them, passes for skin. Returns their share of
+/// the points.
 ///
 /// Of more than 60,000 points just those that stand alone are strays; but where there are many
 /// among some of them, all but as many others go with them, which show a foot no worse.

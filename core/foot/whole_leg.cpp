@@ -1,5 +1,7 @@
 #include "core/foot/whole_leg.h"
 
+#include <limits>
+
 #include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
 #include "core/median.h"
@@ -92,7 +94,9 @@ std::optional<Leg> leg_up(const Points& points, const Vector3d& up) {
   const Extent leg = extent_of_most(points, along);
   if (leg.length() < kShortestLegMm) return std::nullopt;
   const double end = leg.from + kFootOfLeg * leg.length();
-  const double foot = extents_across(between(points, along, -1e300, end), along).longer;
+  const double foot =
+      extents_across(between(points, along, std::numeric_limits<double>::lowest(), end), along)
+          .longer;
   const bool is_leg = foot >= kShortestFootMm && foot <= kLongestFootMm &&
                       leg.length() > kLongLeg * foot && is_slim_all_along(points, along, leg, foot);
   return is_leg ? std::optional(Leg{along, leg.from, foot}) : std::nullopt;

@@ -120,7 +120,7 @@ class Columns {
 
   /// A line of words, where a heading stood before and no point yet.
   bool is_second_heading(const Row& row) const {
-    return heading_seen_ && !columns_ && !row.any_number;
+    return heading_seen_ && !columns_ && row.words > 0 && !row.any_number;
   }
 
   /// Nobody named them.

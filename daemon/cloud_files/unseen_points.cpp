@@ -63,7 +63,7 @@ std::size_t drop_faces(const Sorted& sorted, std::size_t points, RawCloud& raw) 
 std::string note_of(std::size_t left_out, std::size_t points, const char* why, std::size_t faces) {
   const std::string note =
       fmt::format("{} of the file's {} points were left out: {}", left_out, points, why);
-  return faces == 0 ? note : note + fmt::format("; with them went {} faces", faces);
+  return faces == 0 ? note : note + fmt::format("; faces that went with them: {}", faces);
 }
 
 }  // namespace

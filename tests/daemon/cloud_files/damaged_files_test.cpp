@@ -87,6 +87,7 @@ TEST_F(DamagedFiles, OfTextThatIsNearlyACloudTellTheLineAndWhatToDo) {
     expect_fault("headings.xyz", text, corrupt, "begin all others with #");
   }
   expect_fault("broken.xyz", "x y z\n1 2 abc\n4 5 6\n", corrupt, "line 2 of");
+  expect_fault("empty.csv", "x,y,z\n,,\n1,2,3\n4,5,6\n", corrupt, "has 0 numbers");
   expect_fault("essay.txt", "one\ntwo\nthree\nfour\n1 2 3\n", ErrorCode::kUnsupported, "give PLY");
 }
 

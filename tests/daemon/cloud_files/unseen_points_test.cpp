@@ -77,7 +77,7 @@ TEST_F(UnseenPoints, OfAPlyTakeTheirFacesWithThem) {
   EXPECT_EQ(file->mesh.triangles,
             (std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
   ASSERT_FALSE(file->notes.empty());
-  EXPECT_NE(file->notes.front().find("with them went 1 faces"), std::string::npos);
+  EXPECT_NE(file->notes.front().find("faces that went with them: 1"), std::string::npos);
 }
 
 TEST_F(UnseenPoints, OfMeshesOfOtherKindsTakeTheirFacesWithThem) {
@@ -95,7 +95,7 @@ TEST_F(UnseenPoints, OfMeshesOfOtherKindsTakeTheirFacesWithThem) {
     EXPECT_EQ(file->mesh.triangles.size(), 1U) << name;
     EXPECT_EQ(file->mesh.positions.size(), 3U) << name;
     ASSERT_FALSE(file->notes.empty());
-    EXPECT_NE(file->notes.front().find("with them went 1 faces"), std::string::npos);
+    EXPECT_NE(file->notes.front().find("faces that went with them: 1"), std::string::npos);
   }
 }
 
