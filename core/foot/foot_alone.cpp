@@ -41,10 +41,15 @@ Result<void> check_beside(const StandingBody& body) {
 }
 
 void leave_out_strays(FootAlone& foot) {
-  const double share = leave_out_strays(foot.cloud);
-  if (share < kManyStrays) return;
+  const LeftOutStrays left_out = leave_out_strays(foot.cloud);
+  if (left_out.any_clump) {
+    foot.warnings.emplace_back(
+        "a small clump of points that no skin reaches is left out: if it is the end of a toe or of "
+        "the heel, turn a camera to what lies between");
+  }
+  if (left_out.share < kManyStrays) return;
   char percent[16];
-  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * share);
+  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * left_out.share);
   foot.warnings.push_back(std::string(percent) +
                           " of the points are strays off the skin and are left out: see to what "
                           "shines or moves, and to the cameras' poses");

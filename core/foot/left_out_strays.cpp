@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/loose_clumps.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
@@ -20,39 +21,48 @@ constexpr std::size_t kSpacingSample = 2000;
 constexpr std::size_t kMostHunted = 60000;
 constexpr double kMany = 0.005;
 
-/// Takes out those that `strays_in` finds; returns their share.
-template <class Finder>
-double take_out(PointCloud& cloud, const Finder& strays_in) {
-  const PointIndex index(cloud.positions);
-  const double spacing = usual_spacing(index, kSpacingSample);
-  if (!(spacing > 0.0)) return 0.0;
-  const std::vector<bool> strays = strays_in(index, spacing);
+/// Whether there were any.
+bool take_out(const std::vector<bool>& strays, PointCloud& cloud) {
   std::vector<std::size_t> skin;
   for (std::size_t i = 0; i < strays.size(); ++i) {
     if (!strays[i]) skin.push_back(i);
   }
-  if (skin.size() == strays.size()) return 0.0;
-  cloud = cloud.subset(skin);
-  return 1.0 - static_cast<double>(skin.size()) / static_cast<double>(strays.size());
+  const bool any = skin.size() < strays.size();
+  if (any) cloud = cloud.subset(skin);
+  return any;
 }
 
-double take_out_all(PointCloud& cloud) {
+/// Those that `strays_in` finds, and clumps.
+template <class Finder>
+LeftOutStrays take_out(PointCloud& cloud, const Finder& strays_in) {
+  LeftOutStrays left_out;
+  const PointIndex index(cloud.positions);
+  const double spacing = usual_spacing(index, kSpacingSample);
+  if (!(spacing > 0.0)) return left_out;
+  take_out(strays_in(index, spacing), cloud);
+  left_out.any_clump = take_out(loose_clumps(cloud.positions, spacing), cloud);
+  const auto all = static_cast<double>(index.points().size());
+  left_out.share = 1.0 - static_cast<double>(cloud.size()) / all;
+  return left_out;
+}
+
+LeftOutStrays take_out_all(PointCloud& cloud) {
   return take_out(
       cloud, [](const PointIndex& index, double spacing) { return strays_among(index, spacing); });
 }
 
 }  // namespace
 
-double leave_out_strays(PointCloud& cloud) {
-  if (!cloud.origins.empty()) return 0.0;
+LeftOutStrays leave_out_strays(PointCloud& cloud) {
+  if (!cloud.origins.empty()) return {};
   if (cloud.size() <= kMostHunted) return take_out_all(cloud);
   auto some = some_by_place(cloud.positions, kMostHunted);
   std::sort(some.begin(), some.end());
   PointCloud sample = cloud.subset(some);
-  const double share = take_out_all(sample);
-  if (share <= kMany) return take_out(cloud, stray_points);
+  const LeftOutStrays of_some = take_out_all(sample);
+  if (of_some.share <= kMany) return take_out(cloud, stray_points);
   cloud = std::move(sample);
-  return share;
+  return of_some;
 }
 
 }  // namespace instep

@@ -4,16 +4,23 @@
 
 namespace instep {
 
+/// What was taken out of a cloud.
+struct LeftOutStrays {
+  double share = 0.0;      ///< of the points, clumps included
+  bool any_clump = false;  ///< which may have been skin, seen apart from the rest
+};
+
 /// Takes strays (strays_among()) out of a cloud before anything is read off it: one under a foot
 /// would be its floor, one before it its toe, and the skin of an open sole would be laid out to one
-/// beside it. A clump of eight or more, or a line of them, passes for skin. Returns their share of
-/// the points.
+/// beside it. So it is with clumps of them that no skin reaches (loose_clumps()). A thin line of
+/// them that starts at the skin, and a clump of more than a five hundredth of the points, pass for
+/// skin.
 ///
 /// Of more than 60,000 points just those that stand alone are strays; but where there are many
 /// among some of them, all but as many others go with them, which show a foot no worse.
 ///
 /// Nothing of a cloud to which points were added where nobody looked: it comes from cameras, whose
 /// strays are left out where views are fused, and what was added stands as far apart as it was put.
-double leave_out_strays(PointCloud& cloud);
+LeftOutStrays leave_out_strays(PointCloud& cloud);
 
 }  // namespace instep

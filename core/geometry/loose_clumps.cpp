@@ -1,0 +1,171 @@
+#include "core/geometry/loose_clumps.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "core/geometry/moments.h"
+#include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
+#include "core/geometry/voxel_grid.h"
+#include "core/median.h"
+#include "core/picked.h"
+#include "core/stride.h"
+
+namespace instep {
+namespace {
+
+using Eigen::Vector3d;
+using Members = std::vector<std::size_t>;
+
+/// A skin hangs together by the least; the others find clumps whose points lie further apart.
+constexpr double kCellsInSpacings[] = {1.5, 3.0, 6.0};
+constexpr std::size_t kFewest = 4;  ///< of fewer each stands alone
+constexpr double kSmallShare = 0.002;
+constexpr double kHeapShare = 0.02;
+constexpr double kGapInSpacings = 2.0;
+constexpr std::size_t kMostPieces = 6;  ///< of a skin with unseen strips
+constexpr double kSkinShare = 0.98;     ///< of the points, that these hold
+
+/// Points on whose dozen nearest a plane fits: few of a heap, most of a skin.
+constexpr std::size_t kBeside = 12;
+constexpr double kFlat = 0.4;  ///< spread across, over that along
+constexpr double kFlatOfHeap = 0.33;
+constexpr double kFlatOfSkin = 0.67;
+constexpr std::size_t kAskedIfFlat = 200;
+
+/// Points that hang together, by piece.
+std::vector<Members> pieces_of(const std::vector<Vector3d>& points, double cell_mm) {
+  const auto piece_of = VoxelGrid(points, cell_mm).clusters_of_points();
+  std::vector<Members> pieces;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (piece_of[i] >= pieces.size()) pieces.resize(piece_of[i] + 1);
+    pieces[piece_of[i]].push_back(i);
+  }
+  return pieces;
+}
+
+/// Whether a few large pieces are nearly all of it.
+bool is_one_skin(const std::vector<Members>& pieces, double small, std::size_t all) {
+  std::size_t large = 0;
+  std::size_t held = 0;
+  for (const auto& piece : pieces) {
+    if (static_cast<double>(piece.size()) < small) continue;
+    ++large;
+    held += piece.size();
+  }
+  return large <= kMostPieces && static_cast<double>(held) >= kSkinShare * static_cast<double>(all);
+}
+
+/// The median spacing of points by themselves.
+double spacing_among(const PointIndex& clump) {
+  std::vector<double> spacings;
+  for (const auto& point : clump.points()) spacings.push_back(own_spacing(clump, point));
+  return median(std::move(spacings));
+}
+
+/// Of some points, those on whose neighbours a plane fits.
+double flat_share(const std::vector<Vector3d>& all, const Members& members) {
+  const PointIndex index(picked(all, members));
+  const auto& points = index.points();
+  const std::size_t stride = stride_to_at_most(kAskedIfFlat, points.size());
+  std::size_t asked = 0;
+  std::size_t flat = 0;
+  for (std::size_t i = 0; i < points.size(); i += stride, ++asked) {
+    Moments moments;
+    for (const auto& one : index.nearest(points[i], kBeside)) {
+      moments.add(points[one.index] - points[i]);
+    }
+    flat += are_flat(moments.axes(), kFlat * kFlat);
+  }
+  return static_cast<double>(flat) / static_cast<double>(asked);
+}
+
+/// Which of all points outside a clump is nearest to any of it, and how near.
+PointIndex::Neighbour nearest_beyond(const PointIndex& clump, const Members& members,
+                                     const std::vector<Vector3d>& all) {
+  Eigen::AlignedBox3d box;
+  for (const auto& point : clump.points()) box.extend(point);
+  PointIndex::Neighbour nearest{0, std::numeric_limits<double>::infinity()};
+  auto member = members.begin();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (member != members.end() && *member == i) {
+      ++member;
+    } else if (box.squaredExteriorDistance(all[i]) < nearest.squared_distance) {
+      const double squared = clump.nearest(all[i], 1).front().squared_distance;
+      if (squared < nearest.squared_distance) nearest = {i, squared};
+    }
+  }
+  return nearest;
+}
+
+bool is_loose(const Members& members, const PointIndex& all) {
+  const PointIndex clump(picked(all.points(), members));
+  const auto beyond = nearest_beyond(clump, members, all.points());
+  const double spacing =
+      std::max(spacing_among(clump), own_spacing(all, all.points()[beyond.index]));
+  return std::sqrt(beyond.squared_distance) > kGapInSpacings * spacing;
+}
+
+/// A skin, and what is too little of it, or too thick, to be a part of it.
+struct SkinAndClumps {
+  std::vector<Members> skin;
+  std::vector<Members> clumps;
+  std::vector<Members> heaps;
+};
+
+SkinAndClumps skin_and_clumps(const std::vector<Vector3d>& points, double cell_mm) {
+  SkinAndClumps found;
+  auto pieces = pieces_of(points, cell_mm);
+  const auto all = static_cast<double>(points.size());
+  if (!is_one_skin(pieces, kSmallShare * all, points.size())) return found;
+  for (auto& piece : pieces) {
+    const auto size = static_cast<double>(piece.size());
+    if (size < kSmallShare * all) {
+      if (piece.size() >= kFewest) found.clumps.push_back(std::move(piece));
+    } else if (size < kHeapShare * all && flat_share(points, piece) < kFlatOfHeap) {
+      found.heaps.push_back(std::move(piece));
+    } else {
+      found.skin.push_back(std::move(piece));
+    }
+  }
+  return found;
+}
+
+/// Where noise is as large as the spacing, no skin is flat.
+bool is_flat(const std::vector<Members>& skin, const std::vector<Vector3d>& points) {
+  const auto larger = [](const Members& a, const Members& b) { return a.size() < b.size(); };
+  const auto largest = std::max_element(skin.begin(), skin.end(), larger);
+  return largest != skin.end() && flat_share(points, *largest) > kFlatOfSkin;
+}
+
+/// Clumps at some size of cells, whether or not something reaches them.
+std::vector<Members> clumps_among(const std::vector<Vector3d>& points, double cell_mm) {
+  auto found = skin_and_clumps(points, cell_mm);
+  if (!found.heaps.empty() && is_flat(found.skin, points)) {
+    std::move(found.heaps.begin(), found.heaps.end(), std::back_inserter(found.clumps));
+  }
+  return std::move(found.clumps);
+}
+
+}  // namespace
+
+std::vector<bool> loose_clumps(const std::vector<Vector3d>& points, double spacing) {
+  std::vector<bool> loose(points.size(), false);
+  std::optional<PointIndex> all;
+  for (const double cell : kCellsInSpacings) {
+    for (const auto& clump : clumps_among(points, cell * spacing)) {
+      if (!all) all.emplace(points);
+      if (loose[clump.front()] || !is_loose(clump, *all)) continue;
+      for (const std::size_t point : clump) loose[point] = true;
+    }
+  }
+  return loose;
+}
+
+}  // namespace instep
