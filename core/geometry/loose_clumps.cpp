@@ -12,6 +12,7 @@
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
+#include "core/geometry/quadratic_skin.h"
 #include "core/geometry/voxel_grid.h"
 #include "core/median.h"
 #include "core/picked.h"
@@ -29,6 +30,15 @@ constexpr std::size_t kFewest = 4;  ///< of fewer each stands alone
 constexpr double kSmallShare = 0.002;
 constexpr double kHeapShare = 0.02;
 constexpr double kGapInSpacings = 2.0;
+/// Of its size; what is larger may be a line of a scanner, as round a sole.
+constexpr double kGapOfSize = 0.33;
+/// As far apart are lines of a scanner on skin that lies aslant to them.
+constexpr double kLeastGapMm = 6.0;
+/// Of the skin before a gap, what is looked at, how well a quadratic surface fits it, and how far
+/// off it what that skin reaches may be.
+constexpr double kRoundInGaps = 2.0;
+constexpr double kFitsInGaps = 0.1;
+constexpr double kReachedInGaps = 0.3;
 constexpr std::size_t kMostPieces = 6;  ///< of a skin with unseen strips
 constexpr double kSkinShare = 0.98;     ///< of the points, that these hold
 
@@ -88,9 +98,8 @@ double flat_share(const std::vector<Vector3d>& all, const Members& members) {
 
 /// Which of all points outside a clump is nearest to any of it, and how near.
 PointIndex::Neighbour nearest_beyond(const PointIndex& clump, const Members& members,
+                                     const Eigen::AlignedBox3d& box,
                                      const std::vector<Vector3d>& all) {
-  Eigen::AlignedBox3d box;
-  for (const auto& point : clump.points()) box.extend(point);
   PointIndex::Neighbour nearest{0, std::numeric_limits<double>::infinity()};
   auto member = members.begin();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -104,12 +113,59 @@ PointIndex::Neighbour nearest_beyond(const PointIndex& clump, const Members& mem
   return nearest;
 }
 
+/// Points seen from a place, the third coordinate across the skin there.
+struct View {
+  Vector3d place;
+  Eigen::Matrix3d axes;  ///< columns, that across the skin first
+
+  Vector3d of(const Vector3d& point) const {
+    const Vector3d seen = axes.transpose() * (point - place);
+    return {seen[1], seen[2], seen[0]};
+  }
+};
+
+/// The median distance from a surface along its heights.
+double distance_from(const QuadraticSkin& surface, const SkinPatch& points) {
+  std::vector<double> off;
+  for (const auto& point : points) {
+    off.push_back(std::abs(point.z() - surface.at(point.x(), point.y())));
+  }
+  return median(std::move(off));
+}
+
+/// Whether skin bends on to a clump across the gap before it, as a tip does beyond the last but one
+/// of the lines of a scanner.
+bool is_reached(const Members& clump, const PointIndex::Neighbour& nearest, const PointIndex& all) {
+  const Vector3d& place = all.points()[nearest.index];
+  const double gap = std::sqrt(nearest.squared_distance);
+  std::vector<Vector3d> skin;
+  Moments moments;
+  for (const auto& one : all.around(place, kRoundInGaps * gap)) {
+    if (std::binary_search(clump.begin(), clump.end(), one.index)) continue;
+    skin.push_back(all.points()[one.index]);
+    moments.add(skin.back() - place);
+  }
+  const View view{place, moments.axes().eigenvectors()};
+  const auto seen = [&](std::vector<Vector3d> points) {
+    for (auto& point : points) point = view.of(point);
+    return points;
+  };
+  const SkinPatch patch = seen(std::move(skin));
+  const auto surface = QuadraticSkin::through(patch);
+  return surface && distance_from(*surface, patch) < kFitsInGaps * gap &&
+         distance_from(*surface, seen(picked(all.points(), clump))) < kReachedInGaps * gap;
+}
+
 bool is_loose(const Members& members, const PointIndex& all) {
   const PointIndex clump(picked(all.points(), members));
-  const auto beyond = nearest_beyond(clump, members, all.points());
+  Eigen::AlignedBox3d box;
+  for (const auto& point : clump.points()) box.extend(point);
+  const auto beyond = nearest_beyond(clump, members, box, all.points());
   const double spacing =
       std::max(spacing_among(clump), own_spacing(all, all.points()[beyond.index]));
-  return std::sqrt(beyond.squared_distance) > kGapInSpacings * spacing;
+  const double least_gap =
+      std::max({kGapInSpacings * spacing, kGapOfSize * box.diagonal().norm(), kLeastGapMm});
+  return std::sqrt(beyond.squared_distance) > least_gap && !is_reached(members, beyond, all);
 }
 
 /// A skin, and what is too little of it, or too thick, to be a part of it.

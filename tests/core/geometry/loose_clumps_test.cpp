@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "tests/support/random_numbers.h"
 
@@ -89,6 +90,23 @@ TEST(LooseClumps, AreHeapsThoughOfManyPoints) {
     Points points = sheet(100.0, 100.0, random);
     add_clump(points, 150, {50.0, 50.0, 8.0 + 4.0 * spread}, spread, random);
     EXPECT_GT(loose_among(points, 1.0), 140) << spread;
+  }
+}
+
+// The lines of a scanner round a tip end in a small ring that is far from the next one.
+TEST(LooseClumps, AreNoneOfATipInScannedLines) {
+  constexpr double kRadius = 25.0;
+  for (const double first : {0.02, 0.3}) {
+    Points points;
+    for (double down = first; down < 25.0; down += 1.5) {
+      const double round = std::sqrt(2.0 * kRadius * down - down * down);
+      const int count = static_cast<int>(2.0 * std::numbers::pi * round / 0.6) + 1;
+      for (int i = 0; i < count; ++i) {
+        const double turn = 2.0 * std::numbers::pi * i / count;
+        points.emplace_back(round * std::cos(turn), round * std::sin(turn), -down);
+      }
+    }
+    EXPECT_EQ(loose_among(points, 1.0), 0) << first;
   }
 }
 
