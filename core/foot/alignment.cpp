@@ -11,9 +11,11 @@
 #include "core/foot/open_sole.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/plane_under_foot.h"
+#include "core/foot/scanner_lines.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/side_from_shape.h"
 #include "core/foot/unseen_half.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -185,7 +187,13 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
         "the normals that came with the points contradict the shape or point inwards, and were not "
         "used: have them made anew, or leave them out of the file");
   }
-  if (const auto noise_mm = moving_noise_mm(foot.cloud)) {
+  foot.lines = scanner_lines(foot.cloud.positions);
+  if (foot.lines) {
+    alone->warnings.push_back("the points stand in lines " + in_millimetres(foot.lines->pitch) +
+                              " apart, and what lies between them was not seen: let the scanner "
+                              "move more slowly");
+  }
+  if (const auto noise_mm = moving_noise_mm(foot.cloud, foot.lines)) {
     foot.quieted = quieted(foot.cloud, {*noise_mm, rough_length_mm(foot.cloud)});
   }
   const auto plane =

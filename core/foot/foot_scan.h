@@ -11,6 +11,7 @@
 #include "core/foot/side.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
+#include "core/geometry/scan_lines.h"
 
 namespace instep {
 
@@ -46,6 +47,7 @@ struct RedrawnLandmarks {
 struct Parting {
   std::size_t parts = 0;
   bool is_part_left_out = false;
+  bool is_by_line = false;  ///< whole lines of a scanner at random, not points
 };
 
 /// All redraws: the cloud was parted, maybe several times, and the redraws of one parting, one for
@@ -69,6 +71,7 @@ struct Redraws {
 struct FootScan {
   PointCloud cloud;                     ///< foot frame
   std::optional<QuietedCloud> quieted;  ///< foot frame; nothing unless the cloud is noisy
+  std::optional<ScanLines> lines;       ///< of a scanner (scanner_lines()), as the input lies
   std::size_t cloud_number = 0;         ///< among those that align_feet() was given
   Side side = Side::kRight;
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1

@@ -120,35 +120,44 @@ std::vector<LengthDefinition> outline_definitions(const MeasuringRules& rules) {
   };
 }
 
+/// Under a foot in a scanner's level lines the floor may be as deep as the next one would have
+/// been.
+double below_last_line_mm(const FootScan& foot) {
+  if (!foot.lines) return 0.0;
+  const Eigen::Vector3d across = foot.foot_from_input.linear() * foot.lines->across;
+  return foot.lines->pitch * std::abs(across.z());
+}
+
 std::vector<LengthDefinition> height_definitions(const FootScan& foot) {
-  const double sunk_mm = sunk_floor_mm(foot);
+  const double unseen_mm = std::hypot(sunk_floor_mm(foot), below_last_line_mm(foot));
+  const double floor_mm = std::hypot(kFloorDoubtMm, unseen_mm);
   return {
       {"instep_height",
        instep_height,
        {},
        "height over the floor of the foot's back at 0.50 of its length",
        LengthDefinition::Kind::kLength,
-       std::hypot(kFloorDoubtMm, sunk_mm)},
+       floor_mm},
       {"ball_height",
        ball_height,
        {"metatarsale_tibiale", "metatarsale_fibulare", "ball_top"},
        "greatest height over the floor of the upright section over metatarsale tibiale and "
        "fibulare",
        LengthDefinition::Kind::kLength,
-       std::hypot(kFloorDoubtMm, sunk_mm)},
+       floor_mm},
       {"arch_height",
        arch_height,
        {},
        "greatest height over the floor of the underside a quarter of the breadth from the medial "
        "border, in 0.35-0.60 of the foot's length",
        LengthDefinition::Kind::kLength,
-       std::hypot(kFloorDoubtMm, sunk_mm)},
+       floor_mm},
       {"toe1_height",
        toe1_height,
        {},
        "height over the floor of the first toe 15/260 of the foot's length behind its tip",
        LengthDefinition::Kind::kLength,
-       std::hypot(kFloorDoubtAtToesMm, sunk_mm)},
+       std::hypot(kFloorDoubtAtToesMm, unseen_mm)},
   };
 }
 

@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 /// Places at which the points are asked for their noise: of a real foot it is told to a tenth.
 constexpr std::size_t kAskedPlaces = 100;
 constexpr double kMovingMm = 0.2;
+constexpr double kStepsToALine = 1.5;  ///< that are kept of those from one line to the next
 /// Of a whole cloud so many are kept and asked, of a part at most so many kept: all of few points.
 constexpr std::size_t kMostAsked = 100000;
 constexpr std::size_t kMostOfPart = 9000;
@@ -37,6 +38,14 @@ constexpr std::size_t kUsual = 20;
 constexpr double kSharedBy = 0.4;
 /// A point further off in deviations is a stray.
 constexpr double kFurthestOff = 4.0;
+
+/// Of points on lines as few on each as show the lines beside it: the nearest ones of all are on
+/// one line, which tells no skin.
+std::vector<Vector3d> spread_evenly(const std::vector<Vector3d>& points, const ScanLines& lines) {
+  const double kept = std::min(1.0, kStepsToALine * lines.step / lines.apart);
+  const auto count = static_cast<std::size_t>(kept * static_cast<double>(points.size()));
+  return picked(points, some_by_place(points, count));
+}
 
 /// A place on the skin, and the skin's directions there.
 struct SkinFrame {
@@ -130,9 +139,10 @@ void settle(std::vector<Vector3d>& places, const std::vector<bool>& is_seen,
 
 }  // namespace
 
-std::optional<double> moving_noise_mm(const PointCloud& cloud) {
-  const PointIndex all(cloud.positions);
-  const auto places = some_by_place(cloud.positions, kAskedPlaces);
+std::optional<double> moving_noise_mm(const PointCloud& cloud,
+                                      const std::optional<ScanLines>& lines) {
+  const PointIndex all(lines ? spread_evenly(cloud.positions, *lines) : cloud.positions);
+  const auto places = some_by_place(all.points(), kAskedPlaces);
   const double noise_mm = estimate_noise(all, places, {}).shown;
   return noise_mm < kMovingMm ? std::nullopt : std::optional(noise_mm);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/geometry/point_cloud.h"
+#include "core/geometry/scan_lines.h"
 
 namespace instep {
 
@@ -25,9 +26,10 @@ inline constexpr std::size_t kMostQuieted = 20000;
 
 /// Standard deviation of the noise where it is so much that it moves what is read off single
 /// points: the floor, the ends, the borders. By the outermost of its points a foot with 2 mm of
-/// noise was 3 mm too long, for all that robust_extreme() does. `cloud` has passed check_cloud().
-/// Some 10 ms.
-std::optional<double> moving_noise_mm(const PointCloud& cloud);
+/// noise was 3 mm too long, for all that robust_extreme() does. `lines`: of a scanner, if the
+/// points stand in some. `cloud` has passed check_cloud(). Some 10 ms.
+std::optional<double> moving_noise_mm(const PointCloud& cloud,
+                                      const std::optional<ScanLines>& lines = std::nullopt);
 
 /// Each point is put on a quadratic surface through those round it, of a circle that is wider the
 /// more the cloud scatters and the fewer they are there: 6 to 12 mm on a foot of full size

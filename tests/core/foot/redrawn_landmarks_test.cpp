@@ -224,5 +224,40 @@ TEST(Redraws, DrawOtherErrorsOfAnotherFoot) {
   EXPECT_GT(apart / static_cast<double>(growths.size()), 0.3);
 }
 
+/// A foot of which a scanner left lines across it, the first of them `first_mm` before its heel.
+PointCloud in_lines(double apart_mm, double first_mm) {
+  constexpr double kStepMm = 0.5;
+  PointCloud lines;
+  for (const auto& point : test::FootBody{260.0, kStepMm}.points().positions) {
+    const double beyond = std::fmod(point.x() + first_mm + apart_mm, apart_mm);
+    if (beyond < kStepMm) lines.positions.push_back(point);
+  }
+  return lines;
+}
+
+/// Where the next line would have been no point tells, be there ever so many on each.
+TEST(Redraws, OfAFootInLinesTellWhatLiesBetweenThem) {
+  constexpr double kApartMm = 2.0;
+  double furthest_off = 0.0;
+  for (double first = 0.0; first < kApartMm; first += 0.5) {
+    const auto foot = marked(in_lines(kApartMm, first));
+    ASSERT_TRUE(foot.lines) << first;
+    EXPECT_NEAR(foot.lines->pitch, kApartMm, 0.2);
+    Values lengths;
+    for (const auto& redrawn : foot.redraws.landmarks) {
+      const bool is_marked = redrawn.landmarks.contains("acropodion");
+      lengths.push_back(is_marked ? std::optional(length_of(redrawn)) : std::nullopt);
+    }
+    const double length = foot.landmarks.at("acropodion").position_mm.x();
+    const double u95 = u95_by_redraws(length, lengths, foot.redraws.parting).value();
+    const double off = std::abs(length - 260.0);
+    EXPECT_LT(off, u95) << first;
+    EXPECT_LT(u95, 6.0 * kApartMm) << first;
+    EXPECT_GT(u95, 0.2 * kApartMm) << first;
+    furthest_off = std::max(furthest_off, off);
+  }
+  EXPECT_GT(furthest_off, 0.3);
+}
+
 }  // namespace
 }  // namespace instep
