@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/stride.h"
+
 namespace instep {
 namespace {
 
@@ -15,6 +17,8 @@ constexpr double kOff = 0.02;
 constexpr double kSame = 1e-12;
 /// Gaps of so few steps tell the step more exactly than the smallest one, which rounding shortens.
 constexpr double kShortGap = 8.0;
+/// Points that are looked at first.
+constexpr std::size_t kAskedFirst = 500;
 
 /// Between one coordinate and the next, where they differ.
 std::vector<double> gaps_between(std::vector<double> coordinates) {
@@ -51,18 +55,45 @@ std::optional<double> step_of(std::vector<double> coordinates) {
   return is_step ? step : 0.0;
 }
 
+std::vector<double> coordinates_of(const std::vector<Eigen::Vector3d>& points, Eigen::Index axis,
+                                   std::size_t stride) {
+  std::vector<double> coordinates;
+  coordinates.reserve(points.size() / stride + 1);
+  for (std::size_t i = 0; i < points.size(); i += stride) coordinates.push_back(points[i][axis]);
+  return coordinates;
+}
+
+/// Whether some of the points show that the step along an axis is less, if there is one: no gap
+/// is shorter than a step, but for what a step may be off, nor wider than the way between two
+/// others that it lies between.
+bool is_surely_less(const std::vector<Eigen::Vector3d>& points, double step) {
+  double largest = 0.0;
+  for (const auto& point : points) largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  const double differ = kSame * largest * static_cast<double>(points.size());
+  const std::size_t stride = stride_to_at_most(kAskedFirst, points.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto gaps = gaps_between(coordinates_of(points, axis, stride));
+    if (std::any_of(gaps.begin(), gaps.end(),
+                    [&](double gap) { return gap > differ && gap < (1.0 - 2.0 * kOff) * step; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 double coordinate_step(const std::vector<Eigen::Vector3d>& points) {
   std::optional<double> finest;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    std::vector<double> along;
-    along.reserve(points.size());
-    for (const auto& point : points) along.push_back(point[axis]);
-    const auto step = step_of(std::move(along));
+    const auto step = step_of(coordinates_of(points, axis, 1));
     if (step && (!finest || *step < *finest)) finest = step;
   }
   return finest.value_or(0.0);
+}
+
+bool is_coordinate_step_over(double least, const std::vector<Eigen::Vector3d>& points) {
+  return !is_surely_less(points, least) && coordinate_step(points) > least;
 }
 
 }  // namespace instep

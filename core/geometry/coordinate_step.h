@@ -11,4 +11,8 @@ namespace instep {
 /// are all one. O(n log n).
 double coordinate_step(const std::vector<Eigen::Vector3d>& points);
 
+/// Whether coordinate_step() is larger than `least`. Quick where a few hundred of the points show
+/// two numbers nearer to each other than that: then it cannot be.
+bool is_coordinate_step_over(double least, const std::vector<Eigen::Vector3d>& points);
+
 }  // namespace instep

@@ -252,7 +252,7 @@ std::optional<FinerSkin> finer_skin_at(const PlaneBand& band, const BlendedSurfa
 }
 
 bool may_be_rounding(const FinerSkin& skin, double unit_mm, const PointCloud& cloud) {
-  return unit_mm * skin.height < kOfAStep * coordinate_step(cloud.positions);
+  return is_coordinate_step_over(unit_mm * skin.height / kOfAStep, cloud.positions);
 }
 
 }  // namespace instep

@@ -60,5 +60,17 @@ TEST(CoordinateStep, IsNoneOfOneCoordinate) {
   EXPECT_EQ(coordinate_step({{1, 2, 3}, {1, 2, 3}}), 0.0);
 }
 
+TEST(CoordinateStep, IsOverWhatIsLess) {
+  for (const double step : {0.01, 0.2, 1.0}) {
+    const auto points = drawn({step, step, step});
+    EXPECT_TRUE(is_coordinate_step_over(0.9 * step, points)) << step;
+    EXPECT_FALSE(is_coordinate_step_over(1.1 * step, points)) << step;
+  }
+  EXPECT_FALSE(is_coordinate_step_over(1e-3, drawn({0.0, 0.0, 1.0})));
+  EXPECT_FALSE(is_coordinate_step_over(1e-6, drawn({0.0, 0.0, 0.0})));
+  EXPECT_FALSE(is_coordinate_step_over(0.0, {{1, 2, 3}}));
+  EXPECT_FALSE(is_coordinate_step_over(0.0, {}));
+}
+
 }  // namespace
 }  // namespace instep
