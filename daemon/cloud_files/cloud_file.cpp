@@ -109,6 +109,15 @@ double extent_of_most(const std::vector<Eigen::Vector3d>& positions) {
   return longest;
 }
 
+/// By most of the points, for a stray may be metres away: but not asked of all where the whole is
+/// of a likely size. Where nearly all are at one place, as those that a scanner did not see, the
+/// others tell.
+double size_of_body(const std::vector<Eigen::Vector3d>& positions, double extent, LengthUnit unit) {
+  if (unit != LengthUnit::kAuto && !doubt_of_unit(unit, extent)) return extent;
+  const double most = extent_of_most(positions);
+  return most > 0.0 ? most : extent;
+}
+
 /// What stands in the same columns: none of it is negative, and only by chance of length 1.
 bool are_colours(const std::vector<Eigen::Vector3d>& guessed) {
   constexpr double kOffOne = 0.02;  // of normals of two decimals
@@ -219,7 +228,8 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   const std::size_t points_in_file = raw->cloud.size();
   if (auto good = leave_out_unseen(*raw, file); !good) return tl::make_unexpected(good.error());
   const double extent = extent_of(raw->cloud.positions);
-  const auto settled = settle_unit(unit, extent, file);
+  const double size = size_of_body(raw->cloud.positions, extent, unit);
+  const auto settled = settle_unit(unit, size, file);
   if (!settled) return tl::make_unexpected(with_what_was_noticed(settled.error(), raw->notes));
 
   CloudFile read;
@@ -232,7 +242,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
   }
   if (unit == LengthUnit::kAuto) {
     read.notes.push_back(fmt::format("the unit was taken to be {} by the body's size of {:.0f} mm",
-                                     to_string(*settled), extent * scale));
+                                     to_string(*settled), size * scale));
   }
   std::move(raw->notes.begin(), raw->notes.end(), std::back_inserter(read.notes));
   if (raw->surplus_bytes > 0) {
@@ -241,10 +251,7 @@ Result<CloudFile> read_cloud_bytes(std::string_view bytes, const std::filesystem
         "any are missing of its {} points, export it again",
         raw->surplus_bytes, points_in_file));
   }
-  if (doubt_of_unit(*settled, extent)) {
-    const double most = extent_of_most(read.cloud.positions) / scale;
-    if (const auto doubt = doubt_of_size(*settled, extent, most)) read.notes.push_back(*doubt);
-  }
+  if (const auto doubt = doubt_of_size(*settled, extent, size)) read.notes.push_back(*doubt);
   drop_colours(*raw, read);
   settle_normals(read);
   if (!read.cloud.has_normals())

@@ -282,6 +282,28 @@ TEST_F(CloudFiles, NamesStraysWhereTheyAloneAreFarAway) {
   EXPECT_EQ(strayed->notes[0].find("--unit"), std::string::npos) << strayed->notes[0];
 }
 
+TEST_F(CloudFiles, AreOfTheUnitThatMostPointsTell) {
+  std::string foot;
+  for (int i = 0; i <= 250; ++i) foot += std::to_string(0.1 * i) + " 0 0\n";
+  for (const char* stray : {"400 0 0\n", "3000 0 0\n"}) {
+    const auto read_so = read("strayed.xyz", foot + stray, LengthUnit::kAuto);
+    ASSERT_TRUE(read_so) << read_so.error().line();
+    EXPECT_EQ(read_so->unit, LengthUnit::kCentimetre);
+  }
+  const auto far = read("strayed.xyz", foot + "3000 0 0\n", LengthUnit::kCentimetre);
+  ASSERT_TRUE(far && far->notes.size() == 1U);
+  EXPECT_NE(far->notes[0].find("far from all others"), std::string::npos) << far->notes[0];
+}
+
+// Where a scanner saw nothing some write the origin.
+TEST_F(CloudFiles, AreOfTheUnitThatPointsAtOtherPlacesTell) {
+  std::string foot;
+  for (int i = 0; i <= 250; ++i) foot += i < 2 ? std::to_string(250 * i) + " 0 0\n" : "0 0 0\n";
+  const auto read_so = read("unseen.xyz", foot);
+  ASSERT_TRUE(read_so) << read_so.error().line();
+  EXPECT_EQ(read_so->unit, LengthUnit::kMillimetre);
+}
+
 TEST_F(CloudFiles, ReadsDecimalCommas) {
   for (const std::string text :
        {"x;y;z\n1,5;-2,25;3\n4;5;6,125\n", "1,5 -2,25 3\n4 5 6,125\n",
