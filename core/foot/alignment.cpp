@@ -190,8 +190,8 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   foot.lines = scanner_lines(foot.cloud.positions);
   if (foot.lines) {
     alone->warnings.push_back("the points stand in lines " + in_millimetres(foot.lines->pitch) +
-                              " apart, and what lies between them was not seen: let the scanner "
-                              "move more slowly");
+                              " apart, and what lies between them was not seen: set the "
+                              "scanner's lines closer, or move it more slowly");
   }
   if (const auto noise_mm = moving_noise_mm(foot.cloud, foot.lines)) {
     foot.quieted = quieted(foot.cloud, {*noise_mm, rough_length_mm(foot.cloud)});
@@ -221,8 +221,9 @@ FootScan aligned_as(const FootScan& foot, PointCloud cloud) {
   return other;
 }
 
-bool realign(FootScan& foot) {
-  const StandingPlane floor = floor_again(foot);
+bool realign(FootScan& foot, double deeper_mm) {
+  StandingPlane floor = floor_again(foot);
+  floor.height_mm -= deeper_mm;
   const RigidTransform standing_from_cloud = floor.standing_from_input();
   OutlineAxis start;
   start.length_mm = foot.landmarks.at("acropodion").position_mm.x();

@@ -57,6 +57,8 @@ FootScan aligned_as(const FootScan& foot, PointCloud cloud);
 /// were taken away: moves its cloud into the new frame, adds the move to `foot_from_input`, and
 /// sets the three landmarks, all others gone. The side stays. False, with the foot as it was, where
 /// the points do not show the axis of the foot's rules any more.
-[[nodiscard]] bool realign(FootScan& foot);
+///
+/// `deeper_mm`: put the floor so much below where the points tell it.
+[[nodiscard]] bool realign(FootScan& foot, double deeper_mm = 0.0);
 
 }  // namespace instep

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/foot/scanner_lines.h"
 #include "core/geometry/loose_clumps.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
@@ -40,7 +41,10 @@ LeftOutStrays take_out(PointCloud& cloud, const Finder& strays_in) {
   const double spacing = usual_spacing(index, kSpacingSample);
   if (!(spacing > 0.0)) return left_out;
   take_out(strays_in(index, spacing), cloud);
-  left_out.any_clump = take_out(loose_clumps(cloud.positions, spacing), cloud);
+  const std::vector<bool> clumps = loose_clumps(cloud.positions, spacing);
+  const bool any = std::find(clumps.begin(), clumps.end(), true) != clumps.end();
+  // Where a scanner's lines meet skin aslant the last of them are as far from all others.
+  left_out.any_clump = any && !scanner_lines(cloud.positions) && take_out(clumps, cloud);
   const auto all = static_cast<double>(index.points().size());
   left_out.share = 1.0 - static_cast<double>(cloud.size()) / all;
   return left_out;

@@ -120,17 +120,9 @@ std::vector<LengthDefinition> outline_definitions(const MeasuringRules& rules) {
   };
 }
 
-/// Under a foot in a scanner's level lines the floor may be as deep as the next one would have
-/// been.
-double below_last_line_mm(const FootScan& foot) {
-  if (!foot.lines) return 0.0;
-  const Eigen::Vector3d across = foot.foot_from_input.linear() * foot.lines->across;
-  return foot.lines->pitch * std::abs(across.z());
-}
-
 std::vector<LengthDefinition> height_definitions(const FootScan& foot) {
-  const double unseen_mm = std::hypot(sunk_floor_mm(foot), below_last_line_mm(foot));
-  const double floor_mm = std::hypot(kFloorDoubtMm, unseen_mm);
+  const double sunk_mm = sunk_floor_mm(foot);
+  const double floor_mm = std::hypot(kFloorDoubtMm, sunk_mm);
   return {
       {"instep_height",
        instep_height,
@@ -157,7 +149,7 @@ std::vector<LengthDefinition> height_definitions(const FootScan& foot) {
        {},
        "height over the floor of the first toe 15/260 of the foot's length behind its tip",
        LengthDefinition::Kind::kLength,
-       std::hypot(kFloorDoubtAtToesMm, unseen_mm)},
+       std::hypot(kFloorDoubtAtToesMm, sunk_mm)},
   };
 }
 

@@ -27,6 +27,7 @@ constexpr Parting kLinesLeftOut{4, true, true};
 /// and lasts in lines of 1.5 and 2.5 mm, of any direction, 97.8 % of 314 intervals hold so.
 constexpr double kShareOfLines = 0.56;
 constexpr long long kNoFewerSlabs = 1 << 20;
+constexpr std::size_t kBitsOfALot = 8;  ///< of a number, for each parting
 constexpr std::size_t kFewestDegrees = 2;
 // What all redraws share, holes and the rules' own roundings, does not show in their scatter. Over
 // drawn feet (tests/bench/feet) intervals so much wider hold about as often as they should.
@@ -51,17 +52,22 @@ std::optional<Quieting> quieting_of(const FootScan& foot, const Parting& parting
   return quieting;
 }
 
-/// On some of the points, moved by such a draw of local errors; none where the axis is not found
-/// again.
-RedrawnLandmarks redrawn_on(const FootScan& foot, const std::vector<std::size_t>& indices,
-                            const std::optional<Quieting>& quieting,
-                            std::optional<std::uint64_t> draw) {
-  PointCloud points = foot.cloud.subset(indices);
+/// What one redraw differs by from the foot as found.
+struct Redraw {
+  std::vector<std::size_t> points;    ///< on these
+  std::optional<std::uint64_t> draw;  ///< moved by such a draw of local errors
+  double deeper_floor_mm = 0.0;
+};
+
+/// None where the axis is not found again.
+RedrawnLandmarks redrawn_on(const FootScan& foot, const Redraw& redraw,
+                            const std::optional<Quieting>& quieting) {
+  PointCloud points = foot.cloud.subset(redraw.points);
   if (quieting) points = quieted(points, *quieting).cloud;
   FootScan part = aligned_as(foot, std::move(points));
-  if (draw) err_anew(*draw, part.cloud);
+  if (redraw.draw) err_anew(*redraw.draw, part.cloud);
   // Along another axis its landmarks would be those of another foot.
-  if (!realign(part)) return {};
+  if (!realign(part, redraw.deeper_floor_mm)) return {};
   mark(part);
   return {std::move(part.landmarks), part.foot_from_input.inverse()};
 }
@@ -89,18 +95,30 @@ struct Lots {
 };
 
 /// All points of a scanner's line come into the same part, for what lies between lines is not told
-/// by how many points these have; a part alone would have hardly any. Where a line crosses from one
-/// slab to the next, its pieces are as good.
+/// by how many points these have; a part alone would have hardly any. In turn, so that never two
+/// beside each other are left out, and in the second parting with others. Where a line crosses from
+/// one slab to the next, its pieces are as good.
 Lots lots_by_line(const std::vector<Vector3d>& points, const ScanLines& lines,
                   const RigidTransform& points_from_input) {
+  constexpr std::uint64_t kParts = kLinesLeftOut.parts;
   const Vector3d across = points_from_input.linear() * lines.across;
   Lots lots{kLinesLeftOut, {}};
   lots.numbers.reserve(points.size());
   for (const auto& point : points) {
-    const auto slab = std::llround(across.dot(point) / lines.pitch);
-    lots.numbers.push_back(mixed_bits(static_cast<std::uint64_t>(slab + kNoFewerSlabs)));
+    const auto slab =
+        static_cast<std::uint64_t>(kNoFewerSlabs + std::llround(across.dot(point) / lines.pitch));
+    lots.numbers.push_back(slab % kParts + ((slab + slab / kParts) % kParts << kBitsOfALot));
   }
   return lots;
+}
+
+/// Under a foot in a scanner's level lines the floor may be as deep as the next one would have
+/// been. Of lines aslant several cross the sole.
+double below_last_line_mm(const FootScan& foot) {
+  constexpr double kSoleMm = 40.0;  // of a flat part of it
+  if (!foot.lines || foot.is_floor_known) return 0.0;
+  const Vector3d across = foot.foot_from_input.linear() * foot.lines->across;
+  return foot.lines->pitch > kSoleMm * across.head<2>().norm() ? foot.lines->pitch : 0.0;
 }
 
 Lots lots_of(const FootScan& foot) {
@@ -118,7 +136,7 @@ Lots lots_of(const FootScan& foot) {
 /// Of the points, those that a redraw is made on.
 std::vector<std::size_t> points_of(const PointCloud& cloud, const Lots& lots, std::size_t redraw) {
   const auto& [parting, numbers] = lots;
-  const std::size_t bits = 8 * (redraw / parting.parts);
+  const std::size_t bits = kBitsOfALot * (redraw / parting.parts);
   const std::size_t part = redraw % parting.parts;
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -175,13 +193,16 @@ Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
   redraws.erring.resize(foot.cloud.local_errors.empty() ? 0 : count);
   const std::uint64_t first_draw = first_draw_of(foot.cloud);
   const auto quieting = quieting_of(foot, redraws.parting);
+  const double below_mm = below_last_line_mm(foot);
   workers(count + redraws.erring.size(), [&](std::size_t job) {
-    const std::size_t redraw = job % count;
-    const auto taken = points_of(foot.cloud, lots, redraw);
+    const std::size_t number = job % count;
+    Redraw redraw{points_of(foot.cloud, lots, number), std::nullopt,
+                  below_mm * static_cast<double>(number % parts) / static_cast<double>(parts - 1)};
     if (job < count) {
-      redraws.landmarks[redraw] = redrawn_on(foot, taken, quieting, std::nullopt);
+      redraws.landmarks[number] = redrawn_on(foot, redraw, quieting);
     } else {
-      redraws.erring[redraw] = redrawn_on(foot, taken, quieting, first_draw + redraw);
+      redraw.draw = first_draw + number;
+      redraws.erring[number] = redrawn_on(foot, redraw, quieting);
     }
   });
   return redraws;

@@ -21,8 +21,9 @@ namespace instep {
 ///
 /// Where a scanner left its points in lines (FootScan::lines), all of one line come into the same
 /// part, and each of four parts is left out: how far the next line may lie is what leaves an end or
-/// a border open, and points beside each other on a line say nothing of it. Intervals of a foot in
-/// lines 2 mm apart reach some 2 mm further at each end that lies across them.
+/// a border open, and points beside each other on a line say nothing of it. Under level lines the
+/// floor is put up to a line deeper as well, to each redraw another one. Intervals of a foot reach
+/// about as much further at each end that lies across lines as these are apart.
 ///
 /// What errors that neighbouring points share (LocalErrors) leave open does not fall with their
 /// number: each part is asked twice, the second time with its points moved by a draw of them.

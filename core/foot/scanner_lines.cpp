@@ -11,7 +11,7 @@ namespace instep {
 namespace {
 
 constexpr double kLeastPitchMm = 1.2;
-constexpr double kWidestMm = 12.0;  ///< looked at round a point, to see the next line
+constexpr double kWidestMm = 20.0;  ///< looked at round a point, to see the next line
 constexpr std::size_t kMostAsked = 200000;
 
 }  // namespace

@@ -61,7 +61,7 @@ std::vector<Members> pieces_of(const std::vector<Vector3d>& points, double cell_
 }
 
 /// Whether a few large pieces are nearly all of it.
-bool is_one_skin(const std::vector<Members>& pieces, double small, std::size_t all) {
+bool is_few_large_pieces(const std::vector<Members>& pieces, double small, std::size_t all) {
   std::size_t large = 0;
   std::size_t held = 0;
   for (const auto& piece : pieces) {
@@ -179,7 +179,7 @@ SkinAndClumps skin_and_clumps(const std::vector<Vector3d>& points, double cell_m
   SkinAndClumps found;
   auto pieces = pieces_of(points, cell_mm);
   const auto all = static_cast<double>(points.size());
-  if (!is_one_skin(pieces, kSmallShare * all, points.size())) return found;
+  if (!is_few_large_pieces(pieces, kSmallShare * all, points.size())) return found;
   for (auto& piece : pieces) {
     const auto size = static_cast<double>(piece.size());
     if (size < kSmallShare * all) {

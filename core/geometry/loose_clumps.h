@@ -14,10 +14,11 @@ namespace instep {
 /// skin, far apart as they are; and so is what is small but sparse, for the wider counts of its own
 /// spacing and of that of the nearest skin.
 ///
-/// `spacing` > 0: of most points. None where a skin comes in more than a few large pieces, as in
-/// lines. Which points hang together is told by cells of 1.5, 3 and 6 spacings, so that a gap of up
-/// to five may pass for none, by how they lie. Three sorts, and search trees where there are
-/// clumps.
+/// `spacing` > 0: of most points. None where a skin comes in more than a few large pieces. Of a
+/// scanner's lines on skin that is aslant to them some may be far enough from all others: do not
+/// ask where there are such (scanner_lines()). Which points hang together is told by cells of 1.5,
+/// 3 and 6 spacings, so that a gap of up to five may pass for none, by how they lie. Three sorts,
+/// and search trees where there are clumps.
 std::vector<bool> loose_clumps(const std::vector<Eigen::Vector3d>& points, double spacing);
 
 }  // namespace instep

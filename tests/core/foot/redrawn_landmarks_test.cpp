@@ -252,7 +252,7 @@ TEST(Redraws, OfAFootInLinesTellWhatLiesBetweenThem) {
     const double u95 = u95_by_redraws(length, lengths, foot.redraws.parting).value();
     const double off = std::abs(length - 260.0);
     EXPECT_LT(off, u95) << first;
-    EXPECT_LT(u95, 6.0 * kApartMm) << first;
+    EXPECT_LT(u95, 3.0 * kApartMm) << first;
     EXPECT_GT(u95, 0.2 * kApartMm) << first;
     furthest_off = std::max(furthest_off, off);
   }
