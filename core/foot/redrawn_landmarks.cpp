@@ -23,8 +23,9 @@ constexpr std::size_t kPointsOfPart = 6000;
 constexpr Parting kPartLeftOut{4, true};
 constexpr Parting kLinesLeftOut{4, true, true};
 /// An end moves by as much for a line that is left out as it would for one beyond the last, and
-/// what bends between lines by far more: a jackknife's share would be 2.25. Of retail and lab feet
-/// and lasts in lines of 1.5 and 2.5 mm, of any direction, 97.8 % of 314 intervals hold so.
+/// what bends between lines by far more: a jackknife's share would be 2.25. Of two feet and two
+/// lasts in lines 1.5 and 2.5 mm apart, in three directions, 97.8 % of 314 intervals hold so; of
+/// others, 2 and 3.5 mm apart, 98.8 % of 240.
 constexpr double kShareOfLines = 0.56;
 constexpr long long kNoFewerSlabs = 1 << 20;
 constexpr std::size_t kBitsOfALot = 8;  ///< of a number, for each parting
