@@ -160,12 +160,16 @@ bool is_loose(const Members& members, const PointIndex& all) {
   const PointIndex clump(picked(all.points(), members));
   Eigen::AlignedBox3d box;
   for (const auto& point : clump.points()) box.extend(point);
+  const double least_gap = std::max(kGapOfSize * box.diagonal().norm(), kLeastGapMm);
+  // So of most: skin that is seen sparsely at a side comes in thousands of small pieces.
+  const bool has_others_near =
+      all.around(clump.points().front(), least_gap).size() > members.size();
+  if (has_others_near) return false;
   const auto beyond = nearest_beyond(clump, members, box, all.points());
   const double spacing =
       std::max(spacing_among(clump), own_spacing(all, all.points()[beyond.index]));
-  const double least_gap =
-      std::max({kGapInSpacings * spacing, kGapOfSize * box.diagonal().norm(), kLeastGapMm});
-  return std::sqrt(beyond.squared_distance) > least_gap && !is_reached(members, beyond, all);
+  return std::sqrt(beyond.squared_distance) > std::max(kGapInSpacings * spacing, least_gap) &&
+         !is_reached(members, beyond, all);
 }
 
 /// A skin, and what is too little of it, or too thick, to be a part of it.
