@@ -47,7 +47,7 @@ struct RedrawnLandmarks {
 struct Parting {
   std::size_t parts = 0;
   bool is_part_left_out = false;
-  bool is_by_line = false;  ///< whole lines of a scanner at random, not points
+  bool is_by_line = false;  ///< whole lines of a scanner in turn, not points
 };
 
 /// All redraws: the cloud was parted, maybe several times, and the redraws of one parting, one for

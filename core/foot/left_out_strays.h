@@ -12,9 +12,9 @@ struct LeftOutStrays {
 
 /// Takes strays (strays_among()) out of a cloud before anything is read off it: one under a foot
 /// would be its floor, one before it its toe, and the skin of an open sole would be laid out to one
-/// beside it. So it is with clumps of them that no skin reaches (loose_clumps()). A thin line of
-/// them that starts at the skin, and a clump of more than a five hundredth of the points, pass for
-/// skin.
+/// beside it. So it is with clumps of them that no skin reaches (loose_clumps()), but in a cloud
+/// that stands in a scanner's lines (scanner_lines()), whose last ones are as far from all others.
+/// A thin line of strays that starts at the skin, and a larger or nearer clump, pass for skin.
 ///
 /// Of more than 60,000 points just those that stand alone are strays; but where there are many
 /// among some of them, all but as many others go with them, which show a foot no worse.

@@ -27,8 +27,8 @@ constexpr Parting kLinesLeftOut{4, true, true};
 /// lasts in lines 1.5 and 2.5 mm apart, in three directions, 97.8 % of 314 intervals hold so; of
 /// others, 2 and 3.5 mm apart, 98.8 % of 240.
 constexpr double kShareOfLines = 0.56;
-constexpr long long kNoFewerSlabs = 1 << 20;
-constexpr std::size_t kBitsOfALot = 8;  ///< of a number, for each parting
+constexpr long long kNoFewerSlabs = 1 << 20;  ///< before the first: no number is negative
+constexpr std::size_t kBitsOfALot = 8;
 constexpr std::size_t kFewestDegrees = 2;
 // What all redraws share, holes and the rules' own roundings, does not show in their scatter. Over
 // drawn feet (tests/bench/feet) intervals so much wider hold about as often as they should.
@@ -89,7 +89,8 @@ bool is_guessed_wall(const PointCloud& cloud, std::size_t index) {
          cloud.positions[index].z() > WallSettings{}.usual_edge_mm;
 }
 
-/// How the points are parted, and numbers by which each comes into a part, as if at random.
+/// How the points are parted, and numbers by which each comes into a part: at random, but lines in
+/// turn. Each parting reads bits of its own.
 struct Lots {
   Parting parting;
   std::vector<std::uint64_t> numbers;

@@ -42,23 +42,23 @@ void sort_by_length(Arms& arms) {
                     });
 }
 
-/// How far the first of some points spread in each direction, from the least (sums of squares).
-Eigen::Vector3d spreads_of(const Arms& arms, std::size_t count) {
+/// The directions in which the first of some points spread, and how far.
+SpreadAxes axes_of(const Arms& arms, std::size_t count) {
   Moments moments;
   for (std::size_t i = 0; i < count; ++i) moments.add(arms[i]);
-  return moments.axes().eigenvalues();
+  return moments.axes();
 }
 
 /// The second most spread of the first of some points against the most.
 double thickness(const Arms& arms, std::size_t count) {
-  const Eigen::Vector3d spreads = spreads_of(arms, count);
+  const Eigen::Vector3d spreads = axes_of(arms, count).eigenvalues();
   return spreads[1] / spreads[2];
 }
 
 /// Of what lies under points on a plane: that of an ellipse with their spread, which half of it or
 /// a strip, as at the end of a cloud, has within a twentieth.
 double area_of(const Arms& arms) {
-  const Eigen::Vector3d spreads = spreads_of(arms, arms.size());
+  const Eigen::Vector3d spreads = axes_of(arms, arms.size()).eigenvalues();
   return 4.0 * std::numbers::pi * std::sqrt(spreads[1] * spreads[2]) /
          static_cast<double>(arms.size());
 }
@@ -114,13 +114,6 @@ FlatView flattened(const PointIndex& index, const Eigen::Vector3d& place, double
   return {std::move(arms), up};
 }
 
-/// The direction in which the first of some points spread most.
-Eigen::Vector3d along(const Arms& arms, std::size_t count) {
-  Moments moments;
-  for (std::size_t i = 0; i < count; ++i) moments.add(arms[i]);
-  return moments.axes().eigenvectors().col(2);
-}
-
 /// Lines as one point sees them.
 struct SeenLines {
   double step = 0.0;
@@ -141,7 +134,7 @@ std::optional<SeenLines> lines_round(const PointIndex& index, const Eigen::Vecto
     if (alike == 0) continue;
     const double step = 2.0 * arms[alike - 1].norm() / static_cast<double>(alike);
     const Arms further = flattened(index, place, kFurtherRound * reach).arms;
-    const Eigen::Vector3d way = along(arms, alike);
+    const Eigen::Vector3d way = axes_of(arms, alike).eigenvectors().col(2);
     return SeenLines{step, area_of(further) / static_cast<double>(further.size()) / step, way,
                      up.cross(way)};
   }
