@@ -170,6 +170,13 @@ StandingPlane floor_again(const FootScan& foot) {
   return plane_again(points, foot.landmarks.at("acropodion").position_mm.x());
 }
 
+/// A refusal of points in lines: what is missed may lie between them.
+Error said_of_lines(Error refusal, const ScannerLines& lines) {
+  refusal.advice += "; the points stand in lines " + in_millimetres(lines.pitch_mm) +
+                    " apart: if all else is right, set the scanner's lines closer";
+  return refusal;
+}
+
 }  // namespace
 
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& told) {
@@ -189,7 +196,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   }
   foot.lines = scanner_lines(foot.cloud.positions);
   if (foot.lines) {
-    alone->warnings.push_back("the points stand in lines " + in_millimetres(foot.lines->pitch) +
+    alone->warnings.push_back("the points stand in lines " + in_millimetres(foot.lines->pitch_mm) +
                               " apart, and what lies between them was not seen: set the "
                               "scanner's lines closer, or move it more slowly");
   }
@@ -202,6 +209,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
   if (may_be_last && !options.standing_plane && !options.up)
     found = as_last(foot, options, std::move(found));
+  if (!found && foot.lines) return tl::unexpected(said_of_lines(found.error(), *foot.lines));
   if (!found) return found;
   found->warnings.insert(found->warnings.end(), alone->warnings.begin(), alone->warnings.end());
   return found;

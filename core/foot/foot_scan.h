@@ -8,10 +8,10 @@
 
 #include "core/foot/measuring_rules.h"
 #include "core/foot/quieted.h"
+#include "core/foot/scanner_lines.h"
 #include "core/foot/side.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
-#include "core/geometry/scan_lines.h"
 
 namespace instep {
 
@@ -71,7 +71,7 @@ struct Redraws {
 struct FootScan {
   PointCloud cloud;                     ///< foot frame
   std::optional<QuietedCloud> quieted;  ///< foot frame; nothing unless the cloud is noisy
-  std::optional<ScanLines> lines;       ///< of a scanner (scanner_lines()), as the input lies
+  std::optional<ScannerLines> lines;    ///< of a scanner (scanner_lines()), as the input lies
   std::size_t cloud_number = 0;         ///< among those that align_feet() was given
   Side side = Side::kRight;
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1

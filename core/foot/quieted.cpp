@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "core/foot/full_size.h"
+#include "core/foot/skin_noise.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/quadratic_skin.h"
 #include "core/picked.h"
-#include "core/surface/noise_estimate.h"
 
 namespace instep {
 namespace {
@@ -41,8 +41,9 @@ constexpr double kFurthestOff = 4.0;
 
 /// Of points on lines as few on each as show the lines beside it: the nearest ones of all are on
 /// one line, which tells no skin.
-std::vector<Vector3d> spread_evenly(const std::vector<Vector3d>& points, const ScanLines& lines) {
-  const double kept = std::min(1.0, kStepsToALine * lines.step / lines.apart);
+std::vector<Vector3d> spread_evenly(const std::vector<Vector3d>& points,
+                                    const ScannerLines& lines) {
+  const double kept = std::min(1.0, kStepsToALine * lines.step_mm / lines.pitch_mm);
   const auto count = static_cast<std::size_t>(kept * static_cast<double>(points.size()));
   return picked(points, some_by_place(points, count));
 }
@@ -140,10 +141,9 @@ void settle(std::vector<Vector3d>& places, const std::vector<bool>& is_seen,
 }  // namespace
 
 std::optional<double> moving_noise_mm(const PointCloud& cloud,
-                                      const std::optional<ScanLines>& lines) {
-  const PointIndex all(lines ? spread_evenly(cloud.positions, *lines) : cloud.positions);
-  const auto places = some_by_place(all.points(), kAskedPlaces);
-  const double noise_mm = estimate_noise(all, places, {}).shown;
+                                      const std::optional<ScannerLines>& lines) {
+  const auto all = lines ? spread_evenly(cloud.positions, *lines) : cloud.positions;
+  const double noise_mm = SkinNoise(all).deviation_mm(some_by_place(all, kAskedPlaces));
   return noise_mm < kMovingMm ? std::nullopt : std::optional(noise_mm);
 }
 

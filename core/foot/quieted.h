@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/foot/scanner_lines.h"
 #include "core/geometry/point_cloud.h"
-#include "core/geometry/scan_lines.h"
 
 namespace instep {
 
@@ -29,7 +29,7 @@ inline constexpr std::size_t kMostQuieted = 20000;
 /// noise was 3 mm too long, for all that robust_extreme() does. `lines`: of a scanner, if the
 /// points stand in some. `cloud` has passed check_cloud(). Some 10 ms.
 std::optional<double> moving_noise_mm(const PointCloud& cloud,
-                                      const std::optional<ScanLines>& lines = std::nullopt);
+                                      const std::optional<ScannerLines>& lines = std::nullopt);
 
 /// Each point is put on a quadratic surface through those round it, of a circle that is wider the
 /// more the cloud scatters and the fewer they are there: 6 to 12 mm on a foot of full size

@@ -27,7 +27,7 @@ constexpr Parting kLinesLeftOut{4, true, true};
 /// lasts in lines 1.5 and 2.5 mm apart, in three directions, 97.8 % of 314 intervals hold so; of
 /// others, 2 and 3.5 mm apart, 98.8 % of 240.
 constexpr double kShareOfLines = 0.56;
-constexpr long long kNoFewerSlabs = 1 << 20;  ///< before the first: no number is negative
+constexpr long long kNoFewerLines = 1 << 20;  ///< before the first: no number is negative
 constexpr std::size_t kBitsOfALot = 8;
 constexpr std::size_t kFewestDegrees = 2;
 // What all redraws share, holes and the rules' own roundings, does not show in their scatter. Over
@@ -98,18 +98,16 @@ struct Lots {
 
 /// All points of a scanner's line come into the same part, for what lies between lines is not told
 /// by how many points these have; a part alone would have hardly any. In turn, so that never two
-/// beside each other are left out, and in the second parting with others. Where a line crosses from
-/// one slab to the next, its pieces are as good.
-Lots lots_by_line(const std::vector<Vector3d>& points, const ScanLines& lines,
-                  const RigidTransform& points_from_input) {
+/// beside each other are left out, and in the second parting with others.
+Lots lots_by_line(const std::vector<Vector3d>& points, const ScannerLines& lines,
+                  const RigidTransform& input_from_points) {
   constexpr std::uint64_t kParts = kLinesLeftOut.parts;
-  const Vector3d across = points_from_input.linear() * lines.across;
   Lots lots{kLinesLeftOut, {}};
   lots.numbers.reserve(points.size());
   for (const auto& point : points) {
-    const auto slab =
-        static_cast<std::uint64_t>(kNoFewerSlabs + std::llround(across.dot(point) / lines.pitch));
-    lots.numbers.push_back(slab % kParts + ((slab + slab / kParts) % kParts << kBitsOfALot));
+    const auto line =
+        static_cast<std::uint64_t>(kNoFewerLines + lines.line_of(input_from_points * point));
+    lots.numbers.push_back(line % kParts + ((line + line / kParts) % kParts << kBitsOfALot));
   }
   return lots;
 }
@@ -120,12 +118,13 @@ double below_last_line_mm(const FootScan& foot) {
   constexpr double kSoleMm = 40.0;  // of a flat part of it
   if (!foot.lines || foot.is_floor_known) return 0.0;
   const Vector3d across = foot.foot_from_input.linear() * foot.lines->across;
-  return foot.lines->pitch > kSoleMm * across.head<2>().norm() ? foot.lines->pitch : 0.0;
+  const double pitch_mm = foot.lines->pitch_mm;
+  return pitch_mm > kSoleMm * across.head<2>().norm() ? pitch_mm : 0.0;
 }
 
 Lots lots_of(const FootScan& foot) {
   const auto& points = foot.cloud.positions;
-  if (foot.lines) return lots_by_line(points, *foot.lines, foot.foot_from_input);
+  if (foot.lines) return lots_by_line(points, *foot.lines, foot.foot_from_input.inverse());
   Lots lots{kPartLeftOut, {}};
   if (points.size() >= 2 * kPointsOfPart) {
     lots.parting = {std::min(points.size() / kPointsOfPart, kMostParts), false};

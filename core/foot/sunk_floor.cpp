@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/foot/skin_noise.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
-#include "core/surface/noise_estimate.h"
 
 namespace instep {
 namespace {
@@ -37,18 +37,18 @@ bool faces_up(const PointIndex& index, const Vector3d& place) {
 
 /// Standard deviation along z, of the noisier side of the foot.
 double noise_along_z(const FootScan& foot) {
-  const PointIndex index(foot.cloud.positions);
+  const SkinNoise skin(foot.cloud.positions);
   std::array<std::vector<std::size_t>, 2> sides;
   for (const std::size_t i : some_by_place(foot.cloud.positions, kLookedAt)) {
     const Vector3d& place = foot.cloud.positions[i];
     auto& side = sides[place.y() > 0.0 ? 0 : 1];
     if (side.size() == kAskedPlaces || !foot.cloud.was_seen(i)) continue;
-    if (faces_up(index, place)) side.push_back(i);
+    if (faces_up(skin.index(), skin.index().points()[i])) side.push_back(i);
   }
   double noise_mm = foot.quieted->quieting.noise_mm;
   for (const auto& side : sides) {
     if (side.size() < kFewestPlaces) continue;
-    noise_mm = std::max(noise_mm, estimate_noise(index, side, {}).shown);
+    noise_mm = std::max(noise_mm, skin.deviation_mm(side));
   }
   return noise_mm;
 }

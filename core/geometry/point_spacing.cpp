@@ -41,8 +41,9 @@ double usual_spacing(const PointIndex& index, std::size_t sample) {
                      [&](const Eigen::Vector3d& point) { return own_spacing(index, point); });
 }
 
-double median_nearest_distance(const PointIndex& index, std::size_t sample) {
-  return median_over(index, sample, [&](const Eigen::Vector3d& point) {
+double median_nearest_distance(const PointIndex& index) {
+  constexpr std::size_t kSample = 2000;
+  return median_over(index, kSample, [&](const Eigen::Vector3d& point) {
     return std::sqrt(index.nearest(point, 2).back().squared_distance);
   });
 }

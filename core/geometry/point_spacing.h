@@ -28,7 +28,7 @@ double own_spacing(const PointIndex& index, const Eigen::Vector3d& point);
 double usual_spacing(const PointIndex& index, std::size_t sample);
 
 /// Another measure: the median distance from a point to its nearest other point, over an even
-/// sample of some `sample` points (fewer than twice as many). Zero for fewer than two points.
-double median_nearest_distance(const PointIndex& index, std::size_t sample = 2000);
+/// sample of some 2000 points (fewer than twice as many). Zero for fewer than two points.
+double median_nearest_distance(const PointIndex& index);
 
 }  // namespace instep

@@ -24,8 +24,6 @@ constexpr std::size_t kMost = 128;
 constexpr double kThinLineOfFew = 0.03;
 constexpr double kThinLine = 0.1;
 constexpr double kSeveralLines = 0.2;
-/// Of lines on parallel planes: how far they run across these, squared, as they are seen.
-constexpr double kParallel = 0.03;
 constexpr double kWidening = 1.2;
 constexpr double kFurtherRound = 1.7;
 
@@ -93,15 +91,9 @@ Arms within(const std::vector<Eigen::Vector3d>& points, std::size_t place, doubl
   return found;
 }
 
-/// Points near a place as they look from above the skin.
-struct FlatView {
-  Arms arms;
-  Eigen::Vector3d up;
-};
-
-/// Seen along the direction in which they spread least: of several noisy lines that of the noise,
-/// so that lines look thin from there.
-FlatView flattened(const PointIndex& index, const Eigen::Vector3d& place, double reach) {
+/// Points near a place, seen along the direction in which they spread least: of several noisy lines
+/// that of the noise, so that lines look thin from there.
+Arms flattened(const PointIndex& index, const Eigen::Vector3d& place, double reach) {
   Arms arms;
   Moments moments;
   for (const auto& one : index.around(place, reach)) {
@@ -111,51 +103,30 @@ FlatView flattened(const PointIndex& index, const Eigen::Vector3d& place, double
   const Eigen::Vector3d up = moments.flattest();
   for (auto& arm : arms) arm -= up.dot(arm) * up;
   sort_by_length(arms);
-  return {std::move(arms), up};
+  return arms;
 }
-
-/// Lines as one point sees them.
-struct SeenLines {
-  double step = 0.0;
-  double apart = 0.0;
-  Eigen::Vector3d along;   ///< them
-  Eigen::Vector3d beside;  ///< on the skin, to the next one
-};
 
 /// Of those within more and more, until they lie on several lines; then counted within so much
 /// more, since where the second line is just within reach there seem to be fewer than there are.
-std::optional<SeenLines> lines_round(const PointIndex& index, const Eigen::Vector3d& place,
+std::optional<ScanLines> lines_round(const PointIndex& index, const Eigen::Vector3d& place,
                                      double widest) {
   double reach = std::sqrt(index.nearest(place, kFewest).back().squared_distance);
   for (; reach > 0.0 && kFurtherRound * reach <= widest; reach *= kWidening) {
-    const auto [arms, up] = flattened(index, place, reach);
+    const Arms arms = flattened(index, place, reach);
     if (arms.size() < kFewest || thickness(arms, arms.size()) < kSeveralLines) continue;
     const std::size_t alike = on_a_line(arms);
     if (alike == 0) continue;
     const double step = 2.0 * arms[alike - 1].norm() / static_cast<double>(alike);
-    const Arms further = flattened(index, place, kFurtherRound * reach).arms;
-    const Eigen::Vector3d way = axes_of(arms, alike).eigenvectors().col(2);
-    return SeenLines{step, area_of(further) / static_cast<double>(further.size()) / step, way,
-                     up.cross(way)};
+    const Arms further = flattened(index, place, kFurtherRound * reach);
+    return ScanLines{step, area_of(further) / static_cast<double>(further.size()) / step};
   }
   return std::nullopt;
 }
 
-template <typename Measure>
-double median_of(const std::vector<SeenLines>& seen, const Measure& measure) {
+double median_of(const std::vector<ScanLines>& seen, double ScanLines::*measure) {
   std::vector<double> measures;
-  for (const auto& one : seen) measures.push_back(measure(one));
+  for (const auto& one : seen) measures.push_back(one.*measure);
   return median(std::move(measures));
-}
-
-/// Normal to the planes that lines are on, if these are parallel: the direction in which they run
-/// least.
-std::optional<Eigen::Vector3d> across_planes_of(const std::vector<SeenLines>& seen) {
-  Eigen::Matrix3d ways = Eigen::Matrix3d::Zero();
-  for (const auto& one : seen) ways += one.along * one.along.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(ways);
-  if (axes.eigenvalues()[0] > kParallel * static_cast<double>(seen.size())) return std::nullopt;
-  return axes.eigenvectors().col(0);
 }
 
 }  // namespace
@@ -175,20 +146,13 @@ bool stand_in_lines(const std::vector<Eigen::Vector3d>& points, double reach) {
 std::optional<ScanLines> scan_lines(const PointIndex& index, double widest) {
   const auto& points = index.points();
   std::size_t asked = 0;
-  std::vector<SeenLines> seen;
+  std::vector<ScanLines> seen;
   for (std::size_t i = 0; i < points.size(); i += stride_of(points)) {
     ++asked;
     if (const auto lines = lines_round(index, points[i], widest)) seen.push_back(*lines);
   }
   if (2 * seen.size() <= asked) return std::nullopt;
-  ScanLines lines{median_of(seen, [](const SeenLines& one) { return one.step; }),
-                  median_of(seen, [](const SeenLines& one) { return one.apart; })};
-  if (const auto across = across_planes_of(seen)) {
-    lines.across = *across;
-    lines.pitch = median_of(
-        seen, [&](const SeenLines& one) { return one.apart * std::abs(across->dot(one.beside)); });
-  }
-  return lines;
+  return ScanLines{median_of(seen, &ScanLines::step), median_of(seen, &ScanLines::apart)};
 }
 
 }  // namespace instep

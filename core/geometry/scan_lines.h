@@ -12,10 +12,6 @@ namespace instep {
 struct ScanLines {
   double step = 0.0;   ///< from point to point on a line
   double apart = 0.0;  ///< from line to line, on the mean: the area that a length of line has
-  /// Of lines on parallel planes, as a scanner leaves them that is moved past a body, what is
-  /// normal to these, to within some degrees, and how far apart they are; zero of others.
-  Eigen::Vector3d across = Eigen::Vector3d::Zero();
-  double pitch = 0.0;
 };
 
 /// Whether most points have their nearest ones on a line with them, as some 40 of them tell.

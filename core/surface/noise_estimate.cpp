@@ -233,22 +233,31 @@ NoiseAndShape set_noise(const PointIndex& index, const std::vector<std::size_t>&
   return here;
 }
 
+/// The middle one of the even places; zero if none could be looked at.
+double noise_shown_by(const std::vector<Asked>& asked) {
+  std::vector<double> variances;
+  for (const auto& one : asked) variances.push_back(one.shown.variance);
+  return std::sqrt(median(even_among(variances, asked)));
+}
+
 }  // namespace
+
+double shown_noise(const PointIndex& index, const std::vector<std::size_t>& places) {
+  return noise_shown_by(asked_of(index, places, {}));
+}
 
 NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                              const std::vector<double>& told) {
   const auto asked = asked_of(index, places, told);
-  std::vector<double> variances;
   std::vector<double> excesses;
   for (const auto& one : asked) {
-    variances.push_back(one.shown.variance);
     if (!told.empty()) excesses.push_back(std::sqrt(one.shown.variance / one.told_variance));
   }
   NoiseEstimate estimate;
   estimate.told_scale = scale_of_told(even_among(excesses, asked));
   if (!told.empty()) estimate.sigma = estimate.told_scale * median(told);
   if (asked.empty()) return estimate;
-  estimate.shown = std::sqrt(median(even_among(variances, asked)));
+  estimate.shown = noise_shown_by(asked);
   if (told.empty()) estimate.sigma = estimate.shown;
   auto [noise, roughness] = set_noise(index, places, asked, told, estimate);
   const double usual = std::max(median(even_among(roughness, asked)), 1e-300);

@@ -48,13 +48,21 @@ struct NoiseEstimate {
 /// part of their noise may be common to neighbours; but where three quarters of the neighbourhoods
 /// show plainly more, all of it is raised to what the middle one of them shows, and where beside
 /// each other a few still do, theirs is raised further (noise_beyond_told()).
+///
+/// The index holds the points of a band round a tape plane, about their middle, the third axis
+/// square to the plane, in a unit in which the body is about one long: how wide a patch may be to
+/// look flat is told in it, and `sigma`, `shown` and `told` are in it too.
 NoiseEstimate estimate_noise(const PointIndex& index, const std::vector<std::size_t>& places,
                              const std::vector<double>& told);
 
-/// The same of points of which nothing is told, if all of the places that may be used are of exact
-/// points; nothing as soon as one is not. Round a ring of points their neighbourhoods leave less
-/// than a fiftieth of it unseen in one piece. Where a polynomial passes through the points round a
-/// place that costs little.
+/// What the same points show, as NoiseEstimate::shown: in whatever order the places come, and
+/// whichever way the points lie. Zero if no place tells.
+double shown_noise(const PointIndex& index, const std::vector<std::size_t>& places);
+
+/// The estimate of points of which nothing is told, if all of the places that may be used are of
+/// exact points; nothing as soon as one is not. Round a ring of points their neighbourhoods leave
+/// less than a fiftieth of it unseen in one piece. Where a polynomial passes through the points
+/// round a place that costs little.
 std::optional<NoiseEstimate> estimate_if_exact(const PointIndex& index,
                                                const std::vector<std::size_t>& places);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "core/foot/shoe_last.h"
 #include "tests/support/foot_body.h"
@@ -41,13 +42,13 @@ double true_extent(const FootScan& foot) {
   return most - least;
 }
 
-PointCloud cylinder(const Vector3d& axis, double radius, double length_mm) {
+PointCloud cylinder(const Vector3d& axis, double radius, double length_mm, int round = 90) {
   const Vector3d u = axis.unitOrthogonal();
   const Vector3d v = axis.cross(u);
   PointCloud cloud;
   for (double along = 0.0; along <= length_mm; along += 3.0) {
-    for (int i = 0; i < 90; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / 90;
+    for (int i = 0; i < round; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / round;
       cloud.positions.emplace_back(along * axis + radius * std::cos(angle) * u +
                                    radius * std::sin(angle) * v);
     }
@@ -201,6 +202,13 @@ TEST(Alignment, RefusesWhatIsNoFoot) {
     EXPECT_FALSE(foot.error().message.empty());
     EXPECT_FALSE(foot.error().advice.empty());
   }
+}
+
+TEST(Alignment, NamesTheLinesOfAScannerWhereItRefuses) {
+  const auto foot = align_foot(cylinder(Vector3d::UnitX(), 40.0, 250.0, 360));
+  ASSERT_FALSE(foot);
+  EXPECT_NE(foot.error().advice.find("lines 3.0 mm apart"), std::string::npos)
+      << foot.error().line();
 }
 
 TEST(Alignment, FindsTheSoleInAnyPose) {

@@ -62,6 +62,16 @@ TEST(Quieted, TellsTheNoiseThatMovesPoints) {
   EXPECT_FALSE(moving_noise_mm(ball(400, 0.0)));
 }
 
+// Their nearest ones are no thicker than they are wide, a round heap of which noise is as little
+// told as skin is.
+TEST(Quieted, TellsTheNoiseOfPointsThatCrowd) {
+  for (const double noise_mm : {1.0, 2.0}) {
+    const auto told = moving_noise_mm(ball(300000, noise_mm));
+    ASSERT_TRUE(told) << noise_mm;
+    EXPECT_NEAR(*told, noise_mm, 0.1 * noise_mm);
+  }
+}
+
 TEST(Quieted, TakesMostOfTheNoiseOut) {
   for (const double noise_mm : {0.5, 1.0, 2.0}) {
     const auto quiet = quieted(ball(8000, noise_mm), {noise_mm, kFullLength});

@@ -242,7 +242,7 @@ TEST(Redraws, OfAFootInLinesTellWhatLiesBetweenThem) {
   for (double first = 0.0; first < kApartMm; first += 0.5) {
     const auto foot = marked(in_lines(kApartMm, first));
     ASSERT_TRUE(foot.lines) << first;
-    EXPECT_NEAR(foot.lines->pitch, kApartMm, 0.2);
+    EXPECT_NEAR(foot.lines->pitch_mm, kApartMm, 0.02);
     Values lengths;
     for (const auto& redrawn : foot.redraws.landmarks) {
       const bool is_marked = redrawn.landmarks.contains("acropodion");

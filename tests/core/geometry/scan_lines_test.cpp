@@ -34,38 +34,6 @@ TEST(ScanLines, AreFoundRoundABodyAndAlongIt) {
   }
 }
 
-TEST(ScanLines, OnParallelPlanesTellWhereTheseAre) {
-  for (const bool turned : {false, true}) {
-    const Eigen::Quaterniond turn(0.9, 0.2, 0.3, -0.2);
-    auto points = ScannedLines{40, 30, true, 4.0, 0.4, 0.1}.positions(1);
-    Vector3d along = Vector3d::UnitZ();
-    if (turned) {
-      for (auto& point : points) point = turn.normalized() * point;
-      along = turn.normalized() * along;
-    }
-    const auto lines = scan_lines(PointIndex(points), 20.0);
-    ASSERT_TRUE(lines);
-    EXPECT_GT(std::abs(lines->across.dot(along)), std::cos(0.05)) << turned;
-    EXPECT_NEAR(lines->pitch / 4.0, 1.0, 0.1) << turned;
-  }
-}
-
-/// As of a body on a turntable.
-TEST(ScanLines, ThatRunEveryWayTellOfNoPlanes) {
-  std::vector<Vector3d> points;
-  for (double longitude = 0.0; longitude < 3.14; longitude += 0.1) {
-    for (double latitude = 0.0; latitude < 6.28; latitude += 0.01) {
-      const double level = std::sin(latitude);
-      points.emplace_back(60 * level * std::cos(longitude), 60 * level * std::sin(longitude),
-                          60 * std::cos(latitude));
-    }
-  }
-  const auto lines = scan_lines(PointIndex(points), 20.0);
-  ASSERT_TRUE(lines);
-  EXPECT_TRUE(lines->across.isZero());
-  EXPECT_EQ(lines->pitch, 0.0);
-}
-
 /// The nearest of them are a round heap.
 TEST(ScanLines, AreFoundWhereNoiseIsAsWideAsSomeSteps) {
   const auto points = in_order(ScannedLines{40, 30, true, 10.0, 0.25, 0.3}.positions(1));
