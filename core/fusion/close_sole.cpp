@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Mask = GroundPlan::Mask;
 
+constexpr double kBridgeMm = 8.0;  // gaps in the outline up to twice this are closed
 constexpr double kSeenSoleHeightMm = 25.0;
 constexpr double kSeenSoleNormal = -0.8;  // z of the normal of a sole seen from below
 constexpr double kSidewaysMm = 4.0;       // standard deviation of the weight of walls to the side
@@ -29,7 +30,7 @@ Mask footprint(const GroundPlan& plan, const PointCloud& foot, double height,
   for (const auto& point : foot.positions) {
     if (point.z() < height + settings.walls.highest_mm) low[plan.cell_of(point)] = 1;
   }
-  return plan.shrunk(plan.filled(plan.grown(low, settings.bridge_mm)), settings.bridge_mm);
+  return plan.shrunk(plan.filled(plan.grown(low, kBridgeMm)), kBridgeMm);
 }
 
 /// Where a camera saw the sole itself, with a margin.
@@ -146,7 +147,7 @@ PointCloud points_of(const std::vector<WallFoot>& walls, const GroundPlan& plan,
 SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSettings& settings) {
   SoleClosure closure;
   if (foot.empty() || !foot.has_normals()) return closure;
-  const GroundPlan plan = GroundPlan::round(foot, settings.spacing_mm, 2.5 * settings.bridge_mm);
+  const GroundPlan plan = GroundPlan::round(foot, settings.spacing_mm, 2.5 * kBridgeMm);
   const Mask print = footprint(plan, foot, standing_height_mm, settings);
   const Mask seen = seen_sole(plan, foot, standing_height_mm);
   const auto walls = find_wall_feet(foot, standing_height_mm, settings.walls);

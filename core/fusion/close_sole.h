@@ -9,9 +9,8 @@ namespace instep {
 
 struct SoleSettings {
   double spacing_mm = 2.0;
-  double sigma_mm = 0.5;   ///< how well the platform stands for the sole that rests on it
-  double bridge_mm = 8.0;  ///< gaps in the outline up to twice this are closed
-  WallSettings walls;      ///< how the skin goes on below the lowest that was seen
+  double sigma_mm = 0.5;  ///< how well the platform stands for the sole that rests on it
+  WallSettings walls;     ///< how the skin goes on below the lowest that was seen
 };
 
 struct SoleClosure {

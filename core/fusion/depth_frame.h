@@ -35,7 +35,7 @@ Result<void> check_intrinsics(const CameraIntrinsics& intrinsics);
 /// x points to where the customer looks, y to the customer's left. The standing surface is level:
 /// at the height that settings or recording give it, else where the views show it; a calibration
 /// puts it at 0 if none is given. No measure depends on where x and y point, nor on the origin as
-/// long as the feet are near it (FusionSettings::region_radius_mm).
+/// long as the feet are within 600 mm of it: what is not is background.
 struct CameraGeometry {
   std::string id;
   CameraIntrinsics intrinsics;

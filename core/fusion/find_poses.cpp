@@ -36,19 +36,16 @@ constexpr const char* kObjectAdvice =
 /// What a view shows near the station, to be fitted to what the others show. Of the platform little
 /// is left: the views are level on it already, and many points of it, whose normals are never quite
 /// upright, would hold the views where they happen to be.
-PosedCloud cloud_of(const WorkingView& view, const PoseFinding& settings) {
+PosedCloud cloud_of(const WorkingView& view, double platform_height_mm) {
   std::vector<std::uint32_t> pixels;
   std::size_t on_platform = 0;
   visit_pixels(view, 2, [&](std::size_t pixel, const Vector3d& point) {
-    const double height = std::abs(point.z() - settings.platform_height_mm);
-    if (height > settings.object.most_height_mm ||
-        !is_within(point, settings.object.region_radius_mm)) {
-      return;
-    }
-    if (height < settings.object.least_height_mm && ++on_platform % kPlatformShare != 0) return;
+    const double height = std::abs(point.z() - platform_height_mm);
+    if (height > kMostObjectHeightMm || !is_within(point, kObjectRegionMm)) return;
+    if (height < kLeastObjectHeightMm && ++on_platform % kPlatformShare != 0) return;
     pixels.push_back(static_cast<std::uint32_t>(pixel));
   });
-  return {station_cloud(view, pixels, settings.surface), view.station_from_camera};
+  return {station_cloud(view, pixels), view.station_from_camera};
 }
 
 tl::unexpected<Error> not_found(const std::string& camera, const std::string& why,
@@ -78,8 +75,7 @@ class PoseSearch {
 
   Result<void> open(const std::vector<View>& views, const Workers& workers) {
     std::vector<std::optional<Result<WorkingView>>> opened(views.size());
-    workers(views.size(),
-            [&](std::size_t i) { opened[i] = open_view(views[i], settings_.surface); });
+    workers(views.size(), [&](std::size_t i) { opened[i] = open_view(views[i]); });
     for (auto& view : opened) {
       if (!*view) return tl::make_unexpected(view->error());
       views_.push_back(std::move(**view));
@@ -127,9 +123,8 @@ class PoseSearch {
     registering.expected.pose_mm = 200.0;  // as if nothing were known
     registering.expected.pose_deg = 30.0;
     std::vector<PosedCloud> clouds;
-    for (const auto& view : views_) clouds.push_back(cloud_of(view, settings_));
-    registering.normal_variance =
-        variance_of_level_normals(clouds, height(), settings_.object.least_height_mm);
+    for (const auto& view : views_) clouds.push_back(cloud_of(view, height()));
+    registering.normal_variance = variance_of_level_normals(clouds, height(), kLeastObjectHeightMm);
     const auto registration = register_views(clouds, registering, go_on_);
     if (!registration) return tl::make_unexpected(registration.error());
     for (std::size_t i = 0; i < views_.size(); ++i) {
@@ -214,7 +209,7 @@ class PoseSearch {
 
   /// What a view shows of the object, with normals.
   PointCloud skin_of(const WorkingView& view) const {
-    return station_cloud(view, object_pixels(view, settings_.object, height()), settings_.surface);
+    return station_cloud(view, object_pixels(view, height()));
   }
 
   void move(std::size_t view, const RigidTransform& new_from_old) {
@@ -224,7 +219,7 @@ class PoseSearch {
   /// Of its points of the object, the share that another view sees through.
   double contradicted(std::size_t view) const {
     ViewedCloud asked;
-    const auto skin = object_points(views_[view], settings_.object, height());
+    const auto skin = object_points(views_[view], height());
     const std::size_t stride = stride_to_at_most(kAskedPoints, skin.size());
     for (std::size_t i = 0; i < skin.size(); i += stride) asked.cloud.positions.push_back(skin[i]);
     asked.views.assign(asked.cloud.size(), static_cast<std::uint16_t>(view));
@@ -239,7 +234,7 @@ class PoseSearch {
   /// How far a view may put the object from where all together put it, 95 %. What the fit tells of
   /// its lens is not mended here, and stands aside.
   double unknown_of(std::size_t view) const {
-    const auto points = object_points(views_[view], settings_.object, height());
+    const auto points = object_points(views_[view], height());
     if (points.empty() || views_[view].errors.empty()) {
       return std::numeric_limits<double>::infinity();
     }

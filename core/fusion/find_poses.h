@@ -6,7 +6,6 @@
 
 #include "core/fusion/fuse_views.h"
 #include "core/fusion/rough_placing.h"
-#include "core/fusion/seen_object.h"
 #include "core/fusion/seen_platform.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"
@@ -27,9 +26,7 @@ struct PoseFinding {
   /// camera sees it that sees most of that.
   double least_lever_mm = 10.0;
   double most_unknown_mm = 3.0;  ///< FoundPose::known_to_mm of poses that are of use
-  ObjectSettings object;
   RoughPlacing placing;
-  SurfaceSettings surface;
 };
 
 struct FoundPose {

@@ -6,7 +6,13 @@
 #include <numbers>
 #include <optional>
 
+#include "core/fusion/close_sole.h"
+#include "core/fusion/outliers.h"
+#include "core/fusion/overruled.h"
+#include "core/fusion/platform.h"
 #include "core/fusion/pose_check.h"
+#include "core/fusion/separate_feet.h"
+#include "core/fusion/thin.h"
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
@@ -46,11 +52,10 @@ struct Work {
 };
 
 /// Checks and cleans each view; the first that is not sound fails all.
-Result<std::vector<WorkingView>> open_views(const std::vector<View>& views,
-                                            const FusionSettings& settings, const Work& work) {
+Result<std::vector<WorkingView>> open_views(const std::vector<View>& views, const Work& work) {
   std::vector<std::optional<Result<WorkingView>>> opened(views.size());
-  const bool done = work.for_each_view(
-      views.size(), [&](std::size_t i) { opened[i] = open_view(views[i], settings.surface); });
+  const bool done =
+      work.for_each_view(views.size(), [&](std::size_t i) { opened[i] = open_view(views[i]); });
   if (!done) return cancelled();
   std::vector<WorkingView> working;
   for (auto& view : opened) {
@@ -84,7 +89,7 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
       if (in_region(point, settings)) points.push_back(point);
     });
   }
-  auto search = settings.platform;
+  PlatformSettings search;
   search.expected_height_mm = settings.platform_height_mm;
   if (const auto platform = find_platform(points, search)) {
     scene.diagnostics.platform_found = true;
@@ -103,15 +108,15 @@ void find_standing_plane(std::vector<WorkingView>& views, const FusionSettings& 
 }
 
 /// Where views disagree, keeps the better founded one. False if cancelled.
-bool drop_overruled(const std::vector<WorkingView>& views, const FusionSettings& settings,
-                    const Work& work, std::vector<FootPoints>& found) {
+bool drop_overruled(const std::vector<WorkingView>& views, const Work& work,
+                    std::vector<FootPoints>& found) {
   std::vector<SeenSurface> surfaces(views.size());
   std::vector<std::vector<std::size_t>> kept(views.size());
   const bool looked = work.for_each_view(views.size(), [&](std::size_t i) {
-    surfaces[i] = seen_surface(views[i].posed(), found[i].points.cloud, settings.overruling);
+    surfaces[i] = seen_surface(views[i].posed(), found[i].points.cloud);
   });
   const bool voted = looked && work.for_each_view(views.size(), [&](std::size_t i) {
-    kept[i] = points_not_overruled(surfaces, i, settings.overruling);
+    kept[i] = points_not_overruled(surfaces, i);
   });
   if (!voted) return false;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -160,7 +165,7 @@ Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
   if (!done) return cancelled();
   contradiction = contradiction_of(views, found);
   if (contradiction) return tl::make_unexpected(contradicted(*contradiction));
-  if (!drop_overruled(views, settings, work, found)) return cancelled();
+  if (!drop_overruled(views, work, found)) return cancelled();
   ViewedCloud gathered;
   for (const auto& [points, platform_pixels, seen_through] : found) {
     gathered.cloud.append(points.cloud);
@@ -171,10 +176,10 @@ Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
   return gathered;
 }
 
-void drop_outliers(const FusionSettings& settings, ViewedCloud& points, FusedScene& scene) {
+void drop_outliers(ViewedCloud& points, FusedScene& scene) {
   const std::size_t before = points.cloud.size();
-  points = subset(points, crowded_points(points.cloud, settings.outliers));
-  points = subset(points, clustered_points(points.cloud, settings.outliers));
+  points = subset(points, crowded_points(points.cloud));
+  points = subset(points, clustered_points(points.cloud));
   scene.diagnostics.outliers += before - points.cloud.size();
 }
 
@@ -194,10 +199,8 @@ double coverage_of(const PointCloud& foot) {
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
 }
 
-std::vector<ViewedCloud> pick_feet(const ViewedCloud& points, const FusionSettings& settings,
-                                   FusedScene& scene) {
-  const auto separated =
-      separate_feet(points.cloud.positions, scene.standing_height_mm, settings.separation);
+std::vector<ViewedCloud> pick_feet(const ViewedCloud& points, FusedScene& scene) {
+  const auto separated = separate_feet(points.cloud.positions, scene.standing_height_mm);
   scene.warnings.insert(scene.warnings.end(), separated.warnings.begin(), separated.warnings.end());
   std::vector<ViewedCloud> feet;
   for (const auto& indices : separated.feet) feet.push_back(subset(points, indices));
@@ -244,7 +247,7 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
     warnings.emplace_back(
         "it was not seen from all sides: scan it alone, or turn a camera to its hidden side");
   }
-  const SoleClosure closure = close_sole(foot, scene.standing_height_mm, settings.sole);
+  const SoleClosure closure = close_sole(foot, scene.standing_height_mm);
   if (closure.points_added > 0) {
     warnings.push_back(
         "no camera saw the sole; it is closed by the platform, which it is taken to meet up to " +
@@ -266,7 +269,7 @@ Result<FusedScene> fuse(const std::vector<View>& views, const FusionSettings& se
                         const Work& work, std::optional<Contradiction>& contradiction) {
   const auto& [workers, go_on] = work;
   FusedScene scene;
-  auto opened = open_views(views, settings, work);
+  auto opened = open_views(views, work);
   if (!opened) return tl::make_unexpected(opened.error());
   auto& working = *opened;
   drop_blind_views(working, settings, scene);
@@ -281,9 +284,9 @@ Result<FusedScene> fuse(const std::vector<View>& views, const FusionSettings& se
   if (!go_on()) return cancelled();
   auto points = gather_feet(working, settings, work, scene, contradiction);
   if (!points) return tl::make_unexpected(points.error());
-  drop_outliers(settings, *points, scene);
+  drop_outliers(*points, scene);
   if (!go_on()) return cancelled();
-  const auto feet = pick_feet(*points, settings, scene);
+  const auto feet = pick_feet(*points, scene);
   if (!go_on()) return cancelled();
   if (feet.empty()) return tl::make_unexpected(no_foot(points->cloud, scene));
   scene.is_standing_height_known =

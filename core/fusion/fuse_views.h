@@ -7,17 +7,9 @@
 #include <vector>
 
 #include "core/fusion/bent_depths.h"
-#include "core/fusion/close_sole.h"
 #include "core/fusion/deprojector.h"
 #include "core/fusion/depth_frame.h"
-#include "core/fusion/outliers.h"
-#include "core/fusion/overruled.h"
-#include "core/fusion/platform.h"
-#include "core/fusion/registration.h"
-#include "core/fusion/separate_feet.h"
-#include "core/fusion/surface_points.h"
 #include "core/fusion/temporal_fusion.h"
-#include "core/fusion/thin.h"
 #include "core/geometry/point_cloud.h"
 #include "core/go_on.h"
 #include "core/result.h"
@@ -40,21 +32,6 @@ struct FusionSettings {
   /// Fit the views to each other, their poses and by how much their lenses stretch what they see;
   /// else both are trusted, with a warning if poses are wrong.
   bool refine_views = true;
-  double foot_ceiling_mm = 150.0;  ///< points higher above the platform are leg and are cut
-  /// Points further from the station's origin, in plan and in height, are background.
-  double region_radius_mm = 600.0;
-  double region_height_mm = 500.0;
-  /// A point so far in front of what another camera sees there floats in the air.
-  double seen_through_mm = 4.0;
-  double platform_clearance_mm = 1.0;  ///< points nearer than this, or 4 sigma, are platform
-
-  SurfaceSettings surface;
-  PlatformSettings platform;
-  RegistrationSettings registration;
-  OutlierSettings outliers;
-  OverruleSettings overruling;
-  SeparationSettings separation;
-  SoleSettings sole;
 };
 
 /// How the fusion went, in figures.
@@ -78,7 +55,7 @@ struct FusionDiagnostics {
 /// The feet on the platform. Station frame, levelled: z up, the standing plane level at z =
 /// standing_height_mm.
 struct FusedScene {
-  std::vector<PointCloud> feet;  ///< one or two, the larger first
+  std::vector<PointCloud> feet;  ///< one or two, the larger first; cut off 150 mm above the plane
   double standing_height_mm = 0.0;
   /// Given, or seen as a platform; else it is that of the lowest that was seen of the feet.
   bool is_standing_height_known = false;

@@ -12,6 +12,12 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Side of the window that a sensor matches: nearer than this to the rim of what it saw, part of
+/// the window lies beyond the silhouette, and the surface bends away from the true one by some
+/// millimetres.
+constexpr float kMatchingWindowPx = 10.0F;
+constexpr double kReachMm = 12.0;    // surfaces further apart are not of the same place
+constexpr double kLeastGapMm = 1.0;  // nearer ones agree whatever their noise
 constexpr double kNoiseSigmas = 2.0;
 constexpr double kLeastFacing = -0.2;  // cosine; a tail stands square to the surface it leaves
 
@@ -53,8 +59,7 @@ struct Vote {
   double contradicting = 0.0;  ///< highest trust
 };
 
-void ask(const SeenSurface& witness, const PointCloud& cloud, std::size_t point,
-         const OverruleSettings& settings, Vote& vote) {
+void ask(const SeenSurface& witness, const PointCloud& cloud, std::size_t point, Vote& vote) {
   const auto pixel = pixel_at(witness, cloud.positions[point]);
   if (!pixel || witness.point_at[*pixel] < 0) return;
   const auto other = static_cast<std::size_t>(witness.point_at[*pixel]);
@@ -62,9 +67,9 @@ void ask(const SeenSurface& witness, const PointCloud& cloud, std::size_t point,
   if (!(normal.dot(cloud.normals[point]) > kLeastFacing)) return;
   const double gap =
       std::abs(normal.dot(cloud.positions[point] - witness.points->positions[other]));
-  if (gap > settings.reach_mm) return;
+  if (gap > kReachMm) return;
   const double noise = std::hypot(cloud.sigma_mm[point], witness.points->sigma_mm[other]);
-  const double allowed = std::max(settings.least_gap_mm, kNoiseSigmas * noise);
+  const double allowed = std::max(kLeastGapMm, kNoiseSigmas * noise);
   const double trust = witness.trust[other];
   if (gap <= allowed) {
     vote.agreeing += trust;
@@ -75,8 +80,7 @@ void ask(const SeenSurface& witness, const PointCloud& cloud, std::size_t point,
 
 }  // namespace
 
-SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points,
-                         const OverruleSettings& settings) {
+SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points) {
   SeenSurface seen{view.intrinsics,
                    &points,
                    view.station_from_camera.inverse(),
@@ -85,27 +89,25 @@ SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points,
                    std::vector<std::int32_t>(view.depth->depth_mm.size(), -1),
                    std::vector<float>(points.size(), 0.0F)};
   const auto steps = steps_to_rim(*view.depth);
-  const auto window = static_cast<float>(settings.matching_window_px);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto pixel = pixel_at(seen, points.positions[i]);
     if (!pixel) continue;
     seen.point_at[*pixel] = static_cast<std::int32_t>(i);
     const auto cosine = static_cast<float>(points.normals[i].dot(points.view_directions[i]));
-    const float inside = std::min(1.0F, steps[*pixel] / window);
+    const float inside = std::min(1.0F, steps[*pixel] / kMatchingWindowPx);
     seen.trust[i] = cosine * inside * inside;
   }
   return seen;
 }
 
 std::vector<std::size_t> points_not_overruled(const std::vector<SeenSurface>& views,
-                                              std::size_t number,
-                                              const OverruleSettings& settings) {
+                                              std::size_t number) {
   const SeenSurface& own = views[number];
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < own.points->size(); ++i) {
     Vote vote;
     for (std::size_t view = 0; view < views.size(); ++view) {
-      if (view != number) ask(views[view], *own.points, i, settings, vote);
+      if (view != number) ask(views[view], *own.points, i, vote);
     }
     if (vote.contradicting <= double{own.trust[i]} + vote.agreeing) kept.push_back(i);
   }

@@ -9,15 +9,6 @@
 
 namespace instep {
 
-struct OverruleSettings {
-  /// Side of the window that a sensor matches, in pixels: nearer than this to the rim of what it
-  /// saw, part of the window lies beyond the silhouette, and the surface bends away from the true
-  /// one by some millimetres.
-  double matching_window_px = 10.0;
-  double reach_mm = 12.0;     ///< surfaces further apart are not of the same place
-  double least_gap_mm = 1.0;  ///< nearer ones agree whatever their noise
-};
-
 /// The points of one view as an image: which point each pixel sees, and how far each is trusted.
 /// Borrows the lens and the points.
 struct SeenSurface {
@@ -33,8 +24,7 @@ struct SeenSurface {
 
 /// `points`: of that view, in the station frame, with normals, sigma and view directions. About
 /// 5 ms for an image of 640x480.
-SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points,
-                         const OverruleSettings& settings);
+SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points);
 
 /// The points of one view, as ascending indices, that stand against the others. Where another
 /// view's surface faces the same way but lies elsewhere by more than the noise of both, one of them
@@ -42,6 +32,6 @@ SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points,
 /// all views that agree with it together. So two sheets become one, and the tails that stereo
 /// matching draws out beyond a silhouette go. Some 0.05 us a point and view.
 std::vector<std::size_t> points_not_overruled(const std::vector<SeenSurface>& views,
-                                              std::size_t number, const OverruleSettings& settings);
+                                              std::size_t number);
 
 }  // namespace instep

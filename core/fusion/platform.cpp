@@ -14,6 +14,9 @@
 namespace instep {
 namespace {
 
+constexpr double kLeastShare = 0.02;  // of all points that must lie on it
+constexpr std::size_t kLeastPoints = 300;
+constexpr double kLeastExtentMm = 25.0;  // standard deviation of its points, both ways
 constexpr std::size_t kLargestSample = 40000;
 constexpr std::size_t kScoredSample = 2500;
 constexpr int kTriples = 600;
@@ -147,7 +150,7 @@ std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& p
                                            const PlatformSettings& settings) {
   const auto sample = even_sample(points, kLargestSample);
   const auto layer_points = within_search(sample, settings);
-  if (layer_points.size() < settings.least_points) return std::nullopt;
+  if (layer_points.size() < kLeastPoints) return std::nullopt;
   const double least_cosine = std::cos(settings.most_tilt_deg * std::numbers::pi / 180.0);
   auto plane = best_candidate(layer_points, least_cosine);
   if (!plane) return std::nullopt;
@@ -156,19 +159,19 @@ std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& p
   Layer layer;
   for (int i = 0; i < kRefinements; ++i) {
     layer = layer_of(*plane, layer_points, reach);
-    if (layer.count < settings.least_points) return std::nullopt;
+    if (layer.count < kLeastPoints) return std::nullopt;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(layer.covariance);
     plane->normal = axes.eigenvectors().col(0);
     if (plane->normal.z() < 0.0) plane->normal = -plane->normal;
     plane->centre = layer.mean;
-    if (!(axes.eigenvalues()(1) > settings.least_extent_mm * settings.least_extent_mm)) {
+    if (!(axes.eigenvalues()(1) > kLeastExtentMm * kLeastExtentMm)) {
       return std::nullopt;
     }
     reach = std::clamp(3.0 * kSigmaInMedians * median_distance(*plane, layer_points, reach), 0.3,
                        kReachMm);
   }
   const bool supported =
-      static_cast<double>(layer.count) >= settings.least_share * static_cast<double>(sample.size());
+      static_cast<double>(layer.count) >= kLeastShare * static_cast<double>(sample.size());
   if (!supported || plane->normal.z() < least_cosine || !stands_out(*plane, sample, reach)) {
     return std::nullopt;
   }

@@ -14,9 +14,6 @@ struct PlatformSettings {
   std::optional<double> expected_height_mm;
   double search_mm = 40.0;  ///< how far from there it may be
   double most_tilt_deg = 5.0;
-  double least_share = 0.02;  ///< of all points that must lie on it
-  std::size_t least_points = 300;
-  double least_extent_mm = 25.0;  ///< standard deviation of its points, both ways
 };
 
 /// The plane that people stand on, in the station frame.

@@ -40,9 +40,9 @@ Result<Registration> fit_to_each_other(const std::vector<WorkingView>& views,
     visit_pixels(view, kPoseStride, [&](std::size_t pixel, const Vector3d& point) {
       if (in_region(point, settings)) pixels.push_back(static_cast<std::uint32_t>(pixel));
     });
-    clouds.push_back({station_cloud(view, pixels, settings.surface), view.station_from_camera});
+    clouds.push_back({station_cloud(view, pixels), view.station_from_camera});
   }
-  auto registering = settings.registration;
+  RegistrationSettings registering;
   if (!settings.refine_views) {
     registering.queries /= kPartToJudgeBy;
     registering.expected.lens = 0.0;  // or part of what poses are off by would be taken for theirs

@@ -14,6 +14,12 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kFirstReachMm = 30.0;  // how far apart matching surfaces may be at the beginning
+constexpr double kLastReachMm = 5.0;    // and at the end
+constexpr int kIterations = 40;
+constexpr std::size_t kTargets = 10000;  // points of a view that can be matched
+constexpr double kMostTurnDeg = 12.0;    // a view that wants to turn further does not fit
+constexpr double kMostStretch = 0.015;   // nor does one that is to grow or shrink by more
 constexpr double kStillMm = 0.01;
 /// While the views move much, one query in so many will do.
 constexpr std::size_t kCoarseStride = 4;
@@ -49,16 +55,15 @@ double step(std::vector<MovingView>& views, const std::vector<ViewMatch>& matche
 /// cancelled.
 bool draw_together(std::vector<MovingView>& views, const RegistrationSettings& settings,
                    const GoOn& go_on) {
-  const double slowly = std::pow(settings.last_reach_mm / settings.first_reach_mm,
-                                 1.5 / std::max(1, settings.iterations - 1));
-  double reach = settings.first_reach_mm;
-  for (int i = 0; i < settings.iterations; ++i) {
+  const double slowly = std::pow(kLastReachMm / kFirstReachMm, 1.5 / (kIterations - 1));
+  double reach = kFirstReachMm;
+  for (int i = 0; i < kIterations; ++i) {
     const auto matches = match_views(views, reach, kCoarseStride);
     if (matches.empty()) return true;
     const double moved_mm = step(views, matches, reach, settings.expected);
     if (!go_on()) return false;
-    if (reach <= settings.last_reach_mm && moved_mm < kStillMm) return true;
-    reach = std::max(settings.last_reach_mm, reach * (moved_mm < kSettledMm ? 0.5 : slowly));
+    if (reach <= kLastReachMm && moved_mm < kStillMm) return true;
+    reach = std::max(kLastReachMm, reach * (moved_mm < kSettledMm ? 0.5 : slowly));
   }
   return true;
 }
@@ -92,14 +97,14 @@ double likely_lens(const std::vector<MovingView>& views, const Eigen::MatrixXd& 
 ExpectedErrors likely_errors(const std::vector<MovingView>& views,
                              const RegistrationSettings& settings) {
   ExpectedErrors likely = settings.expected;
-  const auto matches = match_views(views, settings.last_reach_mm, kCoarseStride);
+  const auto matches = match_views(views, kLastReachMm, kCoarseStride);
   if (!settings.are_poses_rough) {
     const double off_mm = std::max(kLeastPoseMm, taken_away(views, matches));
     likely.pose_mm = std::min(likely.pose_mm, off_mm);
     likely.pose_deg = std::min(likely.pose_deg, off_mm / kArmMm / kDegree);
   }
   if (matches.empty() || likely.lens == 0.0) return likely;
-  const auto equations = equations_of(views, matches, settings.last_reach_mm);
+  const auto equations = equations_of(views, matches, kLastReachMm);
   for (int i = 0; i < kLensRounds; ++i) {
     likely.lens = likely_lens(views, covariance_of(equations, likely, views));
   }
@@ -109,7 +114,7 @@ ExpectedErrors likely_errors(const std::vector<MovingView>& views,
 /// A few steps with the last reach. False if cancelled.
 bool settle(std::vector<MovingView>& views, std::size_t stride, const ExpectedErrors& expected,
             const RegistrationSettings& settings, const GoOn& go_on) {
-  const double reach = settings.last_reach_mm;
+  const double reach = kLastReachMm;
   const int steps = settings.are_poses_rough ? kLastStepsOfRough : kLastSteps;
   for (int i = 0; i < steps; ++i) {
     const auto matches = match_views(views, reach, stride);
@@ -147,10 +152,9 @@ RigidTransform correction_after_stretch(const MovingView& view) {
 /// What the matches and what is known beforehand leave open, as independent errors of all views.
 void tell_errors(const std::vector<MovingView>& views, const std::vector<ViewMatch>& matches,
                  const RegistrationSettings& settings, Registration& registration) {
-  auto equations = equations_of(views, matches, settings.last_reach_mm);
+  auto equations = equations_of(views, matches, kLastReachMm);
   if (settings.normal_variance > 0.0) {
-    take_out_noise_of_normals(settings.normal_variance, views, matches, settings.last_reach_mm,
-                              equations);
+    take_out_noise_of_normals(settings.normal_variance, views, matches, kLastReachMm, equations);
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
       covariance_of(equations, likely_errors(views, settings), views));
@@ -207,8 +211,8 @@ double strain(const MovingView& view, double residual_mm, const RegistrationSett
   const double shift = (view.corrected_centroid() - view.centroid).norm();
   const double turn = Eigen::AngleAxisd(view.pose_correction.linear()).angle();
   const double stretch = std::max(std::abs(view.deeper), std::abs(view.wider));
-  return std::max({shift / settings.most_shift_mm, turn / (settings.most_turn_deg * kDegree),
-                   stretch / settings.most_stretch, residual_mm / settings.most_residual_mm});
+  return std::max({shift / settings.most_shift_mm, turn / (kMostTurnDeg * kDegree),
+                   stretch / kMostStretch, residual_mm / settings.most_residual_mm});
 }
 
 RegisteredView judge(const std::vector<MovingView>& views, std::size_t at,
@@ -262,18 +266,18 @@ std::optional<std::size_t> worst_of(const Registration& registration,
 
 Result<Registration> register_views(const std::vector<PosedCloud>& views,
                                     const RegistrationSettings& settings, const GoOn& go_on) {
-  auto moving = moving_views(views, settings.queries, settings.targets);
+  auto moving = moving_views(views, settings.queries, kTargets);
   Registration registration;
   registration.views.resize(views.size());
   if (views.empty()) return registration;
-  const auto given = match_views(moving, 2.0 * settings.last_reach_mm);
+  const auto given = match_views(moving, 2.0 * kLastReachMm);
   registration.residual_before_mm = median_residual(given);
   registration.unexplained_before_mm = unexplained(given);
   registration.residual_after_mm = registration.residual_before_mm;
   registration.unexplained_after_mm = registration.unexplained_before_mm;
   for (std::size_t round = 0; round <= views.size(); ++round) {
     if (!solve(moving, settings, go_on)) return cancelled();
-    const auto matches = match_views(moving, 2.0 * settings.last_reach_mm);
+    const auto matches = match_views(moving, 2.0 * kLastReachMm);
     if (!matches.empty()) {  // else nothing tells how they lie now
       registration.residual_after_mm = median_residual(matches);
       registration.unexplained_after_mm = unexplained(matches);

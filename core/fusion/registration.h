@@ -14,12 +14,8 @@
 namespace instep {
 
 struct RegistrationSettings {
-  double first_reach_mm = 30.0;  ///< how far apart matching surfaces may be at the beginning
-  double last_reach_mm = 5.0;    ///< and at the end
-  int iterations = 40;
-  std::size_t queries = 4000;   ///< points of a view that look for a match; a quarter at first
-  std::size_t targets = 10000;  ///< points of a view that can be matched
-  ExpectedErrors expected;      ///< holds what the surfaces leave open
+  std::size_t queries = 4000;  ///< points of a view that look for a match; a quarter at first
+  ExpectedErrors expected;     ///< holds what the surfaces leave open
   /// The given poses are a place to begin and no evidence: the overlaps alone tell where the views
   /// stand, and what they leave open is as unknown as `expected` says.
   bool are_poses_rough = false;
@@ -27,8 +23,6 @@ struct RegistrationSettings {
   /// take_out_noise_of_normals(): for poses of which nothing else is known.
   double normal_variance = 0.0;
   double most_shift_mm = 60.0;  ///< a view that wants to go further does not fit
-  double most_turn_deg = 12.0;
-  double most_stretch = 0.015;  ///< nor does one that is to grow or shrink by more
   /// Share of a view's queries with a match, or of another one's with a match in it.
   double least_overlap = 0.05;
   double most_residual_mm = 3.0;  ///< median of a view that fits
@@ -68,7 +62,7 @@ struct RegisteredView {
 
 struct Registration {
   std::vector<RegisteredView> views;
-  /// Median over all matches, up to twice last_reach_mm apart, by the given poses and after.
+  /// Median over all matches, up to 10 mm apart, by the given poses and after.
   double residual_before_mm = 0.0;
   double residual_after_mm = 0.0;
   /// What the noise of the points does not explain of the distances, one sigma: errors of the
@@ -81,10 +75,10 @@ struct Registration {
 /// Moves and stretches views against each other until their surfaces agree: all at once, each
 /// iteration matching every view with every other and taking one Gauss-Newton step on the
 /// point-to-plane distances (Chen and Medioni 1992; normals of both sides, Rusinkiewicz 2019), each
-/// weighed by its noise, with Tukey weights whose reach shrinks from first_reach_mm to
-/// last_reach_mm. Views whose result breaks a limit are marked kDoesNotFit, those that share hardly
-/// anything kAlone; neither gets a correction, and the others are solved again without them. One
-/// that is alone is taken to be as right as they are.
+/// weighed by its noise, with Tukey weights whose reach shrinks from 30 mm to 5. Views whose result
+/// breaks a limit are marked kDoesNotFit, those that share hardly anything kAlone; neither gets a
+/// correction, and the others are solved again without them. One that is alone is taken to be as
+/// right as they are.
 ///
 /// The given poses and lenses weigh too, twice over: first as ill known as the settings say, then
 /// as the overlaps have shown them to be (of lenses by a few rounds of Dempster, Laird and Rubin's

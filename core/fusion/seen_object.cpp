@@ -12,19 +12,19 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kStride = 3;  // every so many pixels, both ways
+constexpr int kStride = 3;           // every so many pixels, both ways
+constexpr double kRadiusMm = 250.0;  // about the middle of what a camera shows of it, in plan
 
 }  // namespace
 
-std::vector<std::uint32_t> object_pixels(const WorkingView& view, const ObjectSettings& settings,
-                                         double platform_height_mm) {
+std::vector<std::uint32_t> object_pixels(const WorkingView& view, double platform_height_mm) {
   std::vector<std::uint32_t> pixels;
   std::vector<double> along;
   std::vector<double> across;
   visit_pixels(view, kStride, [&](std::size_t pixel, const Vector3d& point) {
     const double height = point.z() - platform_height_mm;
-    if (height < settings.least_height_mm || height > settings.most_height_mm) return;
-    if (!is_within(point, settings.region_radius_mm)) return;
+    if (height < kLeastObjectHeightMm || height > kMostObjectHeightMm) return;
+    if (!is_within(point, kObjectRegionMm)) return;
     pixels.push_back(static_cast<std::uint32_t>(pixel));
     along.push_back(point.x());
     across.push_back(point.y());
@@ -32,15 +32,14 @@ std::vector<std::uint32_t> object_pixels(const WorkingView& view, const ObjectSe
   if (pixels.empty()) return pixels;
   const Vector3d middle(median(std::move(along)), median(std::move(across)), 0.0);
   std::erase_if(pixels, [&](std::uint32_t pixel) {
-    return !is_within(view.in_station(pixel) - middle, settings.radius_mm);
+    return !is_within(view.in_station(pixel) - middle, kRadiusMm);
   });
   return pixels;
 }
 
-std::vector<Vector3d> object_points(const WorkingView& view, const ObjectSettings& settings,
-                                    double platform_height_mm) {
+std::vector<Vector3d> object_points(const WorkingView& view, double platform_height_mm) {
   std::vector<Vector3d> points;
-  for (const auto pixel : object_pixels(view, settings, platform_height_mm)) {
+  for (const auto pixel : object_pixels(view, platform_height_mm)) {
     points.push_back(view.in_station(pixel));
   }
   return points;

@@ -9,23 +9,19 @@
 
 namespace instep {
 
-/// Where an object that cameras are placed by is looked for, in the station frame.
-struct ObjectSettings {
-  /// Points further from the station's origin, in plan, are background; wide enough for what rough
-  /// poses put elsewhere.
-  double region_radius_mm = 700.0;
-  double least_height_mm = 8.0;  ///< above the platform
-  double most_height_mm = 250.0;
-  double radius_mm = 250.0;  ///< about the middle of what a camera shows of it, in plan
-};
+/// Where an object that cameras are placed by is looked for, in the station frame. Points further
+/// from the station's origin, in plan, are background; wide enough for what rough poses put
+/// elsewhere.
+inline constexpr double kObjectRegionMm = 700.0;
+/// Above the platform.
+inline constexpr double kLeastObjectHeightMm = 8.0;
+inline constexpr double kMostObjectHeightMm = 250.0;
 
 /// The pixels, one in nine, by which a level view shows what stands on the platform.
-std::vector<std::uint32_t> object_pixels(const WorkingView& view, const ObjectSettings& settings,
-                                         double platform_height_mm);
+std::vector<std::uint32_t> object_pixels(const WorkingView& view, double platform_height_mm);
 
 /// Their points in the station.
-std::vector<Eigen::Vector3d> object_points(const WorkingView& view, const ObjectSettings& settings,
-                                           double platform_height_mm);
+std::vector<Eigen::Vector3d> object_points(const WorkingView& view, double platform_height_mm);
 
 /// By how much the sides of an object hold it from turning about an upright axis, about the one
 /// where they hold least: root mean square of how far their normals pass by it, mm. Of a round

@@ -19,6 +19,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double kLinkMm = 4.0;  // points within about this (up to twice) belong together
+constexpr double kMostLengthMm = 350.0;
+constexpr double kMostWidthMm = 155.0;
+constexpr double kLeastLengthMm = 120.0;  // no foot that can be measured is shorter
+constexpr double kMostGapMm = 40.0;  // between two pieces of one foot, where no camera saw between
+constexpr double kStandsBelowMm = 45.0;  // a foot comes this near to the platform; a leg does not
+constexpr double kLeastShare = 0.15;  // of the larger foot's surface that the other one must have
 constexpr std::size_t kMostPieces = 40;      // the largest ones; the rest is small
 constexpr double kLargeShare = 0.02;         // of the largest piece's surface
 constexpr double kWidestFoot = 0.55;         // width over length
@@ -55,8 +62,8 @@ bool larger(const Piece& a, const Piece& b) {
   return a.cells.size() > b.cells.size();
 }
 
-std::vector<Piece> find_pieces(const std::vector<Vector3d>& positions, double link_mm) {
-  const VoxelGrid grid(positions, link_mm);
+std::vector<Piece> find_pieces(const std::vector<Vector3d>& positions) {
+  const VoxelGrid grid(positions, kLinkMm);
   const auto clusters = grid.clusters();
   std::vector<Piece> pieces;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
@@ -79,9 +86,9 @@ bool is_too_broad(const Piece& piece) {
   return sides.width > kWidestFoot * sides.length;
 }
 
-bool fits_a_foot(const Piece& piece, const SeparationSettings& settings) {
+bool fits_a_foot(const Piece& piece) {
   const auto sides = enclosing_rectangle(piece.hull());
-  return sides.length <= settings.most_length_mm && sides.width <= settings.most_width_mm;
+  return sides.length <= kMostLengthMm && sides.width <= kMostWidthMm;
 }
 
 double gap_between(const Piece& a, const Piece& b) {
@@ -95,23 +102,23 @@ double gap_between(const Piece& a, const Piece& b) {
 }
 
 /// Whether two pieces can be parts of one foot.
-bool may_join(const Piece& a, const Piece& b, const SeparationSettings& settings) {
+bool may_join(const Piece& a, const Piece& b) {
   const Piece both = joined(a, b);
-  if (!fits_a_foot(both, settings)) return false;
+  if (!fits_a_foot(both)) return false;
   const bool two_feet = enclosing_rectangle(a.hull()).length > kFootLikeLengthMm &&
                         enclosing_rectangle(b.hull()).length > kFootLikeLengthMm;
   return !two_feet || !is_too_broad(both);
 }
 
 /// Joins the nearest two pieces that can be one foot, until none can.
-void join_pieces(std::vector<Piece>& pieces, const SeparationSettings& settings) {
+void join_pieces(std::vector<Piece>& pieces) {
   for (;;) {
-    double least = settings.most_gap_mm;
+    double least = kMostGapMm;
     std::optional<std::pair<std::size_t, std::size_t>> nearest;
     for (std::size_t a = 0; a < pieces.size(); ++a) {
       for (std::size_t b = a + 1; b < pieces.size(); ++b) {
         const double gap = gap_between(pieces[a], pieces[b]);
-        if (gap >= least || !may_join(pieces[a], pieces[b], settings)) continue;
+        if (gap >= least || !may_join(pieces[a], pieces[b])) continue;
         least = gap;
         nearest = {a, b};
       }
@@ -129,16 +136,16 @@ struct SplitLine {
   bool is_at_waist;  ///< much less ground lies near it than near other lines
 };
 
-/// The ground that a piece covers, as squares of `side_mm`.
-std::vector<Vector2d> covered_ground(const Piece& piece, double side_mm) {
+/// The ground that a piece covers, as squares of kLinkMm.
+std::vector<Vector2d> covered_ground(const Piece& piece) {
   std::vector<std::pair<double, double>> squares;
   for (const auto& cell : piece.cells) {
-    squares.emplace_back(std::floor(cell.x() / side_mm), std::floor(cell.y() / side_mm));
+    squares.emplace_back(std::floor(cell.x() / kLinkMm), std::floor(cell.y() / kLinkMm));
   }
   std::sort(squares.begin(), squares.end());
   squares.erase(std::unique(squares.begin(), squares.end()), squares.end());
   std::vector<Vector2d> ground;
-  for (const auto& [x, y] : squares) ground.emplace_back((x + 0.5) * side_mm, (y + 0.5) * side_mm);
+  for (const auto& [x, y] : squares) ground.emplace_back((x + 0.5) * kLinkMm, (y + 0.5) * kLinkMm);
   return ground;
 }
 
@@ -184,10 +191,9 @@ std::array<Piece, 2> split_along(const Piece& piece, const SplitLine& line,
 }
 
 /// Area of the rectangle round a piece, or infinity if no foot has such a rectangle.
-double area_as_a_foot(const Piece& piece, const SeparationSettings& settings) {
+double area_as_a_foot(const Piece& piece) {
   const auto sides = enclosing_rectangle(piece.hull());
-  const bool fits = sides.length <= settings.most_length_mm &&
-                    sides.width <= settings.most_width_mm &&
+  const bool fits = sides.length <= kMostLengthMm && sides.width <= kMostWidthMm &&
                     sides.width <= kWidestFoot * sides.length;
   return fits ? sides.length * sides.width : std::numeric_limits<double>::infinity();
 }
@@ -195,19 +201,19 @@ double area_as_a_foot(const Piece& piece, const SeparationSettings& settings) {
 /// Splits a piece that is too large for one foot, if that gives two feet: of the thinnest lines of
 /// all directions the one that leaves the two tightest rectangles. One that is only too broad for
 /// its length may be a forefoot alone; it is split at a waist.
-void split_piece(std::vector<Piece>& pieces, std::size_t at, const std::vector<Vector3d>& positions,
-                 const SeparationSettings& settings) {
-  const bool is_too_large = !fits_a_foot(pieces[at], settings);
+void split_piece(std::vector<Piece>& pieces, std::size_t at,
+                 const std::vector<Vector3d>& positions) {
+  const bool is_too_large = !fits_a_foot(pieces[at]);
   if (!is_too_large && !is_too_broad(pieces[at])) return;
   std::optional<std::array<Piece, 2>> best;
   double least_area = std::numeric_limits<double>::infinity();
-  const auto ground = covered_ground(pieces[at], settings.link_mm);
+  const auto ground = covered_ground(pieces[at]);
   for (int degree = 0; degree < 180; degree += 5) {
     const double angle = degree * std::numbers::pi / 180.0;
     const auto line = thinnest_line(ground, {std::cos(angle), std::sin(angle)});
     if (!line || !(is_too_large || line->is_at_waist)) continue;
     auto sides = split_along(pieces[at], *line, positions);
-    const double area = area_as_a_foot(sides[0], settings) + area_as_a_foot(sides[1], settings);
+    const double area = area_as_a_foot(sides[0]) + area_as_a_foot(sides[1]);
     if (area >= least_area) continue;
     least_area = area;
     best = std::move(sides);
@@ -245,29 +251,29 @@ std::vector<Piece> adopt(std::vector<Piece>& feet, std::vector<Piece> small) {
 }
 
 /// Whether it comes down to where a foot stands.
-bool stands(const Piece& piece, double standing_height_mm, const SeparationSettings& settings) {
-  return piece.lowest_mm < standing_height_mm + settings.stands_below_mm;
+bool stands(const Piece& piece, double standing_height_mm) {
+  return piece.lowest_mm < standing_height_mm + kStandsBelowMm;
 }
 
 /// Whether it is large enough, beside the larger foot, to be the other one.
-bool is_fair(const Piece& piece, const Piece& larger_foot, const SeparationSettings& settings) {
+bool is_fair(const Piece& piece, const Piece& larger_foot) {
   return static_cast<double>(piece.cells.size()) >=
-         settings.least_share * static_cast<double>(larger_foot.cells.size());
+         kLeastShare * static_cast<double>(larger_foot.cells.size());
 }
 
 /// What stands beside a foot and could be a part of it, a heel without the arch before it, or is as
 /// large as the other foot may be, but too short.
 std::vector<std::string> named_parts(const std::vector<Piece>& feet,
-                                     const std::vector<Piece>& left_out, double standing_height_mm,
-                                     const SeparationSettings& settings) {
+                                     const std::vector<Piece>& left_out,
+                                     double standing_height_mm) {
   std::vector<std::string> warnings;
   for (const auto& piece : left_out) {
     const bool notable = static_cast<double>(piece.cells.size()) >=
                          kNotableShare * static_cast<double>(feet.front().cells.size());
-    if (!notable || !stands(piece, standing_height_mm, settings)) continue;
+    if (!notable || !stands(piece, standing_height_mm)) continue;
     const auto beside = warnings.size();
     for (std::size_t i = 0; i < feet.size(); ++i) {
-      if (!may_join(feet[i], piece, settings)) continue;
+      if (!may_join(feet[i], piece)) continue;
       const auto gap_mm = std::lround(gap_between(feet[i], piece));
       warnings.push_back(
           "what stands some " + std::to_string(gap_mm) + " mm from foot " + std::to_string(i + 1) +
@@ -275,7 +281,7 @@ std::vector<std::string> named_parts(const std::vector<Piece>& feet,
       break;
     }
     const double length = enclosing_rectangle(piece.hull()).length;
-    if (warnings.size() == beside && is_fair(piece, feet.front(), settings)) {
+    if (warnings.size() == beside && is_fair(piece, feet.front())) {
       warnings.push_back("something " + std::to_string(std::lround(length)) +
                          " mm long was left out, which is too short for a foot: leave nothing else "
                          "on the platform, and have both feet in full view");
@@ -285,18 +291,17 @@ std::vector<std::string> named_parts(const std::vector<Piece>& feet,
 }
 
 /// Where nothing is long enough for a foot: how long the longest is that stands and is no crumb.
-std::vector<std::string> named_short_ones(const std::vector<Piece>& none, double standing_height_mm,
-                                          const SeparationSettings& settings) {
+std::vector<std::string> named_short_ones(const std::vector<Piece>& none,
+                                          double standing_height_mm) {
   double longest = 0.0;
   for (const auto& piece : none) {
-    if (!stands(piece, standing_height_mm, settings)) continue;
+    if (!stands(piece, standing_height_mm)) continue;
     longest = std::max(longest, enclosing_rectangle(piece.hull()).length);
   }
   if (longest < kCrumbMm) return {};
   const auto in_mm = [](double length) { return std::to_string(std::lround(std::floor(length))); };
   return {"the longest thing that stands there is " + in_mm(longest) +
-          " mm long, and feet of less than " + in_mm(settings.least_length_mm) +
-          " mm are not measured"};
+          " mm long, and feet of less than " + in_mm(kLeastLengthMm) + " mm are not measured"};
 }
 
 struct PiecesBySize {
@@ -316,23 +321,21 @@ PiecesBySize by_size(std::vector<Piece> pieces) {
 }
 
 /// Splits what touches and joins what belongs together; the largest first.
-void make_whole(std::vector<Piece>& pieces, const std::vector<Vector3d>& positions,
-                const SeparationSettings& settings) {
+void make_whole(std::vector<Piece>& pieces, const std::vector<Vector3d>& positions) {
   for (std::size_t i = 0, count = pieces.size(); i < count; ++i) {
-    split_piece(pieces, i, positions, settings);
+    split_piece(pieces, i, positions);
   }
-  join_pieces(pieces, settings);
+  join_pieces(pieces);
   std::stable_sort(pieces.begin(), pieces.end(), larger);
 }
 
 /// Takes what may be a foot from the large pieces; the others of them are small from now on.
-std::vector<Piece> take_feet(PiecesBySize& pieces, double standing_height_mm,
-                             const SeparationSettings& settings) {
+std::vector<Piece> take_feet(PiecesBySize& pieces, double standing_height_mm) {
   std::vector<Piece> feet;
   for (auto& piece : pieces.large) {
-    const bool long_enough = enclosing_rectangle(piece.hull()).length >= settings.least_length_mm;
-    const bool fair = feet.empty() || is_fair(piece, feet.front(), settings);
-    const bool may_be_foot = stands(piece, standing_height_mm, settings) && long_enough && fair;
+    const bool long_enough = enclosing_rectangle(piece.hull()).length >= kLeastLengthMm;
+    const bool fair = feet.empty() || is_fair(piece, feet.front());
+    const bool may_be_foot = stands(piece, standing_height_mm) && long_enough && fair;
     (may_be_foot ? feet : pieces.small).push_back(std::move(piece));
   }
   pieces.large.clear();
@@ -341,21 +344,20 @@ std::vector<Piece> take_feet(PiecesBySize& pieces, double standing_height_mm,
 
 }  // namespace
 
-SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double standing_height_mm,
-                            const SeparationSettings& settings) {
+SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double standing_height_mm) {
   SeparatedFeet separated;
-  auto pieces = by_size(find_pieces(positions, settings.link_mm));
-  make_whole(pieces.large, positions, settings);
-  auto feet = take_feet(pieces, standing_height_mm, settings);
+  auto pieces = by_size(find_pieces(positions));
+  make_whole(pieces.large, positions);
+  auto feet = take_feet(pieces, standing_height_mm);
   const bool are_many = feet.size() > 2;
   if (are_many) feet.resize(2);
   if (feet.empty()) {
     separated.strays = positions.size();
-    separated.warnings = named_short_ones(pieces.small, standing_height_mm, settings);
+    separated.warnings = named_short_ones(pieces.small, standing_height_mm);
     return separated;
   }
   const auto left_out = adopt(feet, std::move(pieces.small));
-  separated.warnings = named_parts(feet, left_out, standing_height_mm, settings);
+  separated.warnings = named_parts(feet, left_out, standing_height_mm);
   if (are_many) {
     separated.warnings.push_back(
         "more than two foot-like things stand on the platform; the two largest are taken: leave "
@@ -363,7 +365,7 @@ SeparatedFeet separate_feet(const std::vector<Vector3d>& positions, double stand
   }
   std::size_t kept = 0;
   for (auto& foot : feet) {
-    if (!fits_a_foot(foot, settings)) {
+    if (!fits_a_foot(foot)) {
       separated.warnings.push_back(
           "something larger than a foot stands on the platform: leave nothing else on it");
     }

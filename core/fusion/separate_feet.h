@@ -7,17 +7,6 @@
 
 namespace instep {
 
-/// What a foot looks like from above, and how far apart its pieces may lie.
-struct SeparationSettings {
-  double link_mm = 4.0;  ///< points within about this (up to twice) belong together
-  double most_length_mm = 350.0;
-  double most_width_mm = 155.0;
-  double least_length_mm = 120.0;  ///< no foot that can be measured is shorter
-  double most_gap_mm = 40.0;       ///< between two pieces of one foot, where no camera saw between
-  double stands_below_mm = 45.0;   ///< a foot comes this near to the platform; a leg alone does not
-  double least_share = 0.15;       ///< of the larger foot's surface that the other one must have
-};
-
 struct SeparatedFeet {
   std::vector<std::vector<std::size_t>> feet;  ///< indices of points, ascending; larger foot first
   std::size_t strays = 0;                      ///< points that belong to no foot
@@ -28,13 +17,13 @@ struct SeparatedFeet {
 /// `positions` are in the station frame, z up, without platform.
 ///
 /// Points that touch form pieces; pieces are joined, nearest first, as long as the joined one still
-/// fits into a foot's rectangle (and two pieces that look like feet are never joined side by side);
-/// a piece too wide for a foot, or for its own length and thin somewhere between two feet, is split
-/// where it is thinnest. Then small pieces go to the foot whose outline they lie in, and everything
-/// else is stray; where such a thing stands and could be a part of a foot, too far away to be
-/// joined, or is only too short for a foot, a warning says so. No foot gives an empty list, and a
-/// warning where something stands there that is shorter.
+/// fits into a foot's rectangle, 350 mm by 155 at most (and two pieces that look like feet are
+/// never joined side by side); a piece too wide for a foot, or for its own length and thin
+/// somewhere between two feet, is split where it is thinnest. Then small pieces go to the foot
+/// whose outline they lie in, and everything else is stray; where such a thing stands and could be
+/// a part of a foot, too far away to be joined, or is only too short for a foot, a warning says so.
+/// No foot gives an empty list, and a warning where something stands there that is shorter.
 SeparatedFeet separate_feet(const std::vector<Eigen::Vector3d>& positions,
-                            double standing_height_mm, const SeparationSettings& settings = {});
+                            double standing_height_mm);
 
 }  // namespace instep

@@ -12,6 +12,18 @@
 namespace instep {
 namespace {
 
+/// A step in depth between neighbours that no surface makes: steeper than this against the line of
+/// sight and larger than so many sigmas of its noise.
+constexpr double kSteepestDeg = 80.0;
+constexpr double kJumpSigmas = 5.0;
+constexpr double kUnsteady = 4.0;  // times the usual noise: a pixel that wavers so between frames
+constexpr int kErosionPx = 1;      // further pixels dropped on both sides of a jump
+/// Share of the 7 x 7 pixels round one that must hold data: where a silhouette has nothing behind
+/// it, the outermost pixels are as doubtful. This takes two off a straight rim.
+constexpr double kLeastFilledWindow = 0.74;
+constexpr double kMostIncidenceDeg = 75.0;  // between normal and line of sight
+constexpr double kNormalErrorDeg =
+    4.0;  // wanted; sets the size of the window a normal is fitted in
 constexpr int kSmallestWindow = 2;
 constexpr int kLargestWindow = 6;
 constexpr double kFewestNeighbours = 6;
@@ -36,7 +48,7 @@ std::vector<std::uint8_t> dilated(const std::vector<std::uint8_t>& marked, int w
 
 /// Marks the pixels that lack so many neighbours in a window of 7 x 7 that they must lie on the
 /// rim of what was seen. Single holes in a surface do not make a rim.
-std::vector<std::uint8_t> rim_pixels(const FusedDepth& depth, const SurfaceSettings& settings) {
+std::vector<std::uint8_t> rim_pixels(const FusedDepth& depth) {
   const int width = depth.width;
   const int height = depth.height;
   std::vector<std::uint8_t> marked(depth.depth_mm.size(), 0);
@@ -50,7 +62,7 @@ std::vector<std::uint8_t> rim_pixels(const FusedDepth& depth, const SurfaceSetti
   const auto column = [&](int u) {
     return u < 0 || u >= width ? 0 : columns[static_cast<std::size_t>(u)];
   };
-  const int least = static_cast<int>(std::ceil(settings.least_filled_window * kWindow * kWindow));
+  const int least = static_cast<int>(std::ceil(kLeastFilledWindow * kWindow * kWindow));
   for (int v = -kHalfWindow; v < height; ++v) {
     count_row(v + kHalfWindow, 1);
     count_row(v - kHalfWindow - 1, -1);
@@ -84,9 +96,8 @@ struct InversePlane {
 /// Fits planes to windows of one depth image.
 class NormalFitter {
  public:
-  NormalFitter(const Deprojector& deprojector, const FusedDepth& depth,
-               const SurfaceSettings& settings)
-      : deprojector_(deprojector), depth_(depth), settings_(settings) {}
+  NormalFitter(const Deprojector& deprojector, const FusedDepth& depth)
+      : deprojector_(deprojector), depth_(depth) {}
 
   /// Unit normal in the camera frame, towards the camera.
   std::optional<Eigen::Vector3d> normal(std::size_t pixel) const {
@@ -95,7 +106,7 @@ class NormalFitter {
     const double pitch = z / deprojector_.intrinsics().fx;
     const int radius = window(sigma, pitch);
     // First a loose gate: what a steep surface may show at this distance.
-    const double steep = std::tan(settings_.steepest_deg * kDegree) * pitch;
+    const double steep = std::tan(kSteepestDeg * kDegree) * pitch;
     const auto near = [&](double x, double y, double other) {
       return std::abs(other - z) <= 4.0 * sigma + 0.5 * steep * std::max(std::abs(x), std::abs(y));
     };
@@ -123,7 +134,7 @@ class NormalFitter {
     for (int radius = kSmallestWindow; radius < kLargestWindow; ++radius) {
       const double count = (2.0 * radius + 1) * (2.0 * radius + 1);
       const double lever = pitch * std::sqrt(count * radius * (radius + 1) / 3.0);
-      if (sigma / lever <= settings_.normal_error_deg * kDegree) return radius;
+      if (sigma / lever <= kNormalErrorDeg * kDegree) return radius;
     }
     return kLargestWindow;
   }
@@ -174,18 +185,16 @@ class NormalFitter {
 
   const Deprojector& deprojector_;
   const FusedDepth& depth_;
-  const SurfaceSettings& settings_;
 };
 
 }  // namespace
 
-void drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSettings& settings,
-                        FusedDepth& depth) {
+void drop_flying_pixels(const CameraIntrinsics& intrinsics, FusedDepth& depth) {
   const int width = depth.width;
-  const auto rims = rim_pixels(depth, settings);
-  const auto steep = static_cast<float>(std::tan(settings.steepest_deg * kDegree) / intrinsics.fx);
-  const auto sigmas = static_cast<float>(settings.jump_sigmas * std::numbers::sqrt2);
-  const auto unsteady = static_cast<float>(settings.unsteady) * usual_noise(depth);
+  const auto rims = rim_pixels(depth);
+  const auto steep = static_cast<float>(std::tan(kSteepestDeg * kDegree) / intrinsics.fx);
+  const auto sigmas = static_cast<float>(kJumpSigmas * std::numbers::sqrt2);
+  const auto unsteady = static_cast<float>(kUnsteady) * usual_noise(depth);
   std::vector<std::uint8_t> marked(depth.depth_mm.size(), 0);
   const auto compare = [&](std::size_t a, std::size_t b) {
     const float nearer = std::min(depth.depth_mm[a], depth.depth_mm[b]);
@@ -202,7 +211,7 @@ void drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSetting
       if (v + 1 < depth.height) compare(pixel, pixel + static_cast<std::size_t>(width));
     }
   }
-  for (int i = 0; i < settings.erosion_px; ++i) marked = dilated(marked, width, depth.height);
+  for (int i = 0; i < kErosionPx; ++i) marked = dilated(marked, width, depth.height);
   for (std::size_t pixel = 0; pixel < marked.size(); ++pixel) {
     const float z = depth.depth_mm[pixel];
     const bool steady = depth.sigma_mm[pixel] <= unsteady * z * z;
@@ -213,10 +222,9 @@ void drop_flying_pixels(const CameraIntrinsics& intrinsics, const SurfaceSetting
 }
 
 PointCloud surface_points(const Deprojector& deprojector, const FusedDepth& depth,
-                          const std::vector<std::uint32_t>& pixels,
-                          const SurfaceSettings& settings) {
-  const NormalFitter fitter(deprojector, depth, settings);
-  const double least_cosine = std::cos(settings.most_incidence_deg * kDegree);
+                          const std::vector<std::uint32_t>& pixels) {
+  const NormalFitter fitter(deprojector, depth);
+  const double least_cosine = std::cos(kMostIncidenceDeg * kDegree);
   PointCloud cloud;
   for (const std::uint32_t pixel : pixels) {
     const auto normal = fitter.normal(pixel);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 
 #include "core/fusion/camera_limits.h"
@@ -13,6 +14,16 @@
 namespace instep {
 namespace {
 
+constexpr double kNearestMm = 50.0;
+constexpr double kFarthestMm = 3000.0;
+constexpr double kLeastFilledShare = 0.002;  // a frame with fewer pixels in range is blind
+constexpr double kLeastSeenShare = 0.4;  // of the frames, in which a pixel must be seen to count
+constexpr double kGate = 3.5;  // robust deviations from the median beyond which a value is dropped
+constexpr double kMovementLimitMm = 1.0;  // beyond it `moved` is set
+/// Those beyond are passed over: bounds the memory.
+constexpr int kMostFrames = 120;
+static_assert(kMostFrames <= std::numeric_limits<std::uint8_t>::max(),
+              "a pixel's values are counted");
 constexpr int kBlock = 8;                 // pixels a side of a block that is watched for movement
 constexpr double kDeepestBlockMm = 40.0;  // a block with more depth in it lies on a silhouette
 constexpr double kMovingShare = 0.01;     // of the blocks has to move for it to count
@@ -138,7 +149,6 @@ BlockMove block_move(const std::vector<std::uint16_t>& before,
 }  // namespace
 
 TemporalFusion::TemporalFusion(TemporalSettings settings) : settings_(settings) {
-  settings_.most_frames = std::clamp(settings_.most_frames, 1, 255);
   settings_.expected_frames = std::max(settings_.expected_frames, 1);
 }
 
@@ -172,16 +182,16 @@ void TemporalFusion::start(const DepthFrame& frame) {
   const auto raw = [&](double depth_mm) {
     return static_cast<std::uint16_t>(std::clamp(depth_mm / unit_mm_, 1.0, 65534.0));
   };
-  nearest_raw_ = raw(settings_.nearest_mm);
-  farthest_raw_ = raw(settings_.farthest_mm);
+  nearest_raw_ = raw(kNearestMm);
+  farthest_raw_ = raw(kFarthestMm);
   counts_.assign(frame.raw.size(), 0);
 }
 
 /// Makes room for the frames that are expected, then for twice as many, as far as it can be needed.
 void TemporalFusion::widen() {
-  const auto most = static_cast<std::size_t>(settings_.most_frames);
+  constexpr std::size_t kMost = kMostFrames;
   const auto expected = static_cast<std::size_t>(settings_.expected_frames);
-  const std::size_t wider = std::min(std::max(expected, 2 * room_), most);
+  const std::size_t wider = std::min(std::max(expected, 2 * room_), kMost);
   std::vector<std::uint16_t> sorted(counts_.size() * wider);
   for (std::size_t pixel = 0; pixel < counts_.size(); ++pixel) {
     std::copy_n(sorted_.data() + pixel * room_, counts_[pixel], sorted.data() + pixel * wider);
@@ -191,7 +201,7 @@ void TemporalFusion::widen() {
 }
 
 Result<void> TemporalFusion::add(const DepthFrame& frame) {
-  if (frames_used_ >= settings_.most_frames) return {};
+  if (frames_used_ >= kMostFrames) return {};
   auto sound = check(frame);
   if (!sound) {
     ++frames_rejected_;
@@ -202,13 +212,11 @@ Result<void> TemporalFusion::add(const DepthFrame& frame) {
     return value >= nearest_raw_ && value <= farthest_raw_;
   };
   const auto filled = std::count_if(frame.raw.begin(), frame.raw.end(), in_range);
-  if (static_cast<double>(filled) <
-      settings_.least_filled_share * static_cast<double>(frame.raw.size())) {
+  if (static_cast<double>(filled) < kLeastFilledShare * static_cast<double>(frame.raw.size())) {
     ++frames_rejected_;
     return fail(ErrorCode::kInsufficientData,
                 "a frame of camera " + frame.camera + " shows nearly nothing from " +
-                    in_millimetres(settings_.nearest_mm) + " to " +
-                    in_millimetres(settings_.farthest_mm) + " away",
+                    in_millimetres(kNearestMm) + " to " + in_millimetres(kFarthestMm) + " away",
                 "check that nothing covers the camera, and its depth_unit_mm");
   }
   if (static_cast<std::size_t>(frames_used_) == room_) widen();
@@ -271,16 +279,15 @@ Result<FusedDepth> TemporalFusion::result() const {
   fused.frames_used = frames_used_;
   fused.frames_rejected = frames_rejected_;
   fused.movement_mm = movement_mm_;
-  fused.moved = movement_mm_ > settings_.movement_limit_mm;
-  const int needed =
-      std::max(1, static_cast<int>(std::ceil(settings_.least_seen_share * frames_used_)));
+  fused.moved = movement_mm_ > kMovementLimitMm;
+  const int needed = std::max(1, static_cast<int>(std::ceil(kLeastSeenShare * frames_used_)));
   for (std::size_t pixel = 0; pixel < counts_.size(); ++pixel) {
     const Samples samples{sorted_.data() + pixel * room_, counts_[pixel]};
     if (samples.count < needed) continue;
     const double depth = samples.values[samples.count / 2] * unit_mm_;
     const double model = settings_.noise.axial_sigma_mm(depth) / unit_mm_;
     const double scatter = std::max(kSigmaInMedians * median_deviation(samples), 0.5 * model);
-    const Estimate estimate = gated_mean(samples, std::max(1.0, settings_.gate * scatter));
+    const Estimate estimate = gated_mean(samples, std::max(1.0, kGate * scatter));
     if (estimate.kept < needed) continue;
     fused.depth_mm[pixel] = static_cast<float>(estimate.mean * unit_mm_);
     fused.sigma_mm[pixel] = static_cast<float>(sigma_of_mean(estimate, unit_mm_, settings_.noise));

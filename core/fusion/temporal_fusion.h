@@ -25,14 +25,7 @@ struct SensorNoise {
 
 struct TemporalSettings {
   SensorNoise noise;
-  double nearest_mm = 50.0;
-  double farthest_mm = 3000.0;
-  double least_filled_share = 0.002;  ///< a frame with fewer pixels in range is blind
-  double least_seen_share = 0.4;      ///< of the frames, in which a pixel must be seen to count
-  double gate = 3.5;  ///< robust deviations from the median beyond which a value is dropped
-  double movement_limit_mm = 1.0;  ///< beyond it `moved` is set
-  int expected_frames = 4;         ///< room is made for so many at first, and later for more
-  int most_frames = 120;           ///< those beyond are passed over: bounds the memory
+  int expected_frames = 4;  ///< room is made for so many at first, and later for more
 };
 
 /// Several frames of one camera as one depth image.
@@ -45,7 +38,7 @@ struct FusedDepth {
   int frames_used = 0;
   int frames_rejected = 0;
   double movement_mm = 0.0;  ///< how far surfaces moved along the line of sight during the frames
-  bool moved = false;
+  bool moved = false;        ///< by more than 1 mm
 };
 
 /// Fuses frames as they arrive: per pixel the mean of the values near the median (gate on the
@@ -62,8 +55,8 @@ class TemporalFusion {
 
   /// Takes a frame in, or says why not and counts it as rejected: status not kGood, size or unit
   /// unlike the first frame's or not sound, fewer values than pixels (kCorruptData), nearly nothing
-  /// in range (kInsufficientData). One beyond most_frames is not looked at and not counted, for
-  /// nothing is wrong with it.
+  /// in range, 50 mm to 3 m (kInsufficientData). One beyond 120 is not looked at and not counted,
+  /// for nothing is wrong with it.
   Result<void> add(const DepthFrame& frame);
 
   int frames_used() const { return frames_used_; }

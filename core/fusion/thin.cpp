@@ -65,18 +65,17 @@ class Thinning {
   void choose_and_assign() {
     std::vector<std::vector<std::uint32_t>> chosen_in(grid_.cell_count());
     for (std::size_t cell = 0; cell < grid_.cell_count(); ++cell) {
-      const auto near = grid_.neighbourhood(cell);
       for (const std::uint32_t point : grid_.members(cell)) {
         double best = std::numeric_limits<double>::infinity();
         std::uint32_t joined = kNone;
-        for (const std::size_t other : near) {
+        grid_.each_near(cell, [&](std::size_t other) {
           for (const std::uint32_t number : chosen_in[other]) {
             const double away = distance(chosen_[number], point);
             if (away >= best) continue;
             best = away;
             joined = number;
           }
-        }
+        });
         if (joined == kNone) {
           joined = static_cast<std::uint32_t>(chosen_.size());
           chosen_.push_back(point);

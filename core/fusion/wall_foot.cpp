@@ -12,6 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kLeastInsetMm = 3.0;
+constexpr double kMostInsetShare = 0.65;  // of the way across; beside an arch stands about a third
 constexpr double kMostSine = 0.95;
 constexpr double kMostOutwardMm = 2.0;   // a wall lost above its widest place may bulge so far
 constexpr double kLeaningSine = 0.45;    // of a wall that leans in as much as a sole's edge does
@@ -139,7 +141,7 @@ WallFoot::WallFoot(const Vector2d& place, const Vector2d& out, const WallShape& 
     course_ = taut_over_arch(height, std::asin(from), radius, shape.most_inset_mm);
     wall_corners_ = 1;
   }
-  if (contact() < settings.least_inset_mm) course_.emplace_back(settings.least_inset_mm, 0.0);
+  if (contact() < kLeastInsetMm) course_.emplace_back(kLeastInsetMm, 0.0);
 }
 
 std::vector<WallFoot::Place> WallFoot::hidden_wall(double spacing) const {
@@ -180,11 +182,10 @@ std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_hei
     const Vector2d out = end.normal.head<2>() / level;
     const Vector2d place = end.position.head<2>();
     const Ending usual = usual_ending(ends, end);
-    feet.emplace_back(
-        place, out,
-        WallShape{end.position.z() - standing_height_mm, usual.sine_of_dip, usual.bend,
-                  settings.most_inset_share * reach_across(shadow, place, -out)},
-        settings);
+    feet.emplace_back(place, out,
+                      WallShape{end.position.z() - standing_height_mm, usual.sine_of_dip,
+                                usual.bend, kMostInsetShare * reach_across(shadow, place, -out)},
+                      settings);
   }
   return feet;
 }

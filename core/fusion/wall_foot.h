@@ -12,9 +12,6 @@ struct WallSettings {
   /// Of the seen wall, upward from its lowest point, that tells how it bends.
   double bend_reach_mm = 14.0;
   double usual_edge_mm = 8.0;  ///< height over the platform where the sole's round edge begins
-  double least_inset_mm = 3.0;
-  /// Of the way across the foot: what stands beside an arch is about a third of it.
-  double most_inset_share = 0.65;
 };
 
 /// The lower end of a wall as it was seen.
@@ -43,6 +40,7 @@ struct WallShape {
 ///                 turns level above the platform, a roof with a hollow that no tape enters. The
 ///                 skin bends on in an arc until it points at that place, and from there the tape
 ///                 runs straight.
+/// The contact lies 3 mm inward at the least.
 class WallFoot {
  public:
   /// `out`: horizontal unit vector.

@@ -9,6 +9,7 @@
 #include "core/fusion/fuse_views.h"
 #include "core/fusion/seen_through.h"
 #include "core/fusion/shared_errors.h"
+#include "core/fusion/thin.h"
 #include "core/geometry/rigid_transform.h"
 
 namespace instep {
@@ -30,7 +31,7 @@ struct WorkingView {
 };
 
 /// Checks a view, makes its rays if it has none, and drops the pixels that lie on no surface.
-Result<WorkingView> open_view(const View& view, const SurfaceSettings& settings);
+Result<WorkingView> open_view(const View& view);
 
 /// Calls `visit(pixel, point in the station)` for pixels with data, `stride` apart both ways, row
 /// by row.
@@ -47,12 +48,12 @@ void visit_pixels(const WorkingView& view, int stride, const Visit& visit) {
 /// Whether a point lies so near to the station's upright axis.
 bool is_within(const Eigen::Vector3d& point, double radius_mm);
 
-/// Whether a point of the station lies near enough to the platform to matter.
+/// Whether a point of the station lies near enough to the platform to matter: within 600 mm of its
+/// middle in plan and 500 in height. What does not is background.
 bool in_region(const Eigen::Vector3d& point, const FusionSettings& settings);
 
 /// The points of some pixels, in the station frame.
-PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_t>& pixels,
-                         const SurfaceSettings& settings);
+PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_t>& pixels);
 
 /// What one view shows of the feet.
 struct FootPoints {

@@ -78,13 +78,6 @@ void VoxelGrid::find_rows() {
   }
 }
 
-std::vector<std::size_t> VoxelGrid::neighbourhood(std::size_t cell) const {
-  std::vector<std::size_t> found;
-  found.reserve(kRows);
-  each_near(cell, [&](std::size_t near) { found.push_back(near); });
-  return found;
-}
-
 std::vector<std::size_t> VoxelGrid::face_neighbourhood(std::size_t cell) const {
   constexpr std::size_t kOwnRow = 4;
   std::vector<std::size_t> found;
@@ -101,10 +94,9 @@ std::vector<std::size_t> VoxelGrid::face_neighbourhood(std::size_t cell) const {
 std::vector<std::size_t> VoxelGrid::clusters() const {
   DisjointSets joined(cell_count());
   for (std::size_t cell = 0; cell < cell_count(); ++cell) {
-    for (const std::size_t other : neighbourhood(cell)) {
-      if (other >= cell) break;
-      joined.join(cell, other);
-    }
+    each_near(cell, [&](std::size_t other) {
+      if (other < cell) joined.join(cell, other);
+    });
   }
   return joined.numbers();
 }

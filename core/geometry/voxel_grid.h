@@ -27,10 +27,8 @@ class VoxelGrid {
     return {members_.data() + begins_[cell], members_.data() + begins_[cell + 1]};
   }
 
-  /// The occupied cells among a cell and the 26 round it, the cell itself included, ascending.
-  std::vector<std::size_t> neighbourhood(std::size_t cell) const;
-
-  /// Calls with each of them, in that order.
+  /// Calls with each occupied cell among a cell and the 26 round it, the cell itself included,
+  /// ascending.
   template <typename Visit>
   void each_near(std::size_t cell, const Visit& visit) const {
     for (std::size_t row = 0; row < kRows; ++row) {

@@ -21,6 +21,8 @@ constexpr double kOffSurface = 0.1;
 /// would set the shortest edge, and with it the distance of off-surface points, to nothing, and no
 /// solver separates the two then.
 constexpr double kCopy = 1e-3;
+/// Points from which a leaf is reconstructed; the paper's n_min.
+constexpr std::size_t kFewest = 10;
 /// What the preparation takes of the whole.
 constexpr double kPrepared = 0.3;
 
@@ -48,7 +50,7 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   for (std::size_t i = 0; i < distinct.size(); ++i) {
     if (!copies[i]) points.push_back(distinct[i]);
   }
-  if (2 * points.size() < options.fewest) return no_surface();
+  if (2 * points.size() < kFewest) return no_surface();
   const auto tree = minimum_spanning_tree(points);
   report(0.5 * kPrepared);
   const double shortest = tree.front().length;
@@ -57,8 +59,7 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   Octree octree(samples.positions, options.most);
   const auto groups =
       combined_points(octree, options.most, [&](const std::vector<std::uint32_t>& members) {
-        return members.size() >= options.fewest &&
-               has_unique_solution(picked(samples.positions, members));
+        return members.size() >= kFewest && has_unique_solution(picked(samples.positions, members));
       });
   report(kPrepared);
 

@@ -15,8 +15,6 @@ namespace instep {
 struct OctreeSurfaceOptions {
   /// Most points, off-surface points included, in a leaf; the paper's n_max.
   std::size_t most = 300;
-  /// Fewest points from which a leaf is reconstructed; the paper's n_min.
-  std::size_t fewest = 10;
 };
 
 /// Told how much of the work is done, from 0 to 1.

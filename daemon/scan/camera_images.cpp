@@ -28,8 +28,8 @@ Result<FusedDepth> fuse_camera(const Capture& capture, const CameraDescription& 
     return frame.camera == camera.geometry.id;
   };
   TemporalSettings settings;
-  settings.expected_frames = static_cast<int>(std::min<std::ptrdiff_t>(
-      std::count_if(capture.frames.begin(), capture.frames.end(), is_own), settings.most_frames));
+  settings.expected_frames =
+      static_cast<int>(std::count_if(capture.frames.begin(), capture.frames.end(), is_own));
   TemporalFusion fusion(settings);
   std::optional<Error> rejected;
   for (const auto& frame : capture.frames) {

@@ -24,7 +24,7 @@ TEST(CrowdedPoints, AreTheSheetWithoutTheStrays) {
   std::vector<Eigen::Vector3d> strays;
   for (int i = 0; i < 150; ++i)
     strays.emplace_back(uniform(random), uniform(random), 20 + uniform(random));
-  const auto kept = crowded_points(sheet_with(strays), {});
+  const auto kept = crowded_points(sheet_with(strays));
   EXPECT_EQ(kept.size(), 40000U);
   EXPECT_EQ(kept.back(), 39999U);
   EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end()));
@@ -33,14 +33,14 @@ TEST(CrowdedPoints, AreTheSheetWithoutTheStrays) {
 TEST(ClusteredPoints, AreTheSheetWithoutSmallGroups) {
   std::vector<Eigen::Vector3d> group;
   for (int i = 0; i < 45; ++i) group.emplace_back(80 + 0.3 * i, 80, 30);
-  EXPECT_EQ(clustered_points(sheet_with(group), {}).size(), 40000U);
+  EXPECT_EQ(clustered_points(sheet_with(group)).size(), 40000U);
   for (int i = 0; i < 10; ++i) group.emplace_back(80 + 0.3 * i, 81, 30);
-  EXPECT_EQ(clustered_points(sheet_with(group), {}).size(), 40055U);
+  EXPECT_EQ(clustered_points(sheet_with(group)).size(), 40055U);
 }
 
 TEST(Outliers, OfNothingAreNothing) {
-  EXPECT_TRUE(crowded_points({}, {}).empty());
-  EXPECT_TRUE(clustered_points({}, {}).empty());
+  EXPECT_TRUE(crowded_points({}).empty());
+  EXPECT_TRUE(clustered_points({}).empty());
 }
 
 }  // namespace

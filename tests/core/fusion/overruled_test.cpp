@@ -35,12 +35,12 @@ struct SeenBall {
         if (depths[i].depth_mm[pixel] > 0.0F) pixels.push_back(static_cast<std::uint32_t>(pixel));
       }
       const auto rays = Deprojector::create(cameras[i].intrinsics);
-      clouds.push_back(transformed(cameras[i].station_from_camera,
-                                   surface_points(*rays, depths[i], pixels, {})));
+      clouds.push_back(
+          transformed(cameras[i].station_from_camera, surface_points(*rays, depths[i], pixels)));
     }
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       surfaces.push_back(seen_surface(
-          {&cameras[i].intrinsics, &depths[i], cameras[i].station_from_camera}, clouds[i], {}));
+          {&cameras[i].intrinsics, &depths[i], cameras[i].station_from_camera}, clouds[i]));
     }
   }
 
@@ -55,7 +55,7 @@ struct SeenBall {
   }
 
   std::vector<std::size_t> kept(std::size_t view) const {
-    return points_not_overruled(surfaces, view, {});
+    return points_not_overruled(surfaces, view);
   }
 };
 
@@ -113,7 +113,7 @@ TEST(PointsNotOverruled, LetsNoPlaceGoUnseen) {
 TEST(PointsNotOverruled, KeepsASingleView) {
   const SeenBall seen([](double) { return 0.0; });
   const std::vector<SeenSurface> alone = {seen.surfaces[0]};
-  EXPECT_EQ(points_not_overruled(alone, 0, {}).size(), seen.clouds[0].size());
+  EXPECT_EQ(points_not_overruled(alone, 0).size(), seen.clouds[0].size());
 }
 
 }  // namespace

@@ -27,14 +27,14 @@ std::vector<PosedCloud> seen_by(const std::vector<CameraGeometry>& cameras, doub
   std::vector<PosedCloud> clouds;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     auto depth = *fuse_frames({render(cameras[i], two_feet(), {axial_per_mm, 0, 0}, i + 1, 0.1)});
-    drop_flying_pixels(cameras[i].intrinsics, {}, depth);
+    drop_flying_pixels(cameras[i].intrinsics, depth);
     std::vector<std::uint32_t> pixels;
     for (std::uint32_t p = 0; p < depth.depth_mm.size(); p += 3) {
       if (depth.depth_mm[p] > 0.0F) pixels.push_back(p);
     }
     const RigidTransform& pose = cameras[i].station_from_camera;
     const auto rays = *Deprojector::create(cameras[i].intrinsics);
-    clouds.push_back({transformed(pose, surface_points(rays, depth, pixels, {})), pose});
+    clouds.push_back({transformed(pose, surface_points(rays, depth, pixels)), pose});
   }
   return clouds;
 }

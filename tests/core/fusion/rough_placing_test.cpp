@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 WorkingView view_of(const CameraGeometry& camera, const Surfaces& scene) {
   TemporalFusion fusion;
   EXPECT_TRUE(fusion.add(render(camera, scene, {}, 1)));
-  auto view = open_view({camera, *fusion.result(), nullptr}, {});
+  auto view = open_view({camera, *fusion.result(), nullptr});
   EXPECT_TRUE(view);
   return *std::move(view);
 }
@@ -33,7 +33,7 @@ std::vector<WorkingView> views_of_a_foot() {
 }
 
 LevelView level(const WorkingView& view) {
-  return {view.posed(), station_cloud(view, object_pixels(view, {}, 0.0), {})};
+  return {view.posed(), station_cloud(view, object_pixels(view, 0.0))};
 }
 
 RigidTransform along_the_platform(double degrees, const Vector3d& shift) {

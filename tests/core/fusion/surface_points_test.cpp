@@ -28,7 +28,7 @@ std::vector<std::uint32_t> all_pixels(const FusedDepth& depth) {
 }
 
 Seen look(CameraGeometry camera, const Surfaces& surfaces, const RenderNoise& noise, int frames,
-          double unit_mm, const SurfaceSettings& settings = {}) {
+          double unit_mm) {
   Seen seen;
   std::vector<DepthFrame> rendered;
   for (int i = 0; i < frames; ++i) {
@@ -37,10 +37,10 @@ Seen look(CameraGeometry camera, const Surfaces& surfaces, const RenderNoise& no
   }
   seen.camera = camera;
   seen.depth = *fuse_frames(rendered);
-  drop_flying_pixels(camera.intrinsics, settings, seen.depth);
+  drop_flying_pixels(camera.intrinsics, seen.depth);
   const auto rays = Deprojector::create(camera.intrinsics);
   seen.cloud = transformed(camera.station_from_camera,
-                           surface_points(*rays, seen.depth, all_pixels(seen.depth), settings));
+                           surface_points(*rays, seen.depth, all_pixels(seen.depth)));
   return seen;
 }
 
@@ -126,12 +126,12 @@ TEST(SurfacePoints, BearPixelsWithoutNeighboursAndAbsurdDepths) {
   depth.depth_mm.assign(320 * 240, 0.0F);
   depth.sigma_mm.assign(320 * 240, 1.0F);
   const auto rays = Deprojector::create(side_camera().intrinsics);
-  EXPECT_TRUE(surface_points(*rays, depth, {5000}, {}).empty());
+  EXPECT_TRUE(surface_points(*rays, depth, {5000}).empty());
   depth.depth_mm[5000] = 500.0F;
-  EXPECT_TRUE(surface_points(*rays, depth, {5000}, {}).empty());
+  EXPECT_TRUE(surface_points(*rays, depth, {5000}).empty());
   depth.depth_mm.assign(320 * 240, std::numeric_limits<float>::max());
-  drop_flying_pixels(rays->intrinsics(), {}, depth);
-  const auto cloud = surface_points(*rays, depth, {5000, 6000}, {});
+  drop_flying_pixels(rays->intrinsics(), depth);
+  const auto cloud = surface_points(*rays, depth, {5000, 6000});
   EXPECT_TRUE(cloud.is_consistent());
 }
 
