@@ -190,7 +190,7 @@ FootAxis axis_of(const Points& low, RigidTransform start, Side side, AxisRule ru
     // Where the tip jumps to and fro between two toes or rules, the axis comes to rest between.
     if (medial_sign * *wanted * turn < 0.0) share *= 0.5;
     turn = share * medial_sign * *wanted;
-    if (std::abs(turn) < kStandsStillRad) break;
+    if (std::abs(turn) < kStandsStillRad || round + 1 == kMostRounds) break;
     axis.foot_from_standing =
         RigidTransform(Eigen::AngleAxisd(-turn, Vector3d::UnitZ())) * axis.foot_from_standing;
   }

@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "core/geometry/moments.h"
+#include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/polygon.h"
 #include "core/median.h"
+#include "core/picked.h"
 
 namespace instep {
 namespace {
@@ -33,13 +35,6 @@ constexpr std::size_t kFewestOfSole = 50;
 constexpr double kOffUpright = 0.006;
 constexpr double kLargestTilt = 0.14;
 constexpr double kFlatShare = 0.5;  ///< of the support that a closed sole covers
-
-Points even_sample(const Points& points, std::size_t most) {
-  const std::size_t step = points.size() / most + 1;
-  Points sample;
-  for (std::size_t i = 0; i < points.size(); i += step) sample.push_back(points[i]);
-  return sample;
-}
 
 /// Points that touch a plane, seen along its normal.
 std::vector<Vector2d> touching(const Points& points, const StandingPlane& plane, double thickness) {
@@ -305,7 +300,7 @@ StandingPlane settled_on_sole(const Points& points, const StandingPlane& plane) 
 }
 
 Result<StandingPlane> find_standing_plane(const Points& points) {
-  const Points sample = even_sample(points, kSample);
+  const Points sample = picked(points, some_by_place(points, kSample));
   Candidate best;
   // z up is the habit of files, so it is tried first and wins a tie, even if it is somewhat off.
   const StandingPlane upright = tipped(sample, plane_below(sample, Vector3d::UnitZ()));

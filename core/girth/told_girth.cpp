@@ -30,7 +30,7 @@ namespace {
 constexpr double kMuchMissed = 0.5;
 /// Pieces that a chord is told in, so that the contour looks round.
 constexpr int kPiecesOfChord = 8;
-/// Half of a 95 % interval that leaves nothing to be told, against the length.
+/// Half of a 95 % interval that leaves nothing to be told, against the stretched length.
 constexpr double kMostDoubt = 0.1;
 /// The same of the contact length: with so many folds it may be no section at all. A hull of one
 /// was 63 mm short.
@@ -215,7 +215,6 @@ bool is_smaller_than_another(const std::vector<SectionLoop>& loops) {
 ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
                       const PlaneBand& band, SlabSource& slabs) {
   const Contour& contour = loops.front().contour;
-  const double length = contour.length();
   const auto evidence = evidence_for(band, loops.front().index, evidence_reach(band));
   const auto neck = SectionNeck::of(contour);
   const double unexplained = unexplained_share(band, loops, evidence);
@@ -230,9 +229,9 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
       unknowns_of(band, slabs.cloud(), loops, surface, evidence, section);
   widen(band, unknowns, section);
   ToldGirth told;
-  if (!(section.stretched_u95 <= kMostDoubt * length)) {
+  if (!(section.stretched_u95 <= kMostDoubt * section.stretched)) {
     told = refused(band, contour, too_doubtful(unknowns, section));
-  } else if (!(section.contact_u95 <= kMostFolded * length)) {
+  } else if (!(section.contact_u95 <= kMostFolded * section.contact)) {
     told = refused(band, contour, too_folded(unknowns, section));
   }
   note_unsure_parts(band, unknowns, told);
@@ -324,7 +323,7 @@ ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOp
 }  // namespace
 
 bool is_too_doubtful(const Girth& girth) {
-  return !(*girth.stretched_u95_mm <= kMostDoubt * girth.contact_mm &&
+  return !(*girth.stretched_u95_mm <= kMostDoubt * girth.stretched_mm &&
            *girth.contact_u95_mm <= kMostFolded * girth.contact_mm);
 }
 
