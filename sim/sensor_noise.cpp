@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/degree.h"
 #include "sim/random.h"
 
 namespace instep {
@@ -100,7 +101,7 @@ class FrameMaker {
   }
 
   double faded(double incidence) const {
-    const double degrees = incidence * 180.0 / std::numbers::pi;
+    const double degrees = incidence / kDegree;
     return std::clamp(
         (degrees - settings_.fading_deg) / (settings_.lost_deg - settings_.fading_deg), 0.0, 1.0);
   }

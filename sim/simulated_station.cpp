@@ -7,6 +7,7 @@
 #include <numbers>
 #include <thread>
 
+#include "core/degree.h"
 #include "sim/random.h"
 #include "sim/solids/cylinder_solid.h"
 #include "sim/solids/foot_solid.h"
@@ -28,7 +29,7 @@ constexpr double kLargestShiftMm = 8.0;
 
 /// People do not stand square to the platform: each foot is turned outwards a little and shifted.
 RigidTransform stance(Random& random, Side side, double middle_y, double length) {
-  const double outwards = random.uniform(0.0, kLargestTurnDeg) * std::numbers::pi / 180.0;
+  const double outwards = random.uniform(0.0, kLargestTurnDeg) * kDegree;
   RigidTransform station_from_solid = RigidTransform::Identity();
   station_from_solid.linear() =
       Eigen::AngleAxisd(side == Side::kRight ? -outwards : outwards, Vector3d::UnitZ())

@@ -4,7 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "core/degree.h"
 
 namespace instep {
 namespace {
@@ -65,10 +66,9 @@ Result<std::vector<CameraGeometry>> lay_out_station(const LayoutSettings& settin
   std::vector<CameraGeometry> cameras;
   const Vector3d target(0.0, 0.0, settings.target_height_mm);
   for (int i = 0; i < settings.cameras; ++i) {
-    const double radians = std::numbers::pi / 180.0;
-    const double azimuth = radians * (settings.first_azimuth_deg + 360.0 * i / settings.cameras);
+    const double azimuth = kDegree * (settings.first_azimuth_deg + 360.0 * i / settings.cameras);
     const double elevation =
-        radians * (i % 2 == 0 ? settings.high_elevation_deg : settings.low_elevation_deg);
+        kDegree * (i % 2 == 0 ? settings.high_elevation_deg : settings.low_elevation_deg);
     const Vector3d towards_eye(std::cos(elevation) * std::cos(azimuth),
                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
     const Vector3d eye = target + settings.distance_mm * towards_eye;

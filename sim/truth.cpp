@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/degree.h"
 #include "core/foot/full_size.h"
 #include "core/girth/tape_plane.h"
 #include "sim/outline_probe.h"
@@ -311,7 +312,7 @@ class Measurer {
     };
     const double toe = bearing(place_of_maximum(bearing, from * length_, to * length_, 2.0));
     const double side = std::atan2(outwards * (ball.y() - heel.y()), ball.x() - heel.x());
-    return (side - toe) * 180.0 / M_PI;
+    return (side - toe) / kDegree;
   }
 
   void find_toe_angles() {

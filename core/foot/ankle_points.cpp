@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "core/foot/border_crest.h"
+#include "core/foot/border_smoothing.h"
 
 namespace instep {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSmoothingMm = 9.0;
 constexpr double kLowest = 0.22;
 constexpr double kHighest = 0.38;
 constexpr double kUsual = 0.30;
@@ -39,7 +39,7 @@ std::optional<Landmark> find_medial_malleolus(const FootOutline& outline) {
   }
   const SkinBorder side(
       leg, {Vector3d::UnitZ(), Vector3d::UnitY(), Vector3d::UnitX(), kFrom * length, kTo * length},
-      kSmoothingMm);
+      kBorderSmoothingMm);
   const auto peak = side.furthest(kLowest * length, kHighest * length, [&](double height) {
     return std::pow((height / length - kUsual) / kSpread, 2);
   });

@@ -5,6 +5,7 @@
 
 #include "core/foot/ball_points.h"
 #include "core/foot/border_profile.h"
+#include "core/foot/border_smoothing.h"
 #include "core/foot/foot_outline.h"
 #include "core/foot/outline_axis.h"
 
@@ -15,7 +16,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-constexpr double kBorderSmoothingMm = 9.0;
 constexpr double kHeelSmoothingMm = 5.0;
 constexpr double kHeelFromShare = 0.03;  ///< further back the border is round
 constexpr double kHeelToShare = 0.13;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/foot/border_crest.h"
+#include "core/foot/border_smoothing.h"
 #include "core/foot/hidden_crest.h"
 #include "core/normal_spread.h"
 
@@ -141,7 +142,6 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
 std::optional<Eigen::Vector3d> top_over(const FootOutline& outline, const Eigen::Vector3d& medial,
                                         const Eigen::Vector3d& lateral) {
   constexpr double kSlabMm = 15.0;
-  constexpr double kSectionSmoothingMm = 9.0;
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d across = medial - lateral;
   across.z() = 0.0;
@@ -154,7 +154,7 @@ std::optional<Eigen::Vector3d> top_over(const FootOutline& outline, const Eigen:
     if (std::abs(along.dot(point) - place) < kSlabMm) slab.push_back(point);
   }
   const SkinBorder section(slab, {along, up, across, across.dot(lateral), across.dot(medial)},
-                           kSectionSmoothingMm);
+                           kBorderSmoothingMm);
   const auto top = section.at(place);
   return top ? std::optional(section.position(*top)) : std::nullopt;
 }

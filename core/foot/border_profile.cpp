@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
 #include "core/geometry/extent.h"
@@ -124,19 +123,13 @@ std::vector<BorderProfile::Sample> BorderProfile::curve(double from, double to) 
   return curve;
 }
 
-std::optional<BorderProfile::Peak> BorderProfile::furthest(
-    double from, double to, const std::function<double(double)>& handicap) const {
-  auto border = curve(from, to);
-  if (handicap) {
-    for (auto& sample : border) sample.reach -= handicap(sample.place);
-  }
+std::optional<BorderProfile::Peak> BorderProfile::furthest(double from, double to) const {
+  const auto border = curve(from, to);
   if (border.empty()) return std::nullopt;
   const auto top =
       std::max_element(border.begin(), border.end(),
                        [](const Sample& a, const Sample& b) { return a.reach < b.reach; });
-  const double higher_end = std::max(border.front().reach, border.back().reach);
-  const double handicap_there = handicap ? handicap(top->place) : 0.0;
-  return Peak{top->place, top->reach + handicap_there, top->reach - higher_end};
+  return Peak{top->place, top->reach};
 }
 
 std::vector<BorderProfile::Peak> BorderProfile::summits(double from, double to, double fall) const {
@@ -150,7 +143,7 @@ std::vector<BorderProfile::Peak> BorderProfile::summits(double from, double to, 
     if (sample.reach > top.reach) top = sample;
     valley = std::min(valley, sample.reach);
     if (is_climbing && sample.reach < top.reach - fall) {
-      found.push_back({top.place, top.reach, top.reach - valley});
+      found.push_back({top.place, top.reach});
       is_climbing = false;
       valley = sample.reach;
     } else if (!is_climbing && sample.reach > valley + fall) {

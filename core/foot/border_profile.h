@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,13 +31,10 @@ class BorderProfile {
   struct Peak {
     double place = 0.0;
     double reach = 0.0;
-    double rise = 0.0;  ///< above the higher end of the searched range; 0 at an end
   };
 
-  /// The furthest place in a range; nothing where the range holds no points. A `handicap` (mm, by
-  /// place) is taken off before comparing, so that among nearly equal places a likely one wins.
-  std::optional<Peak> furthest(double from, double to,
-                               const std::function<double(double)>& handicap = {}) const;
+  /// The furthest place in a range; nothing where the range holds no points.
+  std::optional<Peak> furthest(double from, double to) const;
 
   /// All summits in a range, in order of place, from which the border falls by at least `fall` to
   /// either side before it rises higher (or before the range ends).

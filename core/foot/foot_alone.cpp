@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <utility>
 
 #include "core/foot/left_out_strays.h"
@@ -12,6 +11,7 @@
 #include "core/foot/whole_leg.h"
 #include "core/geometry/distinct_points.h"
 #include "core/in_millimetres.h"
+#include "core/in_percent.h"
 #include "core/picked.h"
 
 namespace instep {
@@ -48,9 +48,7 @@ void leave_out_strays(FootAlone& foot) {
         "the heel, turn a camera to what lies between");
   }
   if (left_out.share < kManyStrays) return;
-  char percent[16];
-  std::snprintf(percent, sizeof percent, "%.1f %%", 100.0 * left_out.share);
-  foot.warnings.push_back(std::string(percent) +
+  foot.warnings.push_back(in_percent(left_out.share) +
                           " of the points are strays off the skin and are left out: see to what "
                           "shines or moves, and to the cameras' poses");
 }

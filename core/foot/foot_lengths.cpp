@@ -1,7 +1,8 @@
 #include "core/foot/foot_lengths.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "core/degree.h"
 
 namespace instep {
 namespace {
@@ -39,7 +40,7 @@ Result<double> toe_angle(const Landmarks& landmarks, const char* heel, const cha
   const auto outwards = position_of(landmarks, ball);
   const double sign = outwards->y() > 0.0 ? 1.0 : -1.0;
   const auto bearing = [&](const Vector3d& step) { return std::atan2(sign * step.y(), step.x()); };
-  return (bearing(*side) - bearing(*ray)) * 180.0 / std::numbers::pi;
+  return (bearing(*side) - bearing(*ray)) / kDegree;
 }
 
 }  // namespace

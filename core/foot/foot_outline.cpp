@@ -2,10 +2,10 @@
 
 #include <limits>
 
+#include "core/foot/border_smoothing.h"
+
 namespace instep {
 namespace {
-
-constexpr double kBorderSmoothingMm = 9.0;
 
 double length_of(const FootScan& foot) {
   return foot.landmarks.at("acropodion").position_mm.x() -

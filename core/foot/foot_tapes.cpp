@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "core/degree.h"
 #include "core/foot/foot_lengths.h"
 #include "core/foot/midfoot_points.h"
 
@@ -69,7 +69,7 @@ Result<TapePlane> leaning_ball_tape(const Landmarks& landmarks, double forward_d
   const Vector3d up = (Vector3d::UnitZ() - across.z() * across).normalized();
   const Vector3d either = across.cross(up);
   const Vector3d forward = either.x() > 0.0 ? either : Vector3d(-either);
-  const double lean = forward_deg * std::numbers::pi / 180.0;
+  const double lean = forward_deg * kDegree;
   const Vector3d leaning = std::cos(lean) * up + std::sin(lean) * forward;
   return TapePlane::through(*tibiale, *fibulare, *tibiale + kApartMm * leaning);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/foot/border_smoothing.h"
 #include "core/foot/standing_heel.h"
 #include "core/foot/stationary_reach.h"
 
@@ -17,7 +18,6 @@ using Eigen::Vector3d;
 constexpr double kSixth = 1.0 / 6.0;
 constexpr double kHeelMm = 40.0;  ///< of the foot itself
 constexpr double kRearShare = 0.2;
-constexpr double kSmoothingMm = 9.0;
 constexpr double kStepMm = 0.5;
 constexpr double kHalfWidthShare = 0.12;      ///< beside the axis
 constexpr double kHeelSlope = 0.45;           ///< radians: from the instep point down to the heel
@@ -47,7 +47,8 @@ SkinBorder side_view(const FootOutline& outline, const Vector3d& outwards, const
   }
   const double half_width = kHalfWidthShare * outline.length_mm();
   const Vector3d along(-outwards.z(), 0.0, outwards.x());
-  return {points, {along, outwards, Vector3d::UnitY(), -half_width, half_width}, kSmoothingMm};
+  return {
+      points, {along, outwards, Vector3d::UnitY(), -half_width, half_width}, kBorderSmoothingMm};
 }
 
 /// The breadth of the outline at a place.

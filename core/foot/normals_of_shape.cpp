@@ -18,9 +18,6 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostPlaces = 4000;
 constexpr std::size_t kFewestPlaces = 100;
 constexpr std::size_t kNeighbours = 12;
-constexpr double kFlat = 0.15;  ///< squared spread across a skin, of that along it
-/// The same across a line: of a sample that takes lines of a file it tells no skin.
-constexpr double kOnALine = 0.15;
 /// Within 60 degrees of the skin's own, of directions at random half are.
 constexpr double kStands = 0.5;
 constexpr double kLeastStanding = 0.65;
@@ -55,7 +52,7 @@ void hear(const std::vector<Vector3d>& normals, const PointIndex& index, const V
   Moments moments;
   for (const auto& other : nearest) moments.add(places[other.index] - places[i]);
   const SpreadAxes axes = moments.axes();
-  if (!are_flat(axes, kFlat) || are_on_a_line(axes, kOnALine)) return;
+  if (!lies_as_skin(axes)) return;
   const Vector3d& told = normals[i];
   witness.flat += 1.0;
   if (std::abs(told.dot(axes.eigenvectors().col(0))) > kStands) witness.standing += 1.0;

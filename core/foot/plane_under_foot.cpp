@@ -21,10 +21,7 @@ std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double 
 
 /// Along the direction in which the points spread most.
 double longest_extent(const std::vector<Eigen::Vector3d>& points) {
-  Moments moments;
-  for (const auto& point : points) moments.add(point - points.front());
-  const Eigen::Vector3d along = moments.axes().eigenvectors().col(2);
-  return extent_along(points, along).length();
+  return extent_along(points, Moments::of(points).longest()).length();
 }
 
 /// Of a foot of about that length.

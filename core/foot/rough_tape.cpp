@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
@@ -73,15 +73,11 @@ std::optional<double> rough_tape(const std::vector<Eigen::Vector3d>& points,
   }
   if (section.size() < kFewestSectors) return std::nullopt;
   const Vector2d middle = box.center();
-  const auto sector_of = [&](const Vector2d& place) {
-    const double turn =
-        std::atan2(place.y() - middle.y(), place.x() - middle.x()) / (2.0 * std::numbers::pi) + 0.5;
-    return std::min(kSectors - 1, static_cast<std::size_t>(turn * kSectors));
-  };
   std::array<Sector, kSectors> sectors;
   for (auto& point : section) {
-    point.sector = sector_of(point.place);
-    point.distance = (point.place - middle).norm();
+    const Vector2d arm = point.place - middle;
+    point.sector = sector_of(arm, kSectors);
+    point.distance = arm.norm();
   }
   drop_strays(section);
   for (const auto& point : section) {

@@ -1,6 +1,7 @@
 #include "core/foot/second_toe.h"
 
 #include "core/foot/border_profile.h"
+#include "core/foot/border_smoothing.h"
 #include "core/foot/toe_pattern.h"
 #include "core/geometry/extent.h"
 
@@ -9,7 +10,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kBorderSmoothingMm = 9.0;
 constexpr double kToeSmoothingMm = 3.5;
 constexpr double kToeStripMm = 1.0;
 constexpr double kToeBendMm = 2.5;  ///< seen from above no toe is bent tighter

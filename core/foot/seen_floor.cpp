@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include "core/geometry/moments.h"
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/polygon.h"
 #include "core/median.h"
 
@@ -31,7 +31,7 @@ constexpr double kThickInScatters = 4.0;
 /// What a sole leaves there is nothing; a rim round a foot, some 600 mm long, covers as much if it
 /// reaches two millimetres further.
 constexpr double kLeastAreaMm2 = 1000.0;
-constexpr int kSides = 24;
+constexpr std::size_t kSides = 24;
 constexpr std::size_t kFewestSides = 8;
 /// Noisier, or further from the plane, is none; nor are points of which fewer lie on one level.
 constexpr double kMostScatterMm = 2.0;
@@ -60,24 +60,12 @@ std::vector<Vector2d> covered(const std::vector<Vector3d>& standing) {
   return places.size() < 3 ? std::vector<Vector2d>() : convex_hull(std::move(places));
 }
 
-/// By how much a place lies outside of a convex polygon that runs round to the left; negative
-/// within.
-double way_out_of(const std::vector<Vector2d>& hull, const Vector2d& place) {
-  double most = -1e300;
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2d edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
-    const Vector2d arm = place - hull[i];
-    most = std::max(most, edge.y() * arm.x() - edge.x() * arm.y());
-  }
-  return most;
-}
-
 /// Low points beside what the body covers.
 std::vector<Vector3d> low_beside(const std::vector<Vector3d>& standing,
                                  const std::vector<Vector2d>& hull) {
   std::vector<Vector3d> beside;
   for (const auto& point : standing) {
-    if (std::abs(point.z()) < kBodyMm && way_out_of(hull, point.head<2>()) > kBesideMm) {
+    if (std::abs(point.z()) < kBodyMm && -depth_in(hull, point.head<2>()) > kBesideMm) {
       beside.push_back(point);
     }
   }
@@ -87,12 +75,10 @@ std::vector<Vector3d> low_beside(const std::vector<Vector3d>& standing,
 /// Whether points cover enough ground on enough sides of the middle.
 bool surround(const std::vector<Vector3d>& points, const Vector2d& middle) {
   std::set<Cell> cells;
-  std::set<int> sides;
+  std::set<std::size_t> sides;
   for (const auto& point : points) {
     cells.insert(cell_of(point));
-    const Vector2d arm = point.head<2>() - middle;
-    const double turn = std::atan2(arm.y(), arm.x()) / (2.0 * std::numbers::pi) + 0.5;
-    sides.insert(static_cast<int>(turn * kSides) % kSides);
+    sides.insert(sector_of(point.head<2>() - middle, kSides));
   }
   return static_cast<double>(cells.size()) * kCellMm * kCellMm >= kLeastAreaMm2 &&
          sides.size() >= kFewestSides;
@@ -107,8 +93,7 @@ struct Level {
 };
 
 Level level_through(const std::vector<Vector3d>& points) {
-  Moments moments;
-  for (const auto& point : points) moments.add(point - points.front());
+  const Moments moments = Moments::of(points);
   const SpreadAxes axes = moments.axes();
   Vector3d up = axes.eigenvectors().col(0);
   if (up.z() < 0.0) up = -up;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/foot/border_profile.h"
+#include "core/foot/border_smoothing.h"
 #include "core/foot/full_size.h"
 #include "core/foot/outline_axis.h"
 
@@ -11,8 +12,6 @@ namespace instep {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kBorderSmoothingMm = 9.0;
 
 // How far, as a share of the foot's length, each sign has to go to be worth one unit of evidence.
 constexpr double kClearToeOffset = 0.03;

@@ -18,9 +18,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kNeighbours = 16;
 constexpr double kReach = 2.0;
 constexpr double kLeastReach = 1.4;
-constexpr double kFlat = 0.15;     ///< squared spread across a skin, of that along it
-constexpr double kOnALine = 0.15;  ///< the same across a line: it tells no skin
-constexpr double kAlong = 0.55;    ///< sine of the way from place to place to the skin, at most
+constexpr double kAlong = 0.55;  ///< sine of the way from place to place to the skin, at most
 
 }  // namespace
 
@@ -38,8 +36,7 @@ SkinPieces::SkinPieces(const std::vector<Vector3d>& points)
       pairs_.push_back({i, other.index, std::sqrt(other.squared_distance)});
     }
     const SpreadAxes axes = moments.axes();
-    if (are_flat(axes, kFlat) && !are_on_a_line(axes, kOnALine))
-      normals_[i] = axes.eigenvectors().col(0);
+    if (lies_as_skin(axes)) normals_[i] = axes.eigenvectors().col(0);
   }
   for (auto& pair : pairs_) {
     const double spacing = std::max(spacings[pair.one], spacings[pair.other]);

@@ -11,6 +11,7 @@
 #include "core/geometry/moments.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
+#include "core/girth/section_gaps.h"
 #include "core/picked.h"
 #include "core/some_of.h"
 
@@ -90,11 +91,7 @@ class Skin {
     }
     if (turns.size() < 3) return false;
     std::sort(turns.begin(), turns.end());
-    double widest = turns.front() + 2.0 * std::numbers::pi - turns.back();
-    for (std::size_t i = 1; i < turns.size(); ++i) {
-      widest = std::max(widest, turns[i] - turns[i - 1]);
-    }
-    return widest < kWidestOpening;
+    return largest_gap_between(turns, 2.0 * std::numbers::pi) < kWidestOpening;
   }
 
   PointIndex index_;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
+#include "core/degree.h"
 #include "core/geometry/wall_facing.h"
 
 namespace instep {
@@ -39,7 +39,7 @@ Halves halves_of_end(const FootScan& foot, bool forwards) {
     if (from_end > kEndShare * length || point.z() > kLowShare * length) continue;
     if (normal.z() > kMostUpwardOfWall || !foot.cloud.was_seen(i)) continue;
     const double outwards = forwards ? normal.x() : -normal.x();
-    const double aside = std::atan2(std::abs(normal.y()), outwards) * 180.0 / std::numbers::pi;
+    const double aside = std::atan2(std::abs(normal.y()), outwards) / kDegree;
     if (aside < kLeastAside || aside > kMostAside) continue;
     ++(normal.y() > 0.0 ? halves.left : halves.right);
   }

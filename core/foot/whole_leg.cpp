@@ -43,13 +43,6 @@ Points between(const Points& points, const Vector3d& up, double from, double to)
   return some;
 }
 
-/// In which the points spread most; of at least one point.
-Vector3d longest_direction(const Points& points) {
-  Moments moments;
-  for (const auto& point : points) moments.add(point - points.front());
-  return moments.axes().eigenvectors().col(2);
-}
-
 struct Across {
   double longer = 0.0;
   double shorter = 0.0;
@@ -59,7 +52,7 @@ struct Across {
 Across extents_across(Points points, const Vector3d& up) {
   if (points.empty()) return {};
   for (auto& point : points) point -= up.dot(point) * up;
-  const Vector3d longer = longest_direction(points);
+  const Vector3d longer = Moments::of(points).longest();
   return {extent_of_most(points, longer).length(),
           extent_of_most(points, up.cross(longer)).length()};
 }
@@ -88,7 +81,7 @@ std::optional<Leg> leg_up(const Points& points, const Vector3d& up) {
   const Points upper = between(points, up, (whole.from + whole.to) / 2.0, whole.to);
   if (upper.empty()) return std::nullopt;
   // The foot turns the axis of the whole, but not that of the half without it.
-  Vector3d along = longest_direction(upper);
+  Vector3d along = Moments::of(upper).longest();
   if (along.dot(up) < 0.0) along = -along;
   if (along.dot(up) < kLargestLean) return std::nullopt;
   const Extent leg = extent_of_most(points, along);
@@ -106,7 +99,7 @@ std::optional<Leg> leg_up(const Points& points, const Vector3d& up) {
 
 std::optional<FootUnderLeg> foot_under_leg(const Points& points) {
   if (points.empty()) return std::nullopt;
-  const Vector3d along = longest_direction(points);
+  const Vector3d along = Moments::of(points).longest();
   const auto one = leg_up(points, along);
   const auto other = leg_up(points, -along);
   if (!one && !other) return std::nullopt;

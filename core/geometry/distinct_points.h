@@ -8,6 +8,12 @@
 
 namespace instep {
 
+/// For each point the index of the first one at its place: its own, unless an earlier one lies
+/// there. Only exactly equal coordinates count as one place (0 and -0 are equal); they must be
+/// finite. Joins what a file names again and again, such as the corners of a triangle soup.
+/// O(n log n).
+std::vector<std::size_t> first_at_same_place(const std::vector<Eigen::Vector3d>& points);
+
 /// The index of the first point at each place, ascending: who says a thing twice adds nothing to
 /// it, but a crowd at one place makes every neighbourhood there empty of all else, and a spacing of
 /// nothing. Only exactly equal coordinates count as one place; they must be finite. O(n log n).

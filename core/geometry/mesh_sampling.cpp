@@ -2,13 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <unordered_map>
 
 #include "core/geometry/disjoint_sets.h"
+#include "core/geometry/distinct_points.h"
 
 namespace instep {
 namespace {
@@ -17,33 +18,17 @@ using Eigen::Vector3d;
 using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+/// Of a mesh whose faces are halved.
+constexpr std::size_t kMostCorners = 2000000;
 
 /// An edge without direction as one number.
 std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
 }
 
-bool before(const Vector3d& a, const Vector3d& b) {
-  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-}
-
-/// For each corner the first one at its place.
-std::vector<std::uint32_t> first_at_same_place(const std::vector<Vector3d>& positions) {
-  std::vector<std::uint32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return before(positions[a], positions[b]);
-  });
-  std::vector<std::uint32_t> first(positions.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool same = i > 0 && positions[order[i]] == positions[order[i - 1]];
-    first[order[i]] = same ? first[order[i - 1]] : order[i];
-  }
-  return first;
-}
-
-/// Which side of a triangle is longest (0: from corner 0 to 1, and so on) and how long. Equal
-/// lengths are told apart by the ends, so that both neighbours choose alike.
+/// Which side of a triangle is longest (0: from corner 0 to 1, and so on) and how long; the first
+/// of equal ones. Neighbours need not choose alike: in whatever order, each of them halves every
+/// edge that is too long, and in its middle.
 std::pair<std::size_t, double> longest_side(const std::vector<Vector3d>& positions,
                                             const Triangle& triangle) {
   std::size_t longest = 0;
@@ -135,7 +120,7 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   TriangleMesh joined;
   joined.triangles.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
-    const Triangle corners = {first[triangle[0]], first[triangle[1]], first[triangle[2]]};
+    const std::array corners = {first[triangle[0]], first[triangle[1]], first[triangle[2]]};
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
     Triangle renamed{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -151,7 +136,7 @@ TriangleMesh welded(const TriangleMesh& mesh) {
   return joined;
 }
 
-TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_mm, std::size_t most_corners) {
+TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_mm) {
   TriangleMesh fine;
   fine.positions = mesh.positions;
   std::unordered_map<std::uint64_t, std::uint32_t> middles;
@@ -163,7 +148,7 @@ TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_mm, std::size
     const auto a = triangle[side];
     const auto b = triangle[(side + 1) % 3];
     const auto c = triangle[(side + 2) % 3];
-    if (!(length > longest_edge_mm) || fine.positions.size() >= most_corners) {
+    if (!(length > longest_edge_mm) || fine.positions.size() >= kMostCorners) {
       fine.triangles.push_back(triangle);
       continue;
     }

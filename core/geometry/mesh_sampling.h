@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/triangle_mesh.h"
 
@@ -12,12 +10,13 @@ namespace instep {
 /// surface of a triangle soup such as an STL file. O(n log n).
 TriangleMesh welded(const TriangleMesh& mesh);
 
-/// The same surface with triangles whose edges are at most `longest_edge_mm` long: edges are
-/// halved, longest first, alike from both sides, so that no cracks appear. The old corners keep
-/// their indices. Stops halving at `most_corners` and leaves the rest as it is: is_refined() tells.
-/// Deterministic.
-TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_mm,
-                     std::size_t most_corners = 2000000);
+/// The same surface with triangles whose edges are at most `longest_edge_mm` long: longer ones are
+/// halved, the longest of a triangle first, each at its middle from both sides, so that no cracks
+/// appear. The old corners keep their indices. Deterministic.
+///
+/// At two million corners it stops halving and leaves the rest as it is: is_refined() tells. Then
+/// there may be cracks, where an edge was halved for one of its faces only.
+TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_mm);
 
 /// True if no edge is longer than `longest_edge_mm`.
 bool is_refined(const TriangleMesh& mesh, double longest_edge_mm);

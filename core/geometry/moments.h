@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <vector>
 
 namespace instep {
 
@@ -20,12 +21,27 @@ inline bool are_on_a_line(const SpreadAxes& axes, double part) {
   return axes.eigenvalues()[1] < part * axes.eigenvalues()[2];
 }
 
+/// Whether points lie as skin does: neither in a heap nor on a line, so that their flattest
+/// direction is the skin's normal. Across their plane they spread by less than 39 % of what they do
+/// across their longest line on it, and across that by at least 39 % of what they do along it.
+inline bool lies_as_skin(const SpreadAxes& axes) {
+  constexpr double kPart = 0.15;  // squared
+  return are_flat(axes, kPart) && !are_on_a_line(axes, kPart);
+}
+
 /// Sums over points round some origin, from which their middle and their flattest direction follow.
 /// The origin lies among the points, or digits are lost.
 struct Moments {
   double count = 0.0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();  ///< the lower triangle; the rest is nothing
+
+  /// Of at least one point, round the first: their middle lies at that and middle(). O(n).
+  static Moments of(const std::vector<Eigen::Vector3d>& points) {
+    Moments moments;
+    for (const auto& point : points) moments.add(point - points.front());
+    return moments;
+  }
 
   void add(const Eigen::Vector3d& arm) {
     count += 1.0;
@@ -56,6 +72,9 @@ struct Moments {
 
   /// The direction in which the points spread least; of either sign. At least one point.
   Eigen::Vector3d flattest() const { return axes().eigenvectors().col(0); }
+
+  /// That in which they spread most; of either sign. At least one point.
+  Eigen::Vector3d longest() const { return axes().eigenvectors().col(2); }
 
  private:
   void add_products(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

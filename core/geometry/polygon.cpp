@@ -117,6 +117,15 @@ bool is_ring(const std::vector<Eigen::Vector2d>& polygon) {
   return polygon.size() >= 3 && std::abs(signed_area(polygon)) > kFlattest * length * length;
 }
 
+double depth_in(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d along = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
+    least = std::min(least, cross(along, point - polygon[i]));
+  }
+  return least;
+}
+
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,
                                      const Eigen::Vector2d& inward, double level) {
   std::vector<Eigen::Vector2d> kept;

@@ -21,6 +21,12 @@ double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 /// square of its length. Of many points give the hull.
 bool is_ring(const std::vector<Eigen::Vector2d>& polygon);
 
+/// How far inside a convex polygon that runs counter-clockwise a point lies, in its unit: the least
+/// distance from the lines through its edges, negative outside of any. Outside of a corner that is
+/// less than the way to it. The polygon's corners differ; without any a point is infinitely deep.
+/// O(corners).
+double depth_in(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point);
+
 /// The part of a closed polygon where `inward` . p >= `level`, the cut edges joined by straight
 /// lines (Sutherland and Hodgman). Empty if nothing is left.
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/geometry/plane_vectors.h"
 #include "core/geometry/voxel_grid.h"
 #include "core/median.h"
 
@@ -31,9 +32,7 @@ Reaches reaches_round(const Eigen::Vector2d& middle, const std::vector<Eigen::Ve
   Reaches reaches;
   for (const auto& point : points) {
     const Eigen::Vector2d arm = point.head<2>() - middle;
-    const double turn = 0.5 + std::atan2(arm.y(), arm.x()) / kFullTurn;
-    const auto direction = static_cast<std::size_t>(turn * kDirections);
-    reaches[std::min(direction, kDirections - 1)].push_back(arm.norm());
+    reaches[sector_of(arm, kDirections)].push_back(arm.norm());
   }
   return reaches;
 }

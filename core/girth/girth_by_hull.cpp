@@ -1,12 +1,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
-#include <limits>
 #include <numbers>
-#include <string>
 #include <utility>
 
-#include "core/geometry/plane_vectors.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
@@ -14,6 +10,7 @@
 #include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -67,21 +64,10 @@ double half_width_of_band(const Neighbourhood& about) {
   return half_width;
 }
 
-/// How far inside a hull a point lies.
-double depth(const std::vector<Eigen::Vector2d>& hull, const Eigen::Vector2d& point) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Eigen::Vector2d along = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
-    const Eigen::Vector2d arm = point - hull[i];
-    least = std::min(least, cross(along, arm));
-  }
-  return least;
-}
-
 bool has_much_inside(const std::vector<Eigen::Vector2d>& hull, const PlaneSlab& band) {
   const double deep = kDeep * perimeter(hull) / std::numbers::pi;
   const auto inside = std::count_if(band.places.begin(), band.places.end(), [&](const auto& place) {
-    return depth(hull, place.template head<2>()) > deep;
+    return depth_in(hull, place.template head<2>()) > deep;
   });
   return static_cast<double>(inside) > kManyDeep * static_cast<double>(band.places.size());
 }
@@ -92,10 +78,9 @@ void warn(const PlaneSlab& band, double length_of_twice, double gap, Girth& girt
     girth.warnings.emplace_back(kHullBridgedWarning);
   }
   if (length_of_twice > (1.0 + kSteadyGrowth) * girth.stretched_mm) {
-    char growth[32];
-    std::snprintf(growth, sizeof growth, "%.1f", length_of_twice - girth.stretched_mm);
     girth.warnings.push_back("the hull of the points up to twice as far from the plane is " +
-                             std::string(growth) + " mm longer: they are few, or the skin leans");
+                             in_millimetres(length_of_twice - girth.stretched_mm) +
+                             " longer: they are few, or the skin leans");
   }
   if (has_much_inside(girth.contour, band)) {
     girth.warnings.push_back(

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "core/geometry/polygon.h"
 #include "core/girth/control_points.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 
@@ -28,10 +28,8 @@ SectionLine choose_loop(std::vector<SectionLine> lines, const TapePlane& plane,
 }
 
 std::string other_loop_warning(double length_mm) {
-  char length[32];
-  std::snprintf(length, sizeof length, "%.1f", length_mm);
-  return "the plane cuts another closed loop, " + std::string(length) +
-         " mm long, which does not count";
+  return "the plane cuts another closed loop, " + in_millimetres(length_mm) +
+         " long, which does not count";
 }
 
 }  // namespace instep

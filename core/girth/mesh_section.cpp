@@ -6,6 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/geometry/distinct_points.h"
+#include "core/picked.h"
+
 namespace instep {
 namespace {
 
@@ -29,10 +32,6 @@ std::vector<std::size_t> crossed_faces(const TriangleMesh& mesh,
   return crossed;
 }
 
-bool before(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
-
 /// One number for all corners at the same place.
 std::map<std::size_t, std::size_t> merge_corners(const TriangleMesh& mesh,
                                                  const std::vector<std::size_t>& faces) {
@@ -40,14 +39,9 @@ std::map<std::size_t, std::size_t> merge_corners(const TriangleMesh& mesh,
   for (const std::size_t face : faces) {
     corners.insert(corners.end(), mesh.triangles[face].begin(), mesh.triangles[face].end());
   }
-  std::sort(corners.begin(), corners.end(), [&](std::size_t a, std::size_t b) {
-    return before(mesh.positions[a], mesh.positions[b]);
-  });
+  const auto firsts = first_at_same_place(picked(mesh.positions, corners));
   std::map<std::size_t, std::size_t> merged;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const bool same = i > 0 && mesh.positions[corners[i]] == mesh.positions[corners[i - 1]];
-    merged[corners[i]] = same ? merged[corners[i - 1]] : corners[i];
-  }
+  for (std::size_t i = 0; i < corners.size(); ++i) merged[corners[i]] = corners[firsts[i]];
   return merged;
 }
 

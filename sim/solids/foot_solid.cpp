@@ -2,7 +2,8 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
+
+#include "core/degree.h"
 
 namespace instep {
 namespace {
@@ -16,13 +17,9 @@ constexpr double kBodySoftness = 5.0;
 constexpr double kTightToes = 5.0;
 constexpr double kSpreadToes = 1.2;
 
-double radians(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
-}
-
 /// Turned about the vertical through `centre`, towards -y for positive angles.
 Vector3d turned_outwards(const Vector3d& point, const Vector3d& centre, double degrees) {
-  return centre + Eigen::AngleAxisd(-radians(degrees), Vector3d::UnitZ()) * (point - centre);
+  return centre + Eigen::AngleAxisd(-degrees * kDegree, Vector3d::UnitZ()) * (point - centre);
 }
 
 struct Ray {
@@ -72,8 +69,8 @@ void add_leg(Blend& body, const FootParameters& foot, double per_model) {
   const double top = foot.leg_height_mm * per_model;
   const auto on_leg = [&](double x, double y, double z) {
     const double above = z - 75.0;
-    return Vector3d(x + above * std::tan(radians(foot.lean_forward_deg)),
-                    y + above * std::tan(radians(foot.lean_medial_deg)), z);
+    return Vector3d(x + above * std::tan(foot.lean_forward_deg * kDegree),
+                    y + above * std::tan(foot.lean_medial_deg * kDegree), z);
   };
   const double shin = girth / 8.6;
   const double calf = girth / 5.6;

@@ -26,13 +26,12 @@ TEST(BorderProfile, FindsASummitUnderTheSpacing) {
   ASSERT_TRUE(peak);
   EXPECT_NEAR(peak->place, 123.4, 1.0);
   EXPECT_NEAR(peak->reach, 40.0, 0.05);
-  EXPECT_GT(peak->rise, 2.0);
 }
 
-TEST(BorderProfile, HasNoRiseAtTheEndOfARange) {
+TEST(BorderProfile, IsFurthestAtTheEndOfARangeThatItRisesIn) {
   const BorderProfile profile(body([](double x) { return 30.0 + 0.1 * x; }, 1.0), Vector2d::UnitX(),
                               Vector2d::UnitY(), 9.0);
-  EXPECT_DOUBLE_EQ(profile.furthest(50.0, 150.0)->rise, 0.0);
+  EXPECT_NEAR(profile.furthest(50.0, 150.0)->place, 150.0, 0.5);
 }
 
 TEST(BorderProfile, IgnoresAStray) {
@@ -65,7 +64,6 @@ TEST(BorderProfile, LiftsSamplesThatFallShortOfABendTheBorderCanHave) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(lifted[i].place, 24.0 + 16.0 * static_cast<double>(i), 0.6);
     EXPECT_NEAR(lifted[i].reach, 56.5, 0.3);
-    EXPECT_GT(lifted[i].rise, 2.0);
   }
 }
 

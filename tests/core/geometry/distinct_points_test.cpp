@@ -15,6 +15,14 @@ TEST(DistinctPoints, AreTheFirstAtEachPlaceInTheirOrder) {
   EXPECT_EQ(distinct_points(points), (Indices{0, 1, 3}));
 }
 
+TEST(FirstAtSamePlace, IsTheEarliestOfThoseThere) {
+  const std::vector<Eigen::Vector3d> points = {{3, 1, 0}, {1, 1, 1}, {3, 1, 0}, {3, 1, 1e-15},
+                                               {0, 0, 0}, {1, 1, 1}, {3, 1, 0}, {-0.0, 0, 0}};
+  EXPECT_EQ(first_at_same_place(points), (Indices{0, 1, 0, 3, 4, 1, 0, 4}));
+  EXPECT_EQ(first_at_same_place({{5, 5, 5}}), (Indices{0}));
+  EXPECT_TRUE(first_at_same_place({}).empty());
+}
+
 TEST(DistinctPoints, KeepsWhatIsOnlyNear) {
   EXPECT_EQ(distinct_points({{1, 0, 0}, {1, 0, 1e-15}}), (Indices{0, 1}));
 }

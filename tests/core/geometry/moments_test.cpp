@@ -54,5 +54,39 @@ TEST(Moments, OfPartsRoundTheirOwnMiddlesAddUp) {
   EXPECT_NEAR((sum.squares - whole.squares).norm(), 0.0, 1e-12);
 }
 
+TEST(Moments, OfPointsAreRoundTheFirst) {
+  // Far off, where squares round the origin would keep no digit of them.
+  const Vector3d far(1e9, -2e9, 3e9);
+  const std::vector<Vector3d> corners = {{0, 0, 0}, {6, 0, 0}, {6, 2, 0}, {0, 2, 0}};
+  std::vector<Vector3d> points;
+  for (const auto& corner : corners) points.push_back(far + corner);
+  const auto moments = Moments::of(points);
+  EXPECT_EQ(moments.count, 4.0);
+  EXPECT_EQ(points.front() + moments.middle(), far + Vector3d(3, 1, 0));
+  EXPECT_NEAR(std::abs(moments.flattest().z()), 1.0, 1e-12);
+  EXPECT_NEAR(std::abs(moments.longest().x()), 1.0, 1e-12);
+}
+
+/// Corners of a box.
+SpreadAxes axes_of_box(double length, double breadth, double height) {
+  std::vector<Vector3d> corners;
+  for (const double x : {0.0, length}) {
+    for (const double y : {0.0, breadth}) {
+      for (const double z : {0.0, height}) corners.emplace_back(x, y, z);
+    }
+  }
+  return Moments::of(corners).axes();
+}
+
+TEST(LiesAsSkin, WhatIsFlatAndNoLine) {
+  EXPECT_TRUE(lies_as_skin(axes_of_box(10, 10, 0)));
+  EXPECT_TRUE(lies_as_skin(axes_of_box(10, 4, 1.5)));
+  EXPECT_FALSE(lies_as_skin(axes_of_box(10, 10, 10))) << "a heap";
+  EXPECT_FALSE(lies_as_skin(axes_of_box(10, 4, 1.6)));
+  EXPECT_FALSE(lies_as_skin(axes_of_box(10, 0.5, 0.1))) << "a line";
+  EXPECT_FALSE(lies_as_skin(axes_of_box(10, 3.8, 0)));
+  EXPECT_FALSE(lies_as_skin(axes_of_box(0, 0, 0))) << "one place";
+}
+
 }  // namespace
 }  // namespace instep

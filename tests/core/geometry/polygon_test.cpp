@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -81,6 +82,31 @@ TEST(ConvexHull, GivesBackWhatHasNoArea) {
   EXPECT_EQ(convex_hull(std::vector<Vector2d>(100, {1, 1})).size(), 1U);
   const auto segment = convex_hull({{0, 0}, {3, 0}, {1, 0}, {2, 0}});
   EXPECT_DOUBLE_EQ(perimeter(segment), 6.0);
+}
+
+TEST(DepthIn, IsTheWayToTheNearestSideOfARectangle) {
+  const std::vector<Vector2d> rectangle = {{10, 20}, {14, 20}, {14, 23}, {10, 23}};
+  EXPECT_DOUBLE_EQ(depth_in(rectangle, {12, 21.5}), 1.5);
+  EXPECT_DOUBLE_EQ(depth_in(rectangle, {13.5, 21}), 0.5);
+  EXPECT_DOUBLE_EQ(depth_in(rectangle, {14, 21}), 0.0);
+  EXPECT_DOUBLE_EQ(depth_in(rectangle, {12, 27}), -4.0);
+  EXPECT_DOUBLE_EQ(depth_in(rectangle, {8, 21}), -2.0);
+  // Past a corner by 3 and 4 the way to it is 5.
+  EXPECT_DOUBLE_EQ(depth_in(rectangle, {17, 27}), -4.0);
+}
+
+TEST(DepthIn, OfTheMiddleOfAHexagonIsTheRadiusOfItsInnerCircle) {
+  std::vector<Vector2d> hexagon;
+  for (int i = 0; i < 6; ++i) {
+    const double angle = std::numbers::pi / 3 * i;
+    hexagon.emplace_back(7 + 2 * std::cos(angle), -3 + 2 * std::sin(angle));
+  }
+  EXPECT_NEAR(depth_in(hexagon, {7, -3}), std::sqrt(3.0), 1e-14);
+  EXPECT_NEAR(depth_in(hexagon, {9, -3}), 0.0, 1e-14);
+}
+
+TEST(DepthIn, IsWithoutEndInNoPolygon) {
+  EXPECT_EQ(depth_in({}, {1, 2}), std::numeric_limits<double>::infinity());
 }
 
 TEST(Clipped, CutsACircleAtAChord) {
