@@ -37,7 +37,7 @@ constexpr std::size_t kAskedForWays = 1500;
 constexpr std::array<std::size_t, 5> kNeighbours{2, 4, 8, 16, 32};
 /// Places that tell the wave, by so many points round each.
 constexpr std::size_t kAskedForWave = 80;
-constexpr std::size_t kMostRoundPlace = 40;
+constexpr std::size_t kMostRoundPlace = 20;
 constexpr std::size_t kFewestRoundPlace = 8;
 constexpr double kRadiusInPitches = 2.5;
 /// Points that hardly spread along a way are in step with every wave: the least spread (a standard

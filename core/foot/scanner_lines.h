@@ -24,7 +24,7 @@ struct ScannerLines {
 ///
 /// The nearest neighbours of points on a line lie on it with them, so that of all ways to them none
 /// leads off the planes; how far apart these are tells the wave along that way that most points
-/// round a place are in step with (a periodogram). As told by some hundreds of places, of which
+/// round a place are in step with (a periodogram). As told by some eighty places, of which
 /// most must agree: lines whose noise is more than a sixth of the pitch are none any more, and
 /// neither are those that run every way, as of a turntable. The pitch is good to a hundredth if it
 /// is even, or else that of lines near each other.

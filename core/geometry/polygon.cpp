@@ -126,6 +126,26 @@ double depth_in(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector
   return least;
 }
 
+BorderPlace nearest_on_border(const std::vector<Eigen::Vector2d>& polygon,
+                              const Eigen::Vector2d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  double nearest_way = 0.0;
+  double way = 0.0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    const double length = edge.norm();
+    const Eigen::Vector2d along = edge / (length > 0.0 ? length : 1.0);
+    const double part = std::clamp(along.dot(point - polygon[i]), 0.0, length);
+    const double squared = (polygon[i] + part * along - point).squaredNorm();
+    if (squared < nearest) {
+      nearest = squared;
+      nearest_way = way + part;
+    }
+    way += length;
+  }
+  return {nearest_way, std::sqrt(nearest)};
+}
+
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,
                                      const Eigen::Vector2d& inward, double level) {
   std::vector<Eigen::Vector2d> kept;

@@ -27,6 +27,17 @@ bool is_ring(const std::vector<Eigen::Vector2d>& polygon);
 /// O(corners).
 double depth_in(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& point);
 
+/// A place on the line round a closed polygon.
+struct BorderPlace {
+  double way = 0.0;       ///< along it from the first corner
+  double distance = 0.0;  ///< from the point that was asked for
+};
+
+/// The nearest to a point, the first of equally near ones; infinitely far where there are no
+/// corners. O(corners).
+BorderPlace nearest_on_border(const std::vector<Eigen::Vector2d>& polygon,
+                              const Eigen::Vector2d& point);
+
 /// The part of a closed polygon where `inward` . p >= `level`, the cut edges joined by straight
 /// lines (Sutherland and Hodgman). Empty if nothing is left.
 std::vector<Eigen::Vector2d> clipped(const std::vector<Eigen::Vector2d>& polygon,

@@ -109,6 +109,23 @@ TEST(DepthIn, IsWithoutEndInNoPolygon) {
   EXPECT_EQ(depth_in({}, {1, 2}), std::numeric_limits<double>::infinity());
 }
 
+TEST(NearestOnBorder, IsOnASideOrAtACorner) {
+  const std::vector<Eigen::Vector2d> square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const auto above = nearest_on_border(square, {1, 6});
+  EXPECT_DOUBLE_EQ(above.way, 11.0);
+  EXPECT_DOUBLE_EQ(above.distance, 2.0);
+  const auto beyond = nearest_on_border(square, {7, 8});
+  EXPECT_DOUBLE_EQ(beyond.way, 8.0);
+  EXPECT_DOUBLE_EQ(beyond.distance, 5.0);
+  // The side from the last corner to the first.
+  EXPECT_DOUBLE_EQ(nearest_on_border(square, {1, 2}).way, 14.0);
+}
+
+TEST(NearestOnBorder, OfOneCornerOrNoneIsThatOrNone) {
+  EXPECT_DOUBLE_EQ(nearest_on_border({{1, 1}}, {4, 5}).distance, 5.0);
+  EXPECT_EQ(nearest_on_border({}, {4, 5}).distance, std::numeric_limits<double>::infinity());
+}
+
 TEST(Clipped, CutsACircleAtAChord) {
   const int sides = 3600;
   std::vector<Vector2d> circle;
