@@ -9,6 +9,7 @@
 #include "core/foot/full_size.h"
 #include "core/fusion/close_sole.h"
 #include "core/geometry/moments.h"
+#include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 
 namespace instep {
@@ -22,6 +23,7 @@ constexpr double kLowMm = 64.0;           ///< what stands higher says nothing o
 constexpr double kMiddleMm = 20.0;        ///< height over the floor that lies within the foot
 constexpr double kCellMm = 8.0;
 constexpr std::size_t kNeighbours = 14;
+constexpr std::size_t kMostOfWalls = 100000;  ///< their bends are told by no more
 
 /// To full size, where the foot is looked at.
 double factor_of(const FootScan& foot) {
@@ -96,6 +98,9 @@ void close_open_sole(FootScan& foot) {
     if (factor * foot.cloud.positions[i].z() < wall_height) low.push_back(i);
   }
   PointCloud walls = foot.cloud.subset(low);
+  if (walls.size() > kMostOfWalls) {
+    walls = walls.subset(some_by_place(walls.positions, kMostOfWalls));
+  }
   walls.drop_errors_along_normals();  // what is added has none
   for (auto& place : walls.positions) place *= factor;
   if (walls.size() < kNeighbours) return;
