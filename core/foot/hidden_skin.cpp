@@ -139,4 +139,15 @@ HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth
   return hidden;
 }
 
+double doubt_of_deeper_sole(double below_mm, const TapePlane& plane, const Girth& girth) {
+  constexpr double kEdgeMm = 12.0;  // radius of a sole's edges, of real feet
+  const bool passes_under =
+      std::any_of(girth.contour.begin(), girth.contour.end(),
+                  [&](const Vector2d& corner) { return plane.lift(corner).z() < below_mm; });
+  if (!passes_under) return 0.0;
+  // At either edge the arc below is longer than what is level of its chord.
+  const double turn = std::acos(1.0 - std::min(below_mm / kEdgeMm, 1.0));
+  return 2.0 * kEdgeMm * (turn - std::sin(turn));
+}
+
 }  // namespace instep

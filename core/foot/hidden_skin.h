@@ -25,4 +25,9 @@ struct HiddenWall {
 /// `girth`: of a foot on a platform. O(corners of the section * log(points)).
 HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth& girth);
 
+/// Under level lines the sole may lie up to `below_mm` deeper (below_last_line_mm()): a tape that
+/// passes under it is longer then, by what its round edges have below. Zero of a tape that stays
+/// above. O(corners of the section).
+double doubt_of_deeper_sole(double below_mm, const TapePlane& plane, const Girth& girth);
+
 }  // namespace instep

@@ -321,7 +321,9 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   const auto to_other = distance_to_other_foot(definition, girth->stretched_mm, foot, options);
   if (!to_other) return tl::unexpected(to_other.error());
   if (*by_landmarks && girth->stretched_u95_mm) {
-    const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm);
+    const double unseen =
+        std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm,
+                   doubt_of_deeper_sole(below_last_line_mm(foot), *plane, *girth));
     measure.parts =
         widened({std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks}, *to_other);
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);

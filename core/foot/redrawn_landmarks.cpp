@@ -112,16 +112,6 @@ Lots lots_by_line(const std::vector<Vector3d>& points, const ScannerLines& lines
   return lots;
 }
 
-/// Under a foot in a scanner's level lines the floor may be as deep as the next one would have
-/// been. Of lines aslant several cross the sole.
-double below_last_line_mm(const FootScan& foot) {
-  constexpr double kSoleMm = 40.0;  // of a flat part of it
-  if (!foot.lines || foot.is_floor_known) return 0.0;
-  const Vector3d across = foot.foot_from_input.linear() * foot.lines->across;
-  const double pitch_mm = foot.lines->pitch_mm;
-  return pitch_mm > kSoleMm * across.head<2>().norm() ? pitch_mm : 0.0;
-}
-
 Lots lots_of(const FootScan& foot) {
   const auto& points = foot.cloud.positions;
   if (foot.lines) return lots_by_line(points, *foot.lines, foot.foot_from_input.inverse());
@@ -182,6 +172,14 @@ std::vector<std::optional<double>> redrawn_coordinates(const std::vector<Redrawn
 }
 
 }  // namespace
+
+double below_last_line_mm(const FootScan& foot) {
+  constexpr double kSoleMm = 40.0;  // of a flat part of it
+  if (!foot.lines || foot.is_floor_known) return 0.0;
+  const Vector3d across = foot.foot_from_input.linear() * foot.lines->across;
+  const double pitch_mm = foot.lines->pitch_mm;
+  return pitch_mm > kSoleMm * across.head<2>().norm() ? pitch_mm : 0.0;
+}
 
 Redraws redraw_landmarks(const FootScan& foot, const Workers& workers) {
   Redraws redraws;

@@ -38,6 +38,11 @@ namespace instep {
 /// local errors are known.
 Redraws redraw_landmarks(const FootScan& foot, const Workers& workers = one_after_the_other);
 
+/// By how much the floor may lie deeper than the foot in the level lines of a scanner that stands
+/// on it: as deep as the next line would have been. Zero of lines aslant, of which several cross
+/// the sole, of a floor that is known and of points in no lines. O(1).
+double below_last_line_mm(const FootScan& foot);
+
 /// Half-width of the 95 % interval of a value from what the redraws gave for it, in their order
 /// (nothing where one gave nothing), by Student's distribution: few redraws say little about their
 /// own spread. Nothing where that leaves fewer than two degrees of freedom.

@@ -143,6 +143,38 @@ TEST(HiddenWall, IsNoneOfALevelTape) {
   EXPECT_EQ(section.doubt(), 0.0);
 }
 
+/// Half a section on z = 0 with a round lower edge, seen down to a height and level from there.
+double half_way_round(double seen_to_mm) {
+  constexpr double kEdgeMm = 12.0;
+  constexpr int kPieces = 9000;
+  Eigen::Vector2d last(0.0, seen_to_mm);
+  double way = 0.0;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double turn = 0.5 * std::numbers::pi * i / kPieces;
+    const Eigen::Vector2d place(kHalfBreadthMm - kEdgeMm * (1.0 - std::sin(turn)),
+                                kEdgeMm * (1.0 - std::cos(turn)));
+    if (place.y() < seen_to_mm) continue;
+    way += (place - last).norm();
+    last = place;
+  }
+  return way;
+}
+
+TEST(DeeperSole, LeavesOpenWhatRoundEdgesAddBelowTheLastLine) {
+  const Section section(20.0);
+  for (const double below : {1.5, 3.0, 6.0}) {
+    const double longer = 2.0 * (half_way_round(0.0) - half_way_round(below));
+    EXPECT_NEAR(doubt_of_deeper_sole(below, section.plane, section.girth), longer, 0.01) << below;
+  }
+}
+
+TEST(DeeperSole, IsNoneOfATapeAboveItAndOfAKnownFloor) {
+  Section section(20.0);
+  EXPECT_EQ(doubt_of_deeper_sole(0.0, section.plane, section.girth), 0.0);
+  section.plane = *TapePlane::through({0, 0, 70}, {0, 50, 70}, {50, 0, 70});
+  EXPECT_EQ(doubt_of_deeper_sole(2.0, section.plane, section.girth), 0.0);
+}
+
 TEST(HiddenWall, BearsNoSectionAndNoSeenPoint) {
   Section section(20.0);
   section.girth.contour.clear();
