@@ -50,20 +50,9 @@ struct PixelChance {
   double share;  ///< from [0, 1)
 };
 
-/// Depths a sensor of the PrimeSense family can report, nearest to `depth_mm` in disparity
-/// (baseline 7.5 cm, reference plane at 120 cm, pixel 0.1042 mm at the reference).
-double prime_sense_depth(double depth_mm) {
-  const double shift_cm = 7.5 * (1.0 - 1200.0 / depth_mm);
-  const double step = std::round(800.0 + 4.0 * (shift_cm / 0.1042 + 0.375));
-  const double m = ((step - 800.0) / 4.0 - 0.375) * 0.1042;
-  return 10.0 * (m * 120.0 / (7.5 - m) + 120.0);
-}
-
-std::uint16_t quantised(double depth_mm, const NoiseSettings& settings) {
+std::uint16_t quantised(double depth_mm) {
   if (!(depth_mm > 0.0)) return 0;
-  const double units = settings.quantisation == Quantisation::kPrimeSense
-                           ? std::floor(prime_sense_depth(depth_mm) / settings.depth_unit_mm)
-                           : std::round(depth_mm / settings.depth_unit_mm);
+  const double units = std::round(depth_mm / kSimulatedDepthUnitMm);
   return units >= 1.0 && units <= 65535.0 ? static_cast<std::uint16_t>(units) : std::uint16_t{0};
 }
 
@@ -90,8 +79,7 @@ class FrameMaker {
     } else {
       depth = wandered(u, v, incidence, chance);
     }
-    depth += axial_sigma_mm(settings_.law, exact, incidence) * chance.along;
-    return settings_.bias_mm + (1.0 + settings_.bias_scale) * depth;
+    return depth + axial_sigma_mm(settings_.law, exact, incidence) * chance.along;
   }
 
  private:
@@ -187,7 +175,7 @@ std::vector<std::uint16_t> noisy_frame(const ExactView& view, const NoiseSetting
   for (int v = 0; v < view.height; ++v) {
     for (int u = 0; u < view.width; ++u, ++pixel) {
       const PixelChance chance(random.bits(), kNormal);
-      raw[pixel] = quantised(maker.depth_of(u, v, chance), settings);
+      raw[pixel] = quantised(maker.depth_of(u, v, chance));
     }
   }
   return raw;

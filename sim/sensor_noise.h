@@ -22,16 +22,11 @@ enum class NoiseLaw {
 
 std::optional<NoiseLaw> noise_law_from_string(std::string_view name);  ///< none typical pessimistic
 
-/// The steps in which a sensor can tell depths apart.
-enum class Quantisation {
-  kUnit,        ///< whole depth units, rounded
-  kPrimeSense,  ///< 11-bit disparity in eighths of a pixel, then truncated to whole units
-};
+/// What a raw depth of 1 is worth; depths are rounded to whole ones.
+inline constexpr double kSimulatedDepthUnitMm = 0.1;
 
 struct NoiseSettings {
   NoiseLaw law = NoiseLaw::kTypical;
-  Quantisation quantisation = Quantisation::kUnit;
-  double depth_unit_mm = 0.1;
   /// Wander of the line of sight, in pixels, at normal incidence; it grows with the incidence a by
   /// a further 0.035 a/(pi/2-a), as in Nguyen, Izadi and Lovell.
   double lateral_px = 0.3;
@@ -42,11 +37,8 @@ struct NoiseSettings {
   /// Share of edge pixels that show a depth between the two surfaces, and that show none.
   double flying = 0.35;
   double lost_at_edge = 0.25;
-  /// Error of the unit that averaging does not remove: depth becomes bias + (1 + scale) depth.
-  double bias_mm = 0.0;
-  double bias_scale = 0.0;
 
-  /// The settings that go with a law; kNone has quantisation only.
+  /// The settings that go with a law; kNone rounds, no more.
   static NoiseSettings for_law(NoiseLaw law);
 };
 

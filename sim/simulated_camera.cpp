@@ -29,7 +29,7 @@ SimulatedCamera::SimulatedCamera(Settings settings, std::shared_ptr<const ExactV
   description_.geometry = settings_.geometry;
   description_.model = "simulated depth camera";
   description_.serial = settings_.serial;
-  description_.depth_unit_mm = settings_.noise.depth_unit_mm;
+  description_.depth_unit_mm = kSimulatedDepthUnitMm;
   description_.simulated = true;
   schedule(Time{0});
 }
@@ -144,7 +144,7 @@ DepthFrame SimulatedCamera::make_frame(std::uint64_t number, Time time) const {
   frame.sequence = number - 1;
   frame.width = view_->width;
   frame.height = view_->height;
-  frame.depth_unit_mm = settings_.noise.depth_unit_mm;
+  frame.depth_unit_mm = kSimulatedDepthUnitMm;
   frame.device_time = time;
   frame.host_time = std::chrono::steady_clock::now();
   const std::uint64_t seed = seed_for(settings_.seed, number);

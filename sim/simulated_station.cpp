@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <thread>
 
@@ -97,13 +96,6 @@ std::vector<std::shared_ptr<const ExactView>> render_all(
   return views;
 }
 
-NoiseSettings noise_of(const SimulationSettings& settings) {
-  NoiseSettings noise = NoiseSettings::for_law(settings.noise);
-  noise.quantisation = settings.quantisation;
-  noise.depth_unit_mm = settings.depth_unit_mm;
-  return noise;
-}
-
 }  // namespace
 
 std::optional<Subject> subject_from_string(std::string_view name) {
@@ -134,16 +126,10 @@ Result<std::vector<SubjectTruth>> subjects_truth(const Scene& scene) {
 }
 
 Result<SimulatedStation> build_station(const SimulationSettings& settings) {
-  if (!(settings.depth_unit_mm >= 0.01 && settings.depth_unit_mm <= 10.0)) {
-    return fail(ErrorCode::kInvalidInput,
-                fmt::format("a depth unit of {} mm makes no sense", settings.depth_unit_mm),
-                "choose between 0.01 and 10 mm");
-  }
   LayoutSettings layout;
   layout.cameras = settings.cameras;
   layout.width_px = settings.width_px;
   layout.height_px = settings.height_px;
-  layout.distance_mm = settings.distance_mm;
   const auto cameras = lay_out_station(layout);
   if (!cameras) return tl::make_unexpected(cameras.error());
 
@@ -156,16 +142,12 @@ Result<SimulatedStation> build_station(const SimulationSettings& settings) {
   }
 
   SimulatedStation station;
-  auto pedal = SimulatedPedal::open({script->pedal, settings.pedal_fifo});
-  if (!pedal) return tl::make_unexpected(pedal.error());
-  station.pedal = std::move(*pedal);
-
   place_subject(settings, station);
   const auto views = render_all(station.scene, *cameras);
   for (std::size_t i = 0; i < cameras->size(); ++i) {
     const SimulatedCamera::Settings camera{(*cameras)[i],
                                            fmt::format("sim-{}-{}", settings.seed, names[i]),
-                                           noise_of(settings),
+                                           NoiseSettings::for_law(settings.noise),
                                            settings.pacing,
                                            seed_for(settings.seed, kNoise + i),
                                            script->of_camera(names[i])};

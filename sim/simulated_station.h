@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,13 +27,9 @@ struct SimulationSettings {
   int cameras = 4;
   int width_px = 640;
   int height_px = 480;
-  double distance_mm = 500.0;
   NoiseLaw noise = NoiseLaw::kTypical;
-  Quantisation quantisation = Quantisation::kUnit;
-  double depth_unit_mm = 0.1;
   Pacing pacing = Pacing::kRealTime;
-  std::string fault_script;          ///< text (sim/fault_script.h)
-  std::filesystem::path pedal_fifo;  ///< empty = the pedal is pressed by the program alone
+  std::string fault_script;  ///< text (sim/fault_script.h)
 };
 
 /// What is true of one body on the platform: measure id -> value in mm.
@@ -43,11 +38,10 @@ struct SubjectTruth {
   std::map<std::string, double> measures;  ///< ids as in sim/truth.h; `girth` of a cylinder
 };
 
-/// A whole station: what stands on it, its cameras, its pedal, and the truth about the measures.
+/// A whole station: what stands on it, its cameras, and the truth about the measures.
 struct SimulatedStation {
   Scene scene;
   std::vector<std::unique_ptr<DepthCamera>> cameras;
-  std::unique_ptr<SimulatedPedal> pedal;
   double platform_height_mm = 0.0;
 
   /// subjects_truth() of its scene.
@@ -59,8 +53,8 @@ struct SimulatedStation {
 Result<std::vector<SubjectTruth>> subjects_truth(const Scene& scene);
 
 /// Builds it. The same settings give the same feet, frames and truth. Fails with kInvalidInput on
-/// settings out of range or a fault script that cannot be read, and as SimulatedPedal::open().
-/// Cost: about a second on two cores for four cameras and one foot.
+/// settings out of range or a fault script that cannot be read. Cost: about a second on two cores
+/// for four cameras and one foot.
 Result<SimulatedStation> build_station(const SimulationSettings& settings);
 
 }  // namespace instep

@@ -14,6 +14,11 @@ using Eigen::Vector3d;
 
 /// Focal length of the PrimeSense optics as a share of the image width: 575.8 px of 640.
 constexpr double kFocalLengthPerWidth = 575.8 / 640.0;
+constexpr double kDistanceMm = 500.0;  // from the eye to the point looked at
+constexpr double kTargetHeightMm = 60.0;
+// Above the horizon; cameras alternate between the two.
+constexpr double kHighElevationDeg = 35.0;
+constexpr double kLowElevationDeg = 10.0;
 
 RigidTransform looking_at(const Vector3d& target, const Vector3d& eye) {
   const Vector3d forward = (target - eye).normalized();
@@ -42,7 +47,7 @@ std::string name_of(int camera, int cameras) {
   return fmt::format("camera-{}", camera + 1);
 }
 
-bool within(double value, double lowest, double highest) {
+bool within(int value, int lowest, int highest) {
   return value >= lowest && value <= highest;
 }
 
@@ -60,18 +65,14 @@ Result<std::vector<CameraGeometry>> lay_out_station(const LayoutSettings& settin
     return refuse(fmt::format("images of {} x {}", settings.width_px, settings.height_px),
                   "16 to 4096 pixels a side");
   }
-  if (!within(settings.distance_mm, 200.0, 3000.0)) {
-    return refuse(fmt::format("cameras {} mm away", settings.distance_mm), "200 to 3000 mm");
-  }
   std::vector<CameraGeometry> cameras;
-  const Vector3d target(0.0, 0.0, settings.target_height_mm);
+  const Vector3d target(0.0, 0.0, kTargetHeightMm);
   for (int i = 0; i < settings.cameras; ++i) {
-    const double azimuth = kDegree * (settings.first_azimuth_deg + 360.0 * i / settings.cameras);
-    const double elevation =
-        kDegree * (i % 2 == 0 ? settings.high_elevation_deg : settings.low_elevation_deg);
+    const double azimuth = kDegree * (360.0 * i / settings.cameras);
+    const double elevation = kDegree * (i % 2 == 0 ? kHighElevationDeg : kLowElevationDeg);
     const Vector3d towards_eye(std::cos(elevation) * std::cos(azimuth),
                                std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-    const Vector3d eye = target + settings.distance_mm * towards_eye;
+    const Vector3d eye = target + kDistanceMm * towards_eye;
     cameras.push_back({name_of(i, settings.cameras), lens_of(settings), looking_at(target, eye)});
   }
   return cameras;

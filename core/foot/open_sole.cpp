@@ -87,15 +87,15 @@ bool is_sole_open(const FootScan& foot) {
 
 void close_open_sole(FootScan& foot) {
   // As high as the lowest seen end of a wall may be, and as much above it as tells its bend.
+  constexpr double kWallHeightMm = kHighestWallEndMm + kWallBendReachMm;
   SoleSettings settings;
-  const double wall_height = settings.walls.highest_mm + settings.walls.bend_reach_mm;
   const double factor = factor_of(foot);
   // Looked at as a foot of full size, but what is added is as it says on the foot itself.
   settings.spacing_mm *= factor;
   settings.sigma_mm *= factor;
   std::vector<std::size_t> low;
   for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
-    if (factor * foot.cloud.positions[i].z() < wall_height) low.push_back(i);
+    if (factor * foot.cloud.positions[i].z() < kWallHeightMm) low.push_back(i);
   }
   PointCloud walls = foot.cloud.subset(low);
   if (walls.size() > kMostOfWalls) {

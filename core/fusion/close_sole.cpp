@@ -24,11 +24,10 @@ constexpr double kBeyondContactMm = 6.0;  // how far a wall still says that ther
 constexpr double kOverhangMm = 30.0;      // how far the skin reaches out above the foot of a wall
 
 /// The ground under the low part of the foot, its inside filled.
-Mask footprint(const GroundPlan& plan, const PointCloud& foot, double height,
-               const SoleSettings& settings) {
+Mask footprint(const GroundPlan& plan, const PointCloud& foot, double height) {
   Mask low(plan.cells(), 0);
   for (const auto& point : foot.positions) {
-    if (point.z() < height + settings.walls.highest_mm) low[plan.cell_of(point)] = 1;
+    if (point.z() < height + kHighestWallEndMm) low[plan.cell_of(point)] = 1;
   }
   return plan.shrunk(plan.filled(plan.grown(low, kBridgeMm)), kBridgeMm);
 }
@@ -148,9 +147,9 @@ SoleClosure close_sole(PointCloud& foot, double standing_height_mm, const SoleSe
   SoleClosure closure;
   if (foot.empty() || !foot.has_normals()) return closure;
   const GroundPlan plan = GroundPlan::round(foot, settings.spacing_mm, 2.5 * kBridgeMm);
-  const Mask print = footprint(plan, foot, standing_height_mm, settings);
+  const Mask print = footprint(plan, foot, standing_height_mm);
   const Mask seen = seen_sole(plan, foot, standing_height_mm);
-  const auto walls = find_wall_feet(foot, standing_height_mm, settings.walls);
+  const auto walls = find_wall_feet(foot, standing_height_mm);
   for (const auto& wall : walls) {
     closure.widest_inset_mm = std::max(closure.widest_inset_mm, wall.contact());
   }

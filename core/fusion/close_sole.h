@@ -10,7 +10,6 @@ namespace instep {
 struct SoleSettings {
   double spacing_mm = 2.0;
   double sigma_mm = 0.5;  ///< how well the platform stands for the sole that rests on it
-  WallSettings walls;     ///< how the skin goes on below the lowest that was seen
 };
 
 struct SoleClosure {

@@ -9,6 +9,7 @@
 
 #include "core/degree.h"
 #include "core/fusion/registration.h"
+#include "core/fusion/rough_placing.h"
 #include "core/fusion/seen_object.h"
 #include "core/fusion/seen_platform.h"
 #include "core/fusion/seen_through.h"
@@ -26,6 +27,15 @@ using Eigen::Vector3d;
 constexpr std::size_t kPlatformShare = 20;  // one in so many of its points is fitted
 constexpr std::size_t kLeastSkin = 100;     // points of an object that is worth placing by
 constexpr std::size_t kAskedPoints = 2000;  // of a view, whether others see through them
+constexpr std::size_t kPlacedPoints = 200;  // of a view, how well it is known where they are
+// When the poses that are found are believed. By eye; it holds for the stations of
+// tests/bench/calibration.
+constexpr double kSeenThroughMm = 6.0;      // of Witness::judge()
+constexpr double kMostContradicted = 0.05;  // share of a view's points that others see through
+/// How far the normals of the object's sides must pass by its middle (turning_lever_mm()), as the
+/// camera sees it that sees most of that.
+constexpr double kLeastLeverMm = 10.0;
+constexpr double kMostUnknownMm = 3.0;  // FoundPose::known_to_mm of poses that are of use
 /// From here on somebody should hear of it; by a tape cameras are placed to some 20 mm. By eye.
 constexpr double kNotableHeightMm = 30.0;
 constexpr const char* kObjectAdvice =
@@ -88,7 +98,7 @@ class PoseSearch {
   Result<void> level_each() {
     bool is_any_level = false;
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      const auto platform = seen_platform({&views_[i]}, settings_.platform, height());
+      const auto platform = seen_platform({&views_[i]}, height());
       found_.cameras[i].is_level = platform.has_value();
       if (platform) move(i, onto_platform(*platform, height()));
       is_any_level = is_any_level || platform.has_value();
@@ -110,8 +120,8 @@ class PoseSearch {
       }
       lever_mm = std::max(lever_mm, turning_lever_mm(level.back().skin));
     }
-    if (lever_mm < settings_.least_lever_mm) return too_round();
-    const auto moves = place_roughly(level, settings_.placing, workers, go_on_);
+    if (lever_mm < kLeastLeverMm) return too_round();
+    const auto moves = place_roughly(level, workers, go_on_);
     if (!moves) return tl::make_unexpected(moves.error());
     for (std::size_t i = 0; i < views_.size(); ++i) move(i, (*moves)[i]);
     return {};
@@ -148,7 +158,7 @@ class PoseSearch {
     for (std::size_t i = 0; i < views_.size(); ++i) {
       if (found_.cameras[i].is_level) level.push_back(&views_[i]);
     }
-    const auto platform = seen_platform(level, settings_.platform, height());
+    const auto platform = seen_platform(level, height());
     if (!platform) return;
     for (std::size_t i = 0; i < views_.size(); ++i) move(i, onto_platform(*platform, height()));
   }
@@ -179,10 +189,10 @@ class PoseSearch {
       warn_of(i);
       if (views_.size() == 1) continue;
       camera.known_to_mm = unknown_of(i);
-      if (contradicted(i) > settings_.most_contradicted) {
+      if (contradicted(i) > kMostContradicted) {
         return not_found(views_[i].id, "other cameras see through what it shows");
       }
-      if (!(*camera.known_to_mm <= settings_.most_unknown_mm)) {
+      if (!(*camera.known_to_mm <= kMostUnknownMm)) {
         return not_found(views_[i].id,
                          "it shares too little of the object with the others, and could stand "
                          "elsewhere by " +
@@ -225,7 +235,7 @@ class PoseSearch {
     asked.views.assign(asked.cloud.size(), static_cast<std::uint16_t>(view));
     std::vector<PosedDepth> posed;
     for (const auto& other : views_) posed.push_back(other.posed());
-    const auto kept = points_not_seen_through(asked, posed, settings_.seen_through_mm);
+    const auto kept = points_not_seen_through(asked, posed, kSeenThroughMm);
     return asked.cloud.empty()
                ? 0.0
                : 1.0 - static_cast<double>(kept.size()) / static_cast<double>(asked.cloud.size());
@@ -240,7 +250,7 @@ class PoseSearch {
     }
     Vector3d middle = Vector3d::Zero();
     for (const auto& point : points) middle += point / static_cast<double>(points.size());
-    const std::size_t stride = stride_to_at_most(settings_.placing.points, points.size());
+    const std::size_t stride = stride_to_at_most(kPlacedPoints, points.size());
     double known = 0.0;
     double stretched = 0.0;
     double asked = 0.0;

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "core/fusion/fuse_views.h"
-#include "core/fusion/rough_placing.h"
-#include "core/fusion/seen_platform.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"
 #include "core/result.h"
@@ -14,19 +12,8 @@
 
 namespace instep {
 
-/// How the cameras of a station are found from rough poses, and when that is believed; the limits
-/// of that are set by eye, and hold for the stations of tests/bench/calibration.
 struct PoseFinding {
   double platform_height_mm = 0.0;  ///< z that the platform is to have in the station frame
-  PlatformSearch platform;
-  double seen_through_mm = 6.0;  ///< of Witness::judge(), when the poses are found
-  double most_contradicted =
-      0.05;  ///< share of a view's points of the object that others see through
-  /// How far the normals of the object's sides must pass by its middle (turning_lever_mm()), as the
-  /// camera sees it that sees most of that.
-  double least_lever_mm = 10.0;
-  double most_unknown_mm = 3.0;  ///< FoundPose::known_to_mm of poses that are of use
-  RoughPlacing placing;
 };
 
 struct FoundPose {
@@ -60,10 +47,9 @@ struct FoundPoses {
 ///
 /// Fails with kInsufficientData where no camera sees the platform or the object is round, and,
 /// naming the camera, where one sees no object, shares too little of it with the others, or its
-/// pose is contradicted or not known to most_unknown_mm after all, as of a box, of which two
-/// cameras share level faces alone; kInvalidInput without a view, or with what
-/// fuse_views() fails with for unsound ones; with kCancelled. Deterministic. Two to
-/// five seconds for four cameras, ten for six.
+/// pose is contradicted or not known to 3 mm after all, as of a box, of which two cameras share
+/// level faces alone; kInvalidInput without a view, or with what fuse_views() fails with for
+/// unsound ones; with kCancelled. Deterministic. Two to five seconds for four cameras, ten for six.
 Result<FoundPoses> find_poses(const std::vector<View>& views, const PoseFinding& settings = {},
                               const Workers& workers = one_after_the_other,
                               const GoOn& go_on = always);

@@ -167,20 +167,16 @@ Result<ViewedCloud> gather_feet(const std::vector<WorkingView>& views,
   if (contradiction) return tl::make_unexpected(contradicted(*contradiction));
   if (!drop_overruled(views, work, found)) return cancelled();
   ViewedCloud gathered;
-  for (const auto& [points, platform_pixels, seen_through] : found) {
+  for (const auto& [points, seen_through] : found) {
     gathered.cloud.append(points.cloud);
     gathered.views.insert(gathered.views.end(), points.views.begin(), points.views.end());
-    scene.diagnostics.platform_pixels += platform_pixels;
-    scene.diagnostics.outliers += seen_through;
   }
   return gathered;
 }
 
-void drop_outliers(ViewedCloud& points, FusedScene& scene) {
-  const std::size_t before = points.cloud.size();
+void drop_outliers(ViewedCloud& points) {
   points = subset(points, crowded_points(points.cloud));
   points = subset(points, clustered_points(points.cloud));
-  scene.diagnostics.outliers += before - points.cloud.size();
 }
 
 /// Share of the directions round the middle of a foot in which its wall was seen.
@@ -241,9 +237,7 @@ void finish_foot(const ViewedCloud& points, const std::vector<WorkingView>& view
   foot.shared_errors_mm = shared_errors_of(foot, shares, errors_of(views));
   foot.local_errors = local_errors_of(foot, shares, cameras_of(views), scene.diagnostics.bent);
   std::vector<std::string> warnings;
-  const double coverage = coverage_of(foot);
-  scene.diagnostics.coverage.push_back(coverage);
-  if (coverage < kLeastCoverage) {
+  if (coverage_of(foot) < kLeastCoverage) {
     warnings.emplace_back(
         "it was not seen from all sides: scan it alone, or turn a camera to its hidden side");
   }
@@ -284,7 +278,7 @@ Result<FusedScene> fuse(const std::vector<View>& views, const FusionSettings& se
   if (!go_on()) return cancelled();
   auto points = gather_feet(working, settings, work, scene, contradiction);
   if (!points) return tl::make_unexpected(points.error());
-  drop_outliers(*points, scene);
+  drop_outliers(*points);
   if (!go_on()) return cancelled();
   const auto feet = pick_feet(*points, scene);
   if (!go_on()) return cancelled();

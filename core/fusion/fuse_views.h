@@ -37,8 +37,6 @@ struct FusionSettings {
 /// How the fusion went, in figures.
 struct FusionDiagnostics {
   std::size_t views_used = 0;
-  std::size_t platform_pixels = 0;  ///< taken away with the platform
-  std::size_t outliers = 0;
   bool platform_found = false;
   double platform_tilt_deg = 0.0;
   double registration_before_mm = 0.0;  ///< median distance between the views by the given poses
@@ -49,7 +47,6 @@ struct FusionDiagnostics {
   double poses_off_mm = 0.0;  ///< of the view whose given pose is worst, across the skin it shares
   /// Of the view that was stretched most, by what share; nothing where lenses are trusted.
   std::optional<double> lenses_off;
-  std::vector<double> coverage;  ///< of each foot: share of directions round it seen
 };
 
 /// The feet on the platform. Station frame, levelled: z up, the standing plane level at z =

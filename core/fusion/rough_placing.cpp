@@ -15,8 +15,21 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+/// How far a camera may stand from where it is said to: its view is sought turned by up to that,
+/// and with its middle so far from that of what is known of the object already. This and what
+/// follows is set by eye.
+constexpr double kMostTurnDeg = 40.0;
+constexpr double kMostShiftMm = 120.0;
+constexpr double kTurnStepDeg = 5.0;
+constexpr double kShiftStepMm = 12.0;
+/// How near a spot must lie to the other view's skin to agree with it, about, and how far before
+/// what that sees to contradict it; half of it at the end.
+constexpr double kMarginMm = 12.0;
+constexpr std::size_t kAskedSpots = 200;  // of a view's skin
+constexpr std::size_t kBestKept = 8;      // places that are looked at closer
+constexpr double kLeastAgreement = 0.1;   // of the asked spots
 /// What is seen through speaks against a place more than what is confirmed speaks for it: a wall
-/// confirms any other wall. By eye.
+/// confirms any other wall.
 constexpr double kAgainst = 2.0;
 /// Between normals of the same skin as two views see it, turned by half a step.
 constexpr double kLeastCosine = 0.8;
@@ -32,9 +45,9 @@ struct Spot {
   Spot moved(const RigidTransform& move) const { return {move * point, move.linear() * normal}; }
 };
 
-/// Some of a view's, evenly.
-std::vector<Spot> some_of(const PointCloud& skin, std::size_t most) {
-  const std::size_t stride = stride_to_at_most(most, skin.size());
+/// Those of a view that are asked about, evenly.
+std::vector<Spot> some_of(const PointCloud& skin) {
+  const std::size_t stride = stride_to_at_most(kAskedSpots, skin.size());
   std::vector<Spot> some;
   for (std::size_t i = 0; i < skin.size(); i += stride) {
     some.push_back({skin.positions[i], skin.normals[i]});
@@ -125,16 +138,15 @@ class PlaceSearch {
  public:
   PlaceSearch(const std::vector<LevelView>& views, const Witnesses& witnesses,
               const std::vector<std::size_t>& placed, const std::vector<RigidTransform>& moves,
-              std::size_t sought, const RoughPlacing& settings)
-      : settings_(settings),
-        witnesses_(witnesses),
+              std::size_t sought)
+      : witnesses_(witnesses),
         placed_(placed),
         sought_(sought),
-        own_(some_of(views[sought].skin, settings.points)),
+        own_(some_of(views[sought].skin)),
         own_middle_(middle_of(own_)) {
     for (const std::size_t at : placed) {
       given_from_new_.push_back(moves[at].inverse());
-      for (const auto& spot : some_of(views[at].skin, settings.points)) {
+      for (const auto& spot : some_of(views[at].skin)) {
         known_.push_back(spot.moved(moves[at]));
       }
     }
@@ -146,7 +158,7 @@ class PlaceSearch {
   /// The best there is; any if it is no longer wanted.
   Place best(const GoOn& go_on) const {
     auto places = looked_at_all_over(go_on);
-    const std::size_t kept = std::min(settings_.best_kept, places.size());
+    const std::size_t kept = std::min(kBestKept, places.size());
     std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(kept),
                       places.end(),
                       [](const Place& a, const Place& b) { return a.agreement > b.agreement; });
@@ -163,16 +175,15 @@ class PlaceSearch {
 
  private:
   std::vector<Place> looked_at_all_over(const GoOn& go_on) const {
-    const int turns = static_cast<int>(settings_.most_turn_deg / settings_.turn_step_deg);
-    const int shifts = static_cast<int>(settings_.most_shift_mm / settings_.shift_step_mm);
+    constexpr int kTurns = static_cast<int>(kMostTurnDeg / kTurnStepDeg);
+    constexpr int kShifts = static_cast<int>(kMostShiftMm / kShiftStepMm);
     std::vector<Place> places;
-    for (int turn = -turns; turn <= turns && go_on(); ++turn) {
-      for (int along = -shifts; along <= shifts; ++along) {
-        for (int across = -shifts; across <= shifts; ++across) {
-          const Vector2d aside = settings_.shift_step_mm * Vector2d(along, across);
-          places.push_back(
-              judged({turn * settings_.turn_step_deg, known_middle_ - own_middle_ + aside, 0.0},
-                     witnesses_.wide));
+    for (int turn = -kTurns; turn <= kTurns && go_on(); ++turn) {
+      for (int along = -kShifts; along <= kShifts; ++along) {
+        for (int across = -kShifts; across <= kShifts; ++across) {
+          const Vector2d aside = kShiftStepMm * Vector2d(along, across);
+          places.push_back(judged({turn * kTurnStepDeg, known_middle_ - own_middle_ + aside, 0.0},
+                                  witnesses_.wide));
         }
       }
     }
@@ -197,8 +208,8 @@ class PlaceSearch {
   /// Within the limits, give or take a step.
   bool is_within_limits(const Place& place) const {
     const Vector2d aside = place.shift - (known_middle_ - own_middle_);
-    return std::abs(place.turn_deg) <= settings_.most_turn_deg + settings_.turn_step_deg &&
-           aside.cwiseAbs().maxCoeff() <= settings_.most_shift_mm + settings_.shift_step_mm;
+    return std::abs(place.turn_deg) <= kMostTurnDeg + kTurnStepDeg &&
+           aside.cwiseAbs().maxCoeff() <= kMostShiftMm + kShiftStepMm;
   }
 
   Place best_neighbour(const Place& place, double share) const {
@@ -207,8 +218,8 @@ class PlaceSearch {
       for (int along = -1; along <= 1; ++along) {
         for (int across = -1; across <= 1; ++across) {
           Place next = place;
-          next.turn_deg += share * settings_.turn_step_deg * turn;
-          next.shift += share * settings_.shift_step_mm * Vector2d(along, across);
+          next.turn_deg += share * kTurnStepDeg * turn;
+          next.shift += share * kShiftStepMm * Vector2d(along, across);
           if (!is_within_limits(next)) continue;
           next = judged(next, witnesses_.narrow);
           if (next.agreement > best.agreement) best = next;
@@ -232,7 +243,6 @@ class PlaceSearch {
     return place;
   }
 
-  const RoughPlacing& settings_;
   const Witnesses& witnesses_;
   const std::vector<std::size_t>& placed_;
   std::size_t sought_;
@@ -244,11 +254,11 @@ class PlaceSearch {
   double asked_ = 0.0;  ///< spots of a pair of views
 };
 
-Witnesses witnesses_of(const std::vector<LevelView>& views, double margin_mm) {
+Witnesses witnesses_of(const std::vector<LevelView>& views) {
   Witnesses witnesses;
   for (const auto& view : views) {
-    witnesses.wide.emplace_back(view, margin_mm);
-    witnesses.narrow.emplace_back(view, 0.5 * margin_mm);
+    witnesses.wide.emplace_back(view, kMarginMm);
+    witnesses.narrow.emplace_back(view, 0.5 * kMarginMm);
   }
   return witnesses;
 }
@@ -263,11 +273,10 @@ std::size_t with_most_skin(const std::vector<LevelView>& views) {
 }  // namespace
 
 Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& views,
-                                                  const RoughPlacing& settings,
                                                   const Workers& workers, const GoOn& go_on) {
   std::vector<RigidTransform> moves(views.size(), RigidTransform::Identity());
   if (views.empty()) return moves;
-  const Witnesses witnesses = witnesses_of(views, settings.margin_mm);
+  const Witnesses witnesses = witnesses_of(views);
   std::vector<std::size_t> placed = {with_most_skin(views)};
   std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -277,7 +286,7 @@ Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& 
     std::vector<Place> places(waiting.size());
     std::vector<RigidTransform> ways(waiting.size());
     workers(waiting.size(), [&](std::size_t i) {
-      const PlaceSearch search(views, witnesses, placed, moves, waiting[i], settings);
+      const PlaceSearch search(views, witnesses, placed, moves, waiting[i]);
       places[i] = search.best(go_on);
       ways[i] = search.move_to(places[i]);
     });
@@ -286,7 +295,7 @@ Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& 
         std::max_element(places.begin(), places.end(),
                          [](const Place& a, const Place& b) { return a.agreement < b.agreement; }) -
         places.begin());
-    if (places[plainest].agreement < settings.least_agreement) break;
+    if (places[plainest].agreement < kLeastAgreement) break;
     moves[waiting[plainest]] = ways[plainest];
     placed.push_back(waiting[plainest]);
     waiting.erase(waiting.begin() + static_cast<std::ptrdiff_t>(plainest));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
 #include "core/fusion/witness.h"
@@ -12,22 +11,6 @@
 #include "core/workers.h"
 
 namespace instep {
-
-/// How far cameras may stand from where they are said to: what they show of an object is sought
-/// turned by up to that, and with its middle so far from that of what is known of it already, which
-/// others see from other sides.
-struct RoughPlacing {
-  double most_turn_deg = 40.0;
-  double most_shift_mm = 120.0;
-  double turn_step_deg = 5.0;
-  double shift_step_mm = 12.0;
-  /// How near a spot must lie to the other view's skin to agree with it, about, and how far before
-  /// what that sees to contradict it; half of it at the end.
-  double margin_mm = 12.0;
-  std::size_t points = 200;      ///< of a view's skin that are asked about
-  std::size_t best_kept = 8;     ///< places that are looked at closer
-  double least_agreement = 0.1;  ///< of the asked points; set by eye, as all of these
-};
 
 /// A view that is level on the platform, and what it shows of the object.
 struct LevelView {
@@ -41,13 +24,13 @@ struct LevelView {
 /// the points of one view lie on the skin that the other shows, inclined as it is, and none is seen
 /// through, both ways. Cameras face to face share too little for that.
 ///
-/// A view for whose best place less than `least_agreement` of the asked spots speak stays where it
-/// is. Deterministic. A pair of views takes some 0.3 s; each view is sought anew, among all that
-/// are placed, until it is placed itself, so that the work grows with the cube of their number.
-/// The views that wait are jobs for `workers`; `go_on` hears of each turn. Fails with kCancelled
-/// alone.
+/// A view is sought turned by up to 40 degrees from how it is said to be, and with the middle of
+/// what it shows up to 120 mm from that of what the others show, which they see from other sides.
+/// One for whose best place less than a tenth of the asked spots speak stays where it is.
+/// Deterministic. A pair of views takes some 0.3 s; each view is sought anew, among all that are
+/// placed, until it is placed itself, so that the work grows with the cube of their number. The
+/// views that wait are jobs for `workers`; `go_on` hears of each turn. Fails with kCancelled alone.
 Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& views,
-                                                  const RoughPlacing& settings = {},
                                                   const Workers& workers = one_after_the_other,
                                                   const GoOn& go_on = always);
 

@@ -11,8 +11,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kStride = 3;         // every so many pixels, both ways
-constexpr double kBelowMm = 10.0;  // beyond any noise of a platform
+constexpr int kStride = 3;             // every so many pixels, both ways
+constexpr double kRadiusMm = 450.0;    // about the station's upright axis
+constexpr double kMostTiltDeg = 30.0;  // by the given poses
+constexpr double kBelowMm = 10.0;      // beyond any noise of a platform
 
 /// No flat top of an object: what a camera sees beside it lies lower.
 bool is_lowest(const FoundPlatform& platform, const std::vector<Vector3d>& points) {
@@ -30,15 +32,15 @@ bool is_lowest(const FoundPlatform& platform, const std::vector<Vector3d>& point
 }  // namespace
 
 std::optional<FoundPlatform> seen_platform(const std::vector<const WorkingView*>& views,
-                                           const PlatformSearch& settings, double height_mm) {
+                                           double height_mm) {
   std::vector<Vector3d> points;
   for (const auto* view : views) {
     visit_pixels(*view, kStride, [&](std::size_t, const Vector3d& point) {
-      if (is_within(point, settings.radius_mm)) points.push_back(point);
+      if (is_within(point, kRadiusMm)) points.push_back(point);
     });
   }
   PlatformSettings search;
-  search.most_tilt_deg = settings.most_tilt_deg;
+  search.most_tilt_deg = kMostTiltDeg;
   search.expected_height_mm = height_mm;
   for (const double reach_mm : {40.0, 120.0}) {
     search.search_mm = reach_mm;

@@ -10,17 +10,11 @@
 
 namespace instep {
 
-/// Where the platform is looked for by views whose poses are known roughly.
-struct PlatformSearch {
-  double radius_mm = 450.0;     ///< about the station's upright axis
-  double most_tilt_deg = 30.0;  ///< by the given poses
-};
-
-/// The platform that views show together: within 40 mm of where it is said to be, else within 120,
-/// since the floor about it may be the larger plane; else anywhere, if what else they show lies
-/// mostly higher, as it does not about the flat top of an object.
+/// The platform that views whose poses are known roughly show together: within 40 mm of where it is
+/// said to be, else within 120, since the floor about it may be the larger plane; else anywhere, if
+/// what else they show lies mostly higher, as it does not about the flat top of an object.
 std::optional<FoundPlatform> seen_platform(const std::vector<const WorkingView*>& views,
-                                           const PlatformSearch& settings, double height_mm);
+                                           double height_mm);
 
 /// Level, and at the height that the platform is to have: the new station from the given one.
 RigidTransform onto_platform(const FoundPlatform& platform, double height_mm);

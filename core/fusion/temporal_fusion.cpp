@@ -29,6 +29,8 @@ constexpr double kDeepestBlockMm = 40.0;  // a block with more depth in it lies 
 constexpr double kMovingShare = 0.01;     // of the blocks has to move for it to count
 constexpr double kSureOfMove = 5.0;       // standard deviations
 constexpr double kModelFrames = 2.0;      // the sensor model weighs as much as so many frames
+constexpr double kStepPerMm = 2.9e-6;     // smallest step of depth = this * Z^2, or one unit
+constexpr double kCorrelatedShare = 0.1;  // of one frame's sigma: frames do not average it away
 
 /// The values that a pixel showed, ascending.
 struct Samples {
@@ -94,9 +96,9 @@ double sigma_of_mean(const Estimate& estimate, double unit_mm, const SensorNoise
   const double seen = estimate.squares * unit_mm * unit_mm;
   const double variance =
       (kModelFrames * model * model + seen) / (kModelFrames + estimate.kept - 1);
-  const double step = std::max(unit_mm, noise.step_per_mm * depth * depth);
+  const double step = std::max(unit_mm, kStepPerMm * depth * depth);
   const double rounding = rounding_sigma(step, std::sqrt(variance));
-  const double correlated = noise.correlated_share * model;
+  const double correlated = kCorrelatedShare * model;
   return std::sqrt(variance / estimate.kept + rounding * rounding + correlated * correlated);
 }
 

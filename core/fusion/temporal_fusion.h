@@ -9,18 +9,13 @@
 
 namespace instep {
 
-/// What is known of a depth sensor before its frames are looked at. The defaults are those of
-/// structured light and stereo cameras of a 50 to 75 mm baseline at 0.3 to 1 m; both axial noise
-/// and the step of depth grow with the square of the distance (triangulation).
+/// What is known of the noise of a depth sensor before its frames are looked at: it grows with the
+/// square of the distance (triangulation). The default is that of structured light and stereo
+/// cameras of a 50 to 75 mm baseline at 0.3 to 1 m.
 struct SensorNoise {
-  double axial_per_mm = 2.9e-6;  ///< sigma of one frame = constant + this * Z^2 (0.7 mm at 0.5 m)
-  double axial_constant_mm = 0.0;
-  double step_per_mm = 2.9e-6;    ///< smallest step of depth = this * Z^2, but at least one unit
-  double correlated_share = 0.1;  ///< of one frame's sigma: does not average away over frames
+  double axial_per_mm = 2.9e-6;  ///< sigma of one frame = this * Z^2 (0.7 mm at 0.5 m)
 
-  double axial_sigma_mm(double depth_mm) const {
-    return axial_constant_mm + axial_per_mm * depth_mm * depth_mm;
-  }
+  double axial_sigma_mm(double depth_mm) const { return axial_per_mm * depth_mm * depth_mm; }
 };
 
 struct TemporalSettings {
@@ -44,7 +39,7 @@ struct FusedDepth {
 /// Fuses frames as they arrive: per pixel the mean of the values near the median (gate on the
 /// median absolute deviation). The sigma of a pixel joins the scatter that was seen with the model
 /// of the sensor, and never falls below what repeating cannot remove: the part of a depth step
-/// that noise does not dither away, and SensorNoise::correlated_share.
+/// that noise does not dither away, and a tenth of the noise of one frame.
 ///
 /// Keeps the values of each pixel sorted: two bytes a pixel and frame (9 MB for 15 frames of
 /// 640x480, 74 MB for 120, which is as much as the frames themselves). Adding costs some 5 ms, the

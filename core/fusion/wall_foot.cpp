@@ -170,10 +170,9 @@ double WallFoot::skin_height(double inward) const {
   return std::max(0.0, std::lerp(before.y(), after->y(), share));
 }
 
-std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm,
-                                     const WallSettings& settings) {
-  const double most_z = standing_height_mm + settings.highest_mm;
-  const auto ends = find_wall_ends(foot, most_z, settings.bend_reach_mm);
+std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm) {
+  const double most_z = standing_height_mm + kHighestWallEndMm;
+  const auto ends = find_wall_ends(foot, most_z, kWallBendReachMm);
   const auto shadow = shadow_of(foot, most_z);
   std::vector<WallFoot> feet;
   for (const auto& end : ends) {
@@ -184,8 +183,7 @@ std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_hei
     const Ending usual = usual_ending(ends, end);
     feet.emplace_back(place, out,
                       WallShape{end.position.z() - standing_height_mm, usual.sine_of_dip,
-                                usual.bend, kMostInsetShare * reach_across(shadow, place, -out)},
-                      settings);
+                                usual.bend, kMostInsetShare * reach_across(shadow, place, -out)});
   }
   return feet;
 }

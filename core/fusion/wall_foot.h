@@ -7,10 +7,12 @@
 
 namespace instep {
 
+/// A wall that was seen no lower than this over the platform has no foot.
+inline constexpr double kHighestWallEndMm = 50.0;
+/// Of the seen wall, upward from its lowest point, that tells how it bends.
+inline constexpr double kWallBendReachMm = 14.0;
+
 struct WallSettings {
-  double highest_mm = 50.0;  ///< a wall that was seen no lower than this has no foot
-  /// Of the seen wall, upward from its lowest point, that tells how it bends.
-  double bend_reach_mm = 14.0;
   double usual_edge_mm = 8.0;  ///< height over the platform where the sole's round edge begins
 };
 
@@ -45,7 +47,7 @@ class WallFoot {
  public:
   /// `out`: horizontal unit vector.
   WallFoot(const Eigen::Vector2d& place, const Eigen::Vector2d& out, const WallShape& shape,
-           const WallSettings& settings);
+           const WallSettings& settings = {});
 
   const Eigen::Vector2d& place() const { return place_; }
   const Eigen::Vector2d& out() const { return out_; }
@@ -83,7 +85,6 @@ class WallFoot {
 
 /// The feet of the walls of a foot that stands at a height, one for each 6 mm or so round it. The
 /// cloud is in the station frame and has normals. About 4 ms for 40,000 points.
-std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm,
-                                     const WallSettings& settings);
+std::vector<WallFoot> find_wall_feet(const PointCloud& foot, double standing_height_mm);
 
 }  // namespace instep

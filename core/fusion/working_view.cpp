@@ -78,7 +78,6 @@ FootPoints foot_points(const std::vector<WorkingView>& views, std::size_t number
     const double height = point.z() - scene.standing_height_mm;
     if (height > kFootCeilingMm || !in_region(point, settings)) return;
     if (scene.diagnostics.platform_found && !stands_above_platform(view, pixel, point, height)) {
-      ++found.platform_pixels;
       return;
     }
     pixels.push_back(static_cast<std::uint32_t>(pixel));

@@ -58,7 +58,6 @@ PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_
 /// What one view shows of the feet.
 struct FootPoints {
   ViewedCloud points;  ///< above the platform and below the ceiling, seen through by no other view
-  std::size_t platform_pixels = 0;
   std::size_t seen_through = 0;
 };
 

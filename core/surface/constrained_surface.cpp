@@ -73,7 +73,7 @@ Result<TriangleMesh> constrained_surface(const std::vector<Eigen::Vector3d>& poi
   const auto grid =
       CubeGrid::covering(box, options.cube_mm.value_or(longest / kCubesAlongTheLongest));
   if (!grid) return tl::make_unexpected(grid.error());
-  const auto surface = OctreeSurface::reconstruct(turned, options.surface, [&](double done) {
+  const auto surface = OctreeSurface::reconstruct(turned, [&](double done) {
     if (progress) progress(kReconstructed * done);
   });
   if (!surface) return tl::make_unexpected(surface.error());

@@ -11,7 +11,6 @@
 namespace instep {
 
 struct ConstrainedSurfaceOptions {
-  OctreeSurfaceOptions surface;
   /// Length of the edge of a unit cube, > 0. Without it: a hundredth of the longest extent.
   std::optional<double> cube_mm;
 };

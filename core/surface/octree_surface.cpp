@@ -23,6 +23,8 @@ constexpr double kOffSurface = 0.1;
 constexpr double kCopy = 1e-3;
 /// Points from which a leaf is reconstructed; the paper's n_min.
 constexpr std::size_t kFewest = 10;
+/// Most points, off-surface points included, in a leaf; the paper's n_max.
+constexpr std::size_t kMost = 300;
 /// What the preparation takes of the whole.
 constexpr double kPrepared = 0.3;
 
@@ -35,7 +37,6 @@ tl::unexpected<Error> no_surface() {
 }  // namespace
 
 Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector3d>& input,
-                                                 const OctreeSurfaceOptions& options,
                                                  const SurfaceProgress& progress) {
   const auto report = [&](double done) {
     if (progress) progress(done);
@@ -56,9 +57,9 @@ Result<OctreeSurface> OctreeSurface::reconstruct(const std::vector<Eigen::Vector
   const double shortest = tree.front().length;
   const auto samples = with_off_surface_points(points, box_normals(points), kOffSurface * shortest);
   if (!has_unique_solution(samples.positions)) return no_surface();
-  Octree octree(samples.positions, options.most);
+  Octree octree(samples.positions, kMost);
   const auto groups =
-      combined_points(octree, options.most, [&](const std::vector<std::uint32_t>& members) {
+      combined_points(octree, kMost, [&](const std::vector<std::uint32_t>& members) {
         return members.size() >= kFewest && has_unique_solution(picked(samples.positions, members));
       });
   report(kPrepared);

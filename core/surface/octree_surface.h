@@ -12,11 +12,6 @@
 
 namespace instep {
 
-struct OctreeSurfaceOptions {
-  /// Most points, off-surface points included, in a leaf; the paper's n_max.
-  std::size_t most = 300;
-};
-
 /// Told how much of the work is done, from 0 to 1.
 using SurfaceProgress = std::function<void(double done)>;
 
@@ -36,9 +31,9 @@ class OctreeSurface {
  public:
   /// Points in their principal frame. Those within a thousandth of the spacing of another are
   /// left out. Fails with kInsufficientData if the points are too few, or lie so that no leaf
-  /// determines a surface. O(n log n + n most^2).
+  /// determines a surface. O(n log n + n m^2), where m = 300 is
+  /// the most points of a leaf.
   static Result<OctreeSurface> reconstruct(const std::vector<Eigen::Vector3d>& points,
-                                           const OctreeSurfaceOptions& options = {},
                                            const SurfaceProgress& progress = {});
 
   /// The points that were kept, through which the surface goes.

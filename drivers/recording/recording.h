@@ -28,7 +28,6 @@ struct Recording {
   std::optional<double> platform_height_mm;  ///< z of the standing surface, station frame
   std::map<std::string, double> truth;       ///< measure id -> true value, if simulated
   bool simulated = false;
-  std::string note;  ///< free text
 
   const CameraDescription* find_camera(const std::string& id) const {
     for (const auto& camera : cameras) {

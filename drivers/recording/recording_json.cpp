@@ -184,7 +184,6 @@ Result<json> parse(std::string_view text, const std::string& where) {
 
 std::string recording_to_json(const Recording& recording) {
   json root = {{"format", kFormat}, {"version", kVersion}};
-  if (!recording.note.empty()) root["note"] = recording.note;
   root["simulated"] = recording.simulated;
   root["cameras"] = json::array();
   for (const auto& camera : recording.cameras) root["cameras"].push_back(camera_to_json(camera));
@@ -220,7 +219,6 @@ Result<Recording> recording_from_json(std::string_view text, const std::filesyst
   }
   Recording recording;
   recording.folder = file.parent_path();
-  if (fields.has("note")) recording.note = fields.text("note");
   if (fields.has("simulated")) recording.simulated = fields.boolean("simulated");
   take_platform(fields, *root, where, recording);
   take_truth(fields, *root, recording);

@@ -29,11 +29,11 @@ class Ball final : public Solid {
 
 CameraGeometry camera_with_lens(const std::array<double, 5>& distortion) {
   LayoutSettings layout;
-  layout.low_elevation_deg = 20.0;  // high enough to see the tops of solids
   layout.width_px = 160;
   layout.height_px = 120;
   layout.cameras = 5;
-  CameraGeometry camera = lay_out_station(layout).value()[1];
+  // One of those that stand high enough to see the tops of solids.
+  CameraGeometry camera = lay_out_station(layout).value()[2];
   camera.intrinsics.cx += 3.7;
   camera.intrinsics.fy *= 1.02;
   camera.intrinsics.distortion = distortion;

@@ -114,29 +114,6 @@ TEST(SensorNoise, PixelsFlyAtSilhouettesOnly) {
   EXPECT_NEAR(flying, 2 * 400 * 0.35 * 0.9, 50);
 }
 
-TEST(SensorNoise, BiasStaysInTheMean) {
-  NoiseSettings settings;
-  settings.bias_mm = 2.0;
-  settings.bias_scale = -0.01;
-  const auto seen = statistics_of(noisy_frame(wall(500.0), settings, 7), 0.1);
-  EXPECT_NEAR(seen.mean, 2.0 + 0.99 * 500.0, 0.01);
-}
-
-TEST(SensorNoise, PrimeSenseStepsWidenWithTheSquareOfDepth) {
-  NoiseSettings settings = NoiseSettings::for_law(NoiseLaw::kNone);
-  settings.quantisation = Quantisation::kPrimeSense;
-  // The steps at 0.5, 0.7 and 1 m that the sensor's own formula gives.
-  for (const auto& [depth, step] : {std::pair(500.0, 0.72), {700.0, 1.42}, {1000.0, 2.9}}) {
-    std::set<std::uint16_t> values;
-    for (double at = depth - 20; at <= depth + 20; at += 0.05) {
-      values.insert(noisy_frame(wall(at, 0, 1), settings, 1).front());
-    }
-    const double mean_step =
-        0.1 * (*values.rbegin() - *values.begin()) / static_cast<double>(values.size() - 1);
-    EXPECT_NEAR(mean_step, step, 0.03 * step + 0.01) << depth;
-  }
-}
-
 TEST(SensorNoise, SameSeedSameBytes) {
   const ExactView view = wall(600.0, 20.0);
   EXPECT_EQ(noisy_frame(view, {}, 11), noisy_frame(view, {}, 11));

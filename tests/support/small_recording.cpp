@@ -9,7 +9,6 @@ namespace instep::test {
 Recording small_header() {
   Recording header;
   header.platform_height_mm = -1.25;
-  header.note = "two cameras";
   for (const char* id : {"left", "right"}) {
     CameraDescription camera;
     camera.geometry.id = id;

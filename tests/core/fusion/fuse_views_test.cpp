@@ -90,7 +90,9 @@ TEST(FuseViews, GivesTwoCleanFeetOnTheirSurfaces) {
     EXPECT_GT(std::sqrt(z / static_cast<double>(seen)), 0.65);
     EXPECT_LT(std::sqrt(z / static_cast<double>(seen)), 1.4);
   }
-  for (const auto coverage : scene->diagnostics.coverage) EXPECT_GT(coverage, 0.9);
+  for (const auto& own : scene->foot_warnings) {
+    EXPECT_EQ(joined(own).find("not seen from all sides"), std::string::npos);
+  }
 }
 
 TEST(FuseViews, ClosesTheSoleInsideTheFootOnly) {
@@ -357,8 +359,6 @@ TEST(FuseViews, IsTheSameWithAThreadForEachView) {
     EXPECT_EQ(alone->feet[i].positions, together->feet[i].positions);
     EXPECT_EQ(alone->feet[i].sigma_mm, together->feet[i].sigma_mm);
   }
-  EXPECT_EQ(alone->diagnostics.outliers, together->diagnostics.outliers);
-  EXPECT_EQ(alone->diagnostics.platform_pixels, together->diagnostics.platform_pixels);
   EXPECT_EQ(alone->warnings, together->warnings);
 }
 

@@ -99,8 +99,8 @@ TEST(PlaceRoughly, HasNothingToDoWithoutViewsOrSkin) {
 
 TEST(PlaceRoughly, EndsWhereItIsNoLongerWanted) {
   const auto views = views_of_a_foot();
-  const auto moves = place_roughly({level(views[0]), level(views[1])}, {}, one_after_the_other,
-                                   [] { return false; });
+  const auto moves =
+      place_roughly({level(views[0]), level(views[1])}, one_after_the_other, [] { return false; });
   ASSERT_FALSE(moves);
   EXPECT_EQ(moves.error().code, ErrorCode::kCancelled);
 }

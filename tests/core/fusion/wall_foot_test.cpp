@@ -21,7 +21,7 @@ double radians(double degrees) {
 }
 
 WallFoot wall(double height, double dip_deg, double bend, double most_inset = 500.0) {
-  return {{0, 0}, {1, 0}, {height, std::sin(radians(dip_deg)), bend, most_inset}, {}};
+  return {{0, 0}, {1, 0}, {height, std::sin(radians(dip_deg)), bend, most_inset}};
 }
 
 /// Height at `x` of the lower hull of the circle that continues the wall and of its contact: what a
@@ -229,7 +229,7 @@ TEST(FindWallFeet, FollowsARoundingAllRound) {
   for (const double rounding : {8.0, 20.0}) {
     auto cloud = rounded_wall(rounding);
     for (auto& point : cloud.positions) point.z() += 40.0;
-    const auto feet = find_wall_feet(cloud, 40.0, {});
+    const auto feet = find_wall_feet(cloud, 40.0);
     EXPECT_GT(feet.size(), 30U);
     for (const auto& foot : feet) {
       EXPECT_GT(foot.out().dot(foot.place().normalized()), 0.99);
@@ -260,7 +260,7 @@ TEST(FindWallFeet, TakesNeitherTheBackOfAFootNorALeaningWallHigherUpForOne) {
       cloud.normals.push_back(Vector3d(0.1, 0, 1).normalized());
     }
   }
-  const auto feet = find_wall_feet(cloud, 0.0, {});
+  const auto feet = find_wall_feet(cloud, 0.0);
   EXPECT_GT(feet.size(), 10U);
   for (const auto& foot : feet) {
     if (std::abs(foot.place().y()) > 50) continue;

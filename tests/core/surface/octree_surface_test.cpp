@@ -93,7 +93,7 @@ TEST(OctreeSurface, RefusesPointsThatDetermineNone) {
 
 TEST(OctreeSurface, TellsItsProgressUpToTheEnd) {
   double last = -1.0;
-  ASSERT_TRUE(OctreeSurface::reconstruct(ring(1200), {}, [&](double done) {
+  ASSERT_TRUE(OctreeSurface::reconstruct(ring(1200), [&](double done) {
     EXPECT_GE(done, last);
     last = done;
   }));

@@ -35,7 +35,6 @@ TEST(Recording, ComesBackBitByBit) {
   const auto header = test::small_header();
   ASSERT_EQ(read->cameras.size(), 2U);
   EXPECT_EQ(read->platform_height_mm, header.platform_height_mm);
-  EXPECT_EQ(read->note, header.note);
   EXPECT_FALSE(read->simulated);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& camera = read->cameras[i];
