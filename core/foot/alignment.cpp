@@ -173,7 +173,7 @@ StandingPlane floor_again(const FootScan& foot) {
 /// A refusal of points in lines: what is missed may lie between them.
 Error said_of_lines(Error refusal, const ScannerLines& lines) {
   refusal.advice += "; the points stand in lines " + in_millimetres(lines.pitch_mm) +
-                    " apart: if all else is right, set the scanner's lines closer";
+                    " apart: if all else is right, have them closer";
   return refusal;
 }
 
@@ -198,7 +198,7 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   if (foot.lines) {
     alone->warnings.push_back("the points stand in lines " + in_millimetres(foot.lines->pitch_mm) +
                               " apart, and what lies between them was not seen: set the "
-                              "scanner's lines closer, or move it more slowly");
+                              "scanner's lines closer, or move it more slowly or nearer");
   }
   if (const auto noise_mm = moving_noise_mm(foot.cloud, foot.lines)) {
     foot.quieted = quieted(foot.cloud, {*noise_mm, rough_length_mm(foot.cloud)});

@@ -44,7 +44,10 @@ LeftOutStrays take_out(PointCloud& cloud, const Finder& strays_in) {
   const std::vector<bool> clumps = loose_clumps(cloud.positions, spacing);
   const bool any = std::find(clumps.begin(), clumps.end(), true) != clumps.end();
   // Where a scanner's lines meet skin aslant the last of them are as far from all others.
-  left_out.any_clump = any && !scanner_lines(cloud.positions) && take_out(clumps, cloud);
+  if (any) {
+    const auto lines = scanner_lines(cloud.positions);
+    left_out.any_clump = !(lines && lines->are_apart()) && take_out(clumps, cloud);
+  }
   const auto all = static_cast<double>(index.points().size());
   left_out.share = 1.0 - static_cast<double>(cloud.size()) / all;
   return left_out;

@@ -22,12 +22,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLeastPitchMm = 1.2;
-constexpr double kMostPitchMm = 7.5;
-/// Looked at, so that of lines further apart not a part of their pitch is taken for it.
 constexpr double kWidestPitchMm = 15.0;
 constexpr double kFinerPitch = 0.93;  ///< the next that is looked at, of the one before
-/// Of the distance from a point to the nearest other one: pixels stand a pitch apart.
-constexpr double kNearestInPitches = 0.8;
+/// Points whose nearest one is further off are in no lines: to be so much nearer is chance.
+constexpr double kNearestInPitches = 1.15;
 /// Points at most among which neighbours are looked for, and such as show the waves.
 constexpr std::size_t kMostAsked = 200000;
 constexpr std::size_t kMostOfWaves = 50000;
@@ -174,11 +172,18 @@ std::vector<Vector3d> ways_across(const PointIndex& index) {
 
 /// A wave along `across`, in turns to the millimetre, and how well points are in step with it.
 struct Wave {
-  Vector3d turns_mm = Vector3d::Zero();
+  Vector3d turns_mm = Vector3d::UnitX();
   double in_step = 0.0;
 
   double pitch_mm() const { return 1.0 / turns_mm.norm(); }
 };
+
+/// As well as lines whose noise is no more than a sixth of their pitch, nor than a millimetre: of
+/// two walls of a body that lie a long wave apart, points are nearly as well.
+double least_in_step(double pitch_mm) {
+  constexpr double kMostNoiseMm = 1.0;
+  return std::max(kLeastInStep, std::exp(-std::pow(kTurn * kMostNoiseMm / pitch_mm, 2)));
+}
 
 /// All waves that are looked at, along all ways: of each way from the longest to the shortest.
 std::vector<std::vector<Wave>> waves_along(const std::vector<Vector3d>& ways,
@@ -262,7 +267,7 @@ std::optional<ScannerLines> scanner_lines(const std::vector<Vector3d>& points_mm
     const Wave found = longest_of_the_best(waves);
     if (found.in_step > best.in_step) best = found;
   }
-  if (best.in_step < kLeastInStep) return std::nullopt;
+  if (!(best.in_step >= least_in_step(best.pitch_mm()))) return std::nullopt;
   const Vector3d wave = refined(best, rounds).turns_mm;
   ScannerLines lines{.across = wave.normalized(), .pitch_mm = 1.0 / wave.norm()};
   lines.first_mm = lines.pitch_mm * phase_of(apart, wave);
@@ -270,7 +275,7 @@ std::optional<ScannerLines> scanner_lines(const std::vector<Vector3d>& points_mm
   const double taken =
       static_cast<double>(apart.points().size()) / static_cast<double>(points_mm.size());
   lines.step_mm = taken * spacing * spacing / lines.pitch_mm;
-  const bool matter = lines.pitch_mm >= kLeastPitchMm && lines.pitch_mm <= kMostPitchMm &&
+  const bool matter = lines.pitch_mm >= kLeastPitchMm &&
                       median_nearest_distance(close) < kNearestInPitches * lines.pitch_mm;
   return matter ? std::optional(lines) : std::nullopt;
 }

@@ -27,7 +27,7 @@ Vector3d on_cylinder(double turn, double level) {
   return {40 * std::cos(turn), 30 * std::sin(turn), level};
 }
 
-TEST(ScannerLines, AreToldFromALittleMoreThanAMillimetreToSeven) {
+TEST(ScannerLines, AreToldFromALittleMoreThanAMillimetre) {
   for (const double apart : {1.5, 2.0, 3.0, 5.0, 7.0}) {
     const auto lines = scanner_lines(in_lines(apart, 0.2 * apart));
     ASSERT_TRUE(lines) << apart;
@@ -97,14 +97,21 @@ TEST(ScannerLines, AreNoneThatLieCloser) {
   EXPECT_FALSE(scanner_lines(in_lines(0.8, 0.16)));
 }
 
-/// Nor is a part of what they are apart taken for it.
-TEST(ScannerLines, AreNoneThatLieFurtherApart) {
-  for (const double apart : {8.0, 10.0, 14.0}) EXPECT_FALSE(scanner_lines(in_lines(apart, 0.3)));
+/// So far apart they hardly show a foot; and a part of what they are apart is not taken for it.
+TEST(ScannerLines, AreToldTenMillimetresApart) {
+  for (const double apart : {8.0, 10.0, 14.0}) {
+    const auto lines = scanner_lines(in_lines(apart, 0.3));
+    ASSERT_TRUE(lines) << apart;
+    EXPECT_NEAR(lines->pitch_mm / apart, 1.0, 0.01) << apart;
+  }
 }
 
-/// As of a camera's pixels, which show a body as well along their rows as across.
-TEST(ScannerLines, AreNoneOfPointsThatAreAsFarApartOnThem) {
-  EXPECT_FALSE(scanner_lines(in_lines(2.0, 2.0)));
+/// As of a camera's pixels.
+TEST(ScannerLines, AreRowsOfPixelsToo) {
+  const auto rows = scanner_lines(in_lines(2.0, 1.8));
+  ASSERT_TRUE(rows);
+  EXPECT_FALSE(rows->are_apart());
+  EXPECT_TRUE(scanner_lines(in_lines(2.0, 1.0))->are_apart());
 }
 
 /// As of a body on a turntable.
