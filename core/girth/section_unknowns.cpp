@@ -10,6 +10,7 @@
 #include "core/girth/cloud_edge.h"
 #include "core/girth/contour_course.h"
 #include "core/girth/contour_turns.h"
+#include "core/girth/rounded_places.h"
 
 namespace instep {
 namespace {
@@ -76,7 +77,8 @@ SectionUnknowns unknowns_of(const PlaneBand& band, const PointCloud& cloud,
       {},
       zigzags_of(ContourCourse(measured.contour), kZigzagInGrains * band.grain),
       folds_by_noise(band, section.contour),
-      doubt_of_edge(band, section.index)};
+      doubt_of_edge(band, section.index),
+      doubt_of_rounding(band, cloud, measured.contact)};
   unknowns.reach = reach_of_layers(band, unknowns.layers);
   // What lies off the one layer is the other one, which counts already.
   const bool is_layered = unknowns.layers && unknowns.layers->are_all_round;
@@ -100,6 +102,7 @@ void widen(const PlaneBand& band, const SectionUnknowns& unknowns, MeasuredSecti
   const double distrust = std::min(band.told_scale, kMostDistrust);
   const auto with_bends = [&](double told, double UnseenBends::*length) {
     double squares = std::pow(distrust * told, 2) + std::pow(unknowns.edge, 2) +
+                     std::pow(unknowns.rounding, 2) +
                      std::pow(std::min(told, unknowns.between_points.*length), 2);
     for (const auto& bends : {unknowns.bends, unknowns.between_lines, unknowns.in_space}) {
       squares += std::pow(bends.*length, 2);

@@ -35,6 +35,7 @@ struct SectionUnknowns {
   Zigzags zigzags;
   double folds = 0.0;  ///< what folds that noise may have made add to the contact length
   double edge = 0.0;   ///< half of a 95 % interval by where the noisy cloud ends (doubt_of_edge())
+  double rounding = 0.0;  ///< the same by coordinates with few digits (doubt_of_rounding())
 };
 
 /// `cloud`: that the band is of; `loops`: all that the plane cuts, the section first, for which

@@ -1,9 +1,8 @@
 #include "core/girth/sure_noise.h"
 
 #include <cmath>
-#include <vector>
 
-#include "core/geometry/coordinate_step.h"
+#include "core/girth/rounded_places.h"
 #include "core/surface/close_pairs.h"
 
 namespace instep {
@@ -16,21 +15,13 @@ constexpr double kPlain = 0.03;
 constexpr double kExplained = 0.5;
 constexpr double kFarMore = 4.0;
 
-/// In millimetres.
-double noise_of_rounding(const PlaneBand& band, const PointCloud& cloud) {
-  std::vector<Eigen::Vector3d> places;
-  places.reserve(band.sources.size());
-  for (const std::size_t source : band.sources) places.push_back(cloud.positions[source]);
-  return coordinate_step(places) / std::sqrt(12.0);
-}
-
 }  // namespace
 
 bool is_surely_noise(const PlaneBand& band, const PointCloud& cloud, bool is_told) {
   if (is_told && band.told_scale == 1.0 && band.uneven.empty()) return true;
   const bool matters = !is_harmless(band.sigma * band.sigma, band.spacing, true);
   if (!matters || band.sigma >= kPlain * band.spacing) return false;
-  const double explained = noise_of_rounding(band, cloud) / band.noise_mm();
+  const double explained = rounding_step_mm(band, cloud) / std::sqrt(12.0) / band.noise_mm();
   return (explained > kExplained && explained < kFarMore) ||
          is_noise_between_pairs(band.points, band.index, band.spacing, band.sigma);
 }
