@@ -137,6 +137,8 @@ Result<void> OpenniChild::read_messages() {
   std::array<char, kLongestChildMessage> text;
   while (true) {
     const ssize_t got = ::recv(socket_.number(), text.data(), text.size(), MSG_DONTWAIT);
+    // Told of a command that the child has not read any more; its last words come after that.
+    if (got < 0 && errno == ECONNRESET) continue;
     if (got < 0 && (errno == EAGAIN || errno == EINTR)) return {};
     if (got <= 0) break;
     auto message = parse_child_message({text.data(), static_cast<std::size_t>(got)});
