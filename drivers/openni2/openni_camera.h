@@ -46,7 +46,8 @@ class OpenniCamera final : public DepthCamera {
 
   /// Opens the sensor, within the opening limit. Fails with kNotFound if it is not there, kBusy or
   /// kPermissionDenied if it cannot be had, kUnsupported if it cannot be set as above or has no
-  /// field of view and no intrinsics were given, kDeviceGone if it was lost or its driver crashed.
+  /// field of view and no intrinsics were given, kDeviceGone if it was lost, kIo if its driver
+  /// crashed or hung.
   static Result<std::unique_ptr<OpenniCamera>> open(Settings settings);
 
   const CameraDescription& description() const override { return description_; }

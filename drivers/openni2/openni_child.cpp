@@ -145,7 +145,7 @@ Result<void> OpenniChild::read_messages() {
     if (!message) return tl::make_unexpected(message.error());
     if (auto obeyed = obey(*message); !obeyed) return obeyed;
   }
-  return fail(ErrorCode::kDeviceGone,
+  return fail(ErrorCode::kIo, Remedy::kReopen,
               "instep-openni, which reads the sensor, " +
                   process_.wait(kReapingLimit).value_or("has closed its connection"),
               "if that happens again, plug the sensor into another port");
@@ -180,7 +180,7 @@ Result<void> OpenniChild::check_life() {
       break;
   }
   if (!hangs) return {};
-  return fail(ErrorCode::kDeviceGone,
+  return fail(ErrorCode::kIo, Remedy::kReopen,
               fmt::format("OpenNI2 hung while it was {} the sensor", doing(phase_)),
               "if that happens again, unplug the sensor and plug it in again");
 }

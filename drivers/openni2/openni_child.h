@@ -48,7 +48,8 @@ class OpenniChild {
   void stop();   ///< in Phase::kStreaming
 
   /// Fails with kTimeout if the phase has not come by `deadline`, kCancelled if `interrupt` is set,
-  /// and with what happened to the sensor or the child, mostly kDeviceGone.
+  /// with what happened to the sensor, mostly kDeviceGone, and with kIo and Remedy::kReopen if the
+  /// child crashed or hangs: the sensor may be plugged in still, and be in need of a reset.
   Result<void> wait_for(Phase phase, Time deadline, const WakeUp& interrupt);
   /// The same for a frame, in Phase::kStreaming.
   Result<RingFrame> next_frame(Time deadline, const WakeUp& interrupt);

@@ -68,11 +68,11 @@ INSTANTIATE_TEST_SUITE_P(
                 std::filesystem::remove(bus.folder() / "libOpenNI2.so.0");
                 std::ofstream(bus.folder() / "libOpenNI2.so.0") << "no library";
               },
-              ErrorCode::kDeviceGone, "a library of it is missing"},
+              ErrorCode::kIo, "a library of it is missing"},
         Cause{"NoProgram", [](auto&, auto& settings) { settings.program.file = "/none/at/all"; },
               ErrorCode::kNotFound, "cannot be started"},
         Cause{"OtherProgram", [](auto&, auto& settings) { settings.program.file = "/bin/true"; },
-              ErrorCode::kDeviceGone, "ended with code 0"},
+              ErrorCode::kIo, "ended with code 0"},
         Cause{"NoFieldOfView", [](auto& bus, auto&) { bus.plug_in({.hfov_rad = 0.0}); },
               ErrorCode::kUnsupported, "give its intrinsics"},
         Cause{"NoSuchSize",
