@@ -29,7 +29,8 @@ class DepthCamera {
   virtual const CameraDescription& description() const = 0;
 
   /// Begins streaming. Starting a started camera is a no-op. Fails with kNotFound or kDeviceGone
-  /// while the device is away, kBusy while someone else has it.
+  /// while the device is away, kBusy while someone else has it, kTimeout and Remedy::kRetry while
+  /// it takes longer than a call may: it goes on by itself, to a limit of its own; call again.
   virtual Result<void> start() = 0;
 
   /// The next frame in the order of the device, bad ones included (see DepthFrame::status). Frames

@@ -57,6 +57,12 @@ bool is_all_zero(const DepthFrame& frame) {
   return std::all_of(frame.raw.begin(), frame.raw.end(), [](auto depth) { return depth == 0; });
 }
 
+/// It streams, so that to wait on is no help: another stream may be.
+Error without_frame(Error error) {
+  if (error.code == ErrorCode::kTimeout) error.remedy = Remedy::kReopen;
+  return error;
+}
+
 /// Until a frame is sound, as a stream may begin with some that are not.
 Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
                      CameraSet::ZeroFrames zero_frames, TaskProgress& progress) {
@@ -66,7 +72,7 @@ Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettin
   for (int i = 0; i < settings.warmup_frames + kMostBadFramesForEach; ++i) {
     if (i > 0 && steady_clock::now() >= deadline) break;
     const auto frame = camera.next_frame(settings.frame_limit);
-    if (!frame) return tl::make_unexpected(frame.error());
+    if (!frame) return tl::make_unexpected(without_frame(frame.error()));
     progress.step();
     fault = tally.count(*frame);
     // Nobody needs to stand there, and then there may be hardly anything to be seen.

@@ -5,6 +5,8 @@
 namespace instep {
 
 RecoveryLadder::Step RecoveryLadder::failed(const Error& error) {
+  // What goes on by itself would only begin anew.
+  if (error.code == ErrorCode::kTimeout && error.remedy == Remedy::kRetry) return Step::kReopen;
   // There is nothing to reset where nothing is plugged in, and no use in it where a person has to
   // change something.
   away_ = error.code == ErrorCode::kDeviceGone || error.code == ErrorCode::kNotFound;

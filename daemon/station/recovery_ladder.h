@@ -10,7 +10,9 @@ namespace instep {
 /// more: open it again, reset it on its bus, call a person. One that may not be opened is opened
 /// again as often, while udev may still be setting the rights of what has just been plugged in.
 /// (The retry of a frame comes before all that, in CameraSet::capture.) Every look at the camera
-/// opens it again, so that one that recovers by itself serves from then on, on whatever rung.
+/// opens it again, so that one that recovers by itself serves from then on, on whatever rung. A
+/// camera that is still at opening or starting, within its limit (kTimeout and Remedy::kRetry, see
+/// DepthCamera::start), is waited for on the rung where it is.
 class RecoveryLadder {
  public:
   static constexpr int kReopens = 3;
@@ -25,7 +27,7 @@ class RecoveryLadder {
   /// It answers, or was plugged in anew: the next failure begins at the foot.
   void recovered();
 
-  /// For the status, such as "re-opened 2 of 3 times"; empty while nothing is wrong.
+  /// For the status, such as "opened again, 2 of 3"; empty while nothing is wrong.
   std::string text() const;
 
  private:

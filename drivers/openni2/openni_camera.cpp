@@ -101,14 +101,33 @@ Result<void> OpenniCamera::check_same(const CameraOpened& opened) const {
 
 Result<void> OpenniCamera::start() {
   interrupt_.clear();
-  const auto deadline = steady_clock::now() + kStartLimit;
-  if (child_ && !child_->look()) child_.reset();
+  if (child_) {
+    if (const auto well = child_->look(); !well) drop_child(well.error());
+  }
   if (child_ && started_) return {};
   started_ = false;
   if (!child_) {
     if (auto launched = launch(); !launched) return launched;
   }
-  // It may be opening, or starting or stopping still, after an earlier call.
+  if (const auto done = bring_to_stream(); !done) {
+    Error error = done.error();
+    if (!is_passing(error) || !child_->is_well()) {
+      drop_child(error);
+    } else if (error.code == ErrorCode::kTimeout && dropped_for_) {
+      error.message = dropped_for_->message;
+      error.advice = dropped_for_->advice;
+    }
+    return tl::make_unexpected(error);
+  }
+  dropped_for_.reset();
+  started_ = true;
+  numbers_.begin_stream();
+  return {};
+}
+
+/// It may be opening, or starting or stopping still, after an earlier call.
+Result<void> OpenniCamera::bring_to_stream() {
+  const auto deadline = steady_clock::now() + kStartLimit;
   if (child_->phase() == Phase::kStreaming) child_->stop();
   auto done = Result<void>();
   if (child_->phase() != Phase::kStarting) {
@@ -116,12 +135,13 @@ Result<void> OpenniCamera::start() {
                .and_then([&] { return check_same(child_->opened()); })
                .map([&] { child_->start(); });
   }
-  done = done.and_then([&] { return child_->wait_for(Phase::kStreaming, deadline, interrupt_); });
-  if (!done && !is_passing(done.error())) child_.reset();
-  if (!done) return done;
-  started_ = true;
-  numbers_.begin_stream();
-  return {};
+  return done.and_then([&] { return child_->wait_for(Phase::kStreaming, deadline, interrupt_); });
+}
+
+void OpenniCamera::drop_child(const Error& cause) {
+  started_ = false;
+  child_.reset();
+  dropped_for_ = cause;
 }
 
 Result<DepthFrame> OpenniCamera::next_frame(milliseconds limit) {
@@ -131,10 +151,7 @@ Result<DepthFrame> OpenniCamera::next_frame(milliseconds limit) {
   }
   auto frame = child_->next_frame(steady_clock::now() + limit, interrupt_);
   if (frame) return to_frame(std::move(*frame));
-  if (!is_passing(frame.error())) {
-    started_ = false;
-    child_.reset();
-  }
+  if (!is_passing(frame.error()) || !child_->is_well()) drop_child(frame.error());
   return tl::make_unexpected(frame.error());
 }
 

@@ -52,7 +52,8 @@ class OpenniCamera final : public DepthCamera {
 
   const CameraDescription& description() const override { return description_; }
   /// Opens the sensor again if it was lost, wherever it is plugged in now. If that takes more than
-  /// a second it fails with kTimeout and goes on by itself: call again.
+  /// a second it fails with kTimeout and goes on by itself, up to the opening limit: call again.
+  /// What it says meanwhile is why the sensor had to be opened again, if that is known.
   Result<void> start() override;
   Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override;
   void stop() override;
@@ -62,6 +63,9 @@ class OpenniCamera final : public DepthCamera {
   explicit OpenniCamera(Settings settings) : settings_(std::move(settings)) {}
 
   Result<void> launch();
+  Result<void> bring_to_stream();
+  /// Ends the child for what is wrong with it.
+  void drop_child(const Error& cause);
   Result<void> describe(const CameraOpened& opened);
   Result<void> check_same(const CameraOpened& opened) const;
   DepthFrame to_frame(RingFrame frame);
@@ -69,6 +73,7 @@ class OpenniCamera final : public DepthCamera {
   Settings settings_;
   CameraDescription description_;
   std::unique_ptr<OpenniChild> child_;  ///< none = has to be launched
+  std::optional<Error> dropped_for_;  ///< why the last child was; until a stream begins
   bool started_ = false;
   FrameNumbers numbers_;
   std::chrono::steady_clock::time_point last_host_time_{};

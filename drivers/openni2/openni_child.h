@@ -42,6 +42,7 @@ class OpenniChild {
   ~OpenniChild();
 
   Phase phase() const { return phase_; }
+  bool is_well() const { return is_well_; }  ///< false once anything went wrong with it
   const CameraOpened& opened() const { return opened_; }  ///< once it has left Phase::kOpening
 
   void start();  ///< in Phase::kOpen

@@ -87,7 +87,7 @@ class CameraCareTest : public testing::Test {
   std::optional<CameraCare> care_;
 };
 
-const Error kSilent{ErrorCode::kTimeout, Remedy::kRetry, "no frame came", "look"};
+const Error kSilent{ErrorCode::kTimeout, Remedy::kReopen, "no frame came", "look"};
 const Error kGone{ErrorCode::kDeviceGone, Remedy::kReopen, "it left", "plug it in"};
 
 TEST_F(CameraCareTest, LooksAtOnceWhenACameraInTroubleArrives) {

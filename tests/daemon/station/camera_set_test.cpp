@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -255,6 +256,17 @@ TEST(CameraSet, ReportsEachCameraWhenChecked) {
   set->check(settings(), CameraSet::ZeroFrames::kAreFaulty, reports.taker());
   EXPECT_EQ(reports.of(0), "");
   EXPECT_EQ(reports.of(1), "camera right: it left");
+}
+
+// Unlike one that is still opening, it does not begin to send by being waited for.
+TEST(CameraSet, HasACameraThatStreamsAndSendsNothingOpenedAgain) {
+  const auto set = cameras({Step::kTimeout}, {});
+  std::promise<Remedy> silent;
+  set->check(settings(), CameraSet::ZeroFrames::kAreFaulty,
+             [&](std::size_t camera, const Result<void>& outcome) {
+               if (camera == 0) silent.set_value(outcome ? Remedy::kBug : outcome.error().remedy);
+             });
+  EXPECT_EQ(silent.get_future().get(), Remedy::kReopen);
 }
 
 // Every scan would fail, though it answers.

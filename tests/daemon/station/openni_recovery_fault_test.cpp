@@ -37,5 +37,24 @@ TEST(OpenniRecovery, ADriverThatCrashesEachTimeIsResetInTheEnd) {
   EXPECT_EQ(ladder.failed(next_failure(*camera)), Step::kReset);
 }
 
+// It was reset while it opened, and the log said in turn that it was gone and that it opened.
+TEST(OpenniRecovery, ASensorThatTakesLongToOpenIsWaitedForAndMissedInTheSameWords) {
+  OpenniBus bus;
+  bus.plug_in({});
+  const auto camera = bus.camera();
+  RecoveryLadder ladder(true);
+  bus.unplug("A1");
+  const Error lost = next_failure(*camera);
+  EXPECT_EQ(ladder.failed(lost), Step::kReopen);
+  bus.plug_in({.faults = {"hang-open"}});  // all that is to be seen of one that takes seconds
+  for (int look = 0; look < 2 * RecoveryLadder::kReopens; ++look) {
+    const auto started = camera->start();
+    ASSERT_FALSE(started);
+    EXPECT_EQ(started.error().line(), lost.line());
+    EXPECT_EQ(ladder.failed(started.error()), Step::kReopen);
+    EXPECT_EQ(ladder.text(), "waits until it is plugged in");
+  }
+}
+
 }  // namespace
 }  // namespace instep::test

@@ -11,7 +11,7 @@ Error error(ErrorCode code) {
   return {code, usual_remedy(code), "", ""};
 }
 
-const Error kSilent = error(ErrorCode::kTimeout);
+const Error kSilent{ErrorCode::kTimeout, Remedy::kReopen, "", ""};
 
 // From gentle to rough, each rung a few times, and never without end.
 TEST(RecoveryLadder, ReopensThenResetsThenCallsAPerson) {
@@ -50,6 +50,19 @@ TEST(RecoveryLadder, ResetsNeitherWhatIsAwayNorWhatAnotherProgramHas) {
     RecoveryLadder ladder(true);
     for (int i = 0; i < 20; ++i) EXPECT_NE(ladder.failed(error(code)), Step::kReset);
   }
+}
+
+// A sound sensor that takes six seconds to open would be reset while it does.
+TEST(RecoveryLadder, StaysOnItsRungWhileACameraIsStillOpening) {
+  RecoveryLadder ladder(true);
+  ladder.failed(kSilent);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(ladder.failed(error(ErrorCode::kTimeout)), Step::kReopen);
+  }
+  EXPECT_EQ(ladder.text(), "opened again, 1 of 3");
+  ladder.failed(error(ErrorCode::kNotFound));
+  ladder.failed(error(ErrorCode::kTimeout));
+  EXPECT_EQ(ladder.text(), "waits until it is plugged in");
 }
 
 // A camera that is away for a night must not be given up.
