@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "daemon/control/store_requests.h"
+#include "daemon/loop/caught.h"
 #include "daemon/store/posix_storage.h"
 
 namespace instep {
@@ -28,6 +29,9 @@ static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
 /// Who asks for a result waits about so long for old ones to be removed, and for their list.
 constexpr std::chrono::seconds kLongestSweep{1};
+/// Between two looks at the store: results grow old without a scan, and a disk gets room again.
+constexpr std::chrono::seconds kStoreLook{3600};
+constexpr std::chrono::seconds kStoreLookInTrouble{60};
 
 }  // namespace
 
@@ -70,6 +74,7 @@ Result<void> StationService::open(MeasureCapture measure) {
   listener.on_left = [this] { loop_->leave(); };
   station_ = std::make_unique<Station>(*loop_, settings_, std::move(measure), store_, listener);
 
+  store_timer_ = loop_->timer([this] { look_after_store(); });
   watchdog_timer_ = loop_->timer([this] { feed_watchdog(); });
   shutdown_timer_ = loop_->timer([this] { loop_->leave(); });
   return loop_->on_signal(SIGTERM, [this] { shut_down(); })
@@ -100,6 +105,7 @@ bool StationService::end_threads() {
 }
 
 void StationService::prepare_store() {
+  store_timer_.set(kStoreLook);
   const auto prepared = store_->prepare();
   if (!prepared) return station_->store_failed(prepared.error());
   if (prepared->is_shared) {
@@ -112,6 +118,25 @@ void StationService::prepare_store() {
     log_warning("an unfinished result cannot be cleared: " + prepared->trouble->line());
   }
   sweep_store();
+}
+
+void StationService::look_after_store() {
+  sweep_store();
+  try_out_store();
+  store_timer_.set(station_->store_trouble() ? kStoreLookInTrouble : kStoreLook);
+}
+
+void StationService::try_out_store() {
+  const auto trouble = station_->store_trouble();
+  if (!trouble || is_trying_out_) return;
+  is_trying_out_ = true;
+  archive_->post([this, trouble = *trouble, store = store_, post = loop_->poster()](TaskProgress&) {
+    const auto outcome = caught("trying out the store", [&] { return store->try_out(); });
+    post([this, trouble, outcome] {
+      is_trying_out_ = false;
+      station_->store_tried_out(trouble, outcome);
+    });
+  });
 }
 
 void StationService::sweep_store() {
@@ -199,6 +224,9 @@ void StationService::station_changed() {
     if (!said_.is_news(name, line)) continue;
     trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
   }
+  const bool store_failed = station_->store_trouble().has_value();
+  if (store_failed && !store_in_trouble_) store_timer_.set(kStoreLookInTrouble);
+  store_in_trouble_ = store_failed;
   manager_.status(status_text());
   if (server_ && server_->has_watchers()) {
     server_->broadcast(event_line("status", to_json(now)));
@@ -268,7 +296,7 @@ void StationService::reload() {
         "read the settings again; cameras and their calibration, the pedal's kind and place, "
         "lamps, projector, "
         "simulation, store and socket change with a restart");
-    sweep_store();
+    look_after_store();
   }
   station_changed();
   manager_.ready(status_text());
@@ -285,7 +313,8 @@ void StationService::shut_down() {
 void StationService::feed_watchdog() {
   const auto limit = ServiceManager::watchdog_limit().value_or(kWatchdogTick * 4);
   station_->note_progress(progress_);
-  progress_.note("archive", archive_->is_busy(), archive_->progress());
+  // An ailing disk is what it tries out, and to be started again mends none.
+  progress_.note("archive", archive_->is_busy() && !is_trying_out_, archive_->progress());
   if (progress_.all_moved()) {
     manager_.feed_watchdog();
   } else if (said_.is_news("hung", progress_.hung())) {

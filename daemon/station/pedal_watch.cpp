@@ -6,6 +6,16 @@
 
 namespace instep {
 
+Error stuck_pedal() {
+  return {ErrorCode::kBusy, Remedy::kOperator, "the pedal is held down or stuck",
+          "take the foot off it; if it stays so, check its cable"};
+}
+
+Error chattering_pedal() {
+  return {ErrorCode::kIo, Remedy::kOperator, "the pedal's contact opens and closes all the time",
+          "check its plug and its cable, or try another pedal"};
+}
+
 PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener)
     : loop_(loop), settings_(settings), open_(std::move(open)), listener_(std::move(listener)) {
   settle_timer_ = loop_.timer([this] { settle(); });

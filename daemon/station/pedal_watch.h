@@ -13,6 +13,10 @@
 
 namespace instep {
 
+/// The trouble that the signals of these names stand for.
+Error stuck_pedal();
+Error chattering_pedal();
+
 /// A pedal on the event loop: reads its edges, lets the debouncer judge them, opens it again when
 /// it was lost. Lives on the loop's thread.
 class PedalWatch {

@@ -11,16 +11,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kOpeningGrace{1000};
 
-Error stuck_pedal() {
-  return {ErrorCode::kBusy, Remedy::kOperator, "the pedal is held down or stuck",
-          "take the foot off it; if it stays so, check its cable"};
-}
-
-Error chattering_pedal() {
-  return {ErrorCode::kIo, Remedy::kOperator, "the pedal's contact opens and closes all the time",
-          "check its plug and its cable, or try another pedal"};
-}
-
 /// Of a scan that nobody cancelled, too.
 Error stopping() {
   return {ErrorCode::kCancelled, Remedy::kRetry, "the station is stopping",
@@ -60,8 +50,19 @@ void Station::begin() {
 }
 
 void Station::store_failed(const Error& error) {
+  ++store_failures_;
   store_trouble_ = error;
   handle(StationEvent::kStoreFailed);
+}
+
+std::optional<std::uint64_t> Station::store_trouble() const {
+  return store_trouble_ ? std::optional(store_failures_) : std::nullopt;
+}
+
+void Station::store_tried_out(std::uint64_t trouble, const Result<void>& outcome) {
+  if (store_trouble() != trouble) return;
+  store_trouble_ = outcome ? std::nullopt : std::optional(outcome.error());
+  outcome ? handle(StationEvent::kStoreReady) : listener_.on_change();
 }
 
 Result<void> Station::request_scan() {
@@ -274,11 +275,9 @@ void Station::pedal_signalled(PedalSignal signal) {
     case PedalSignal::kHeld:
       return handle(StationEvent::kCancelRequested);
     case PedalSignal::kStuck:
-      pedal_trouble_ = stuck_pedal();
-      return handle(StationEvent::kPedalFault);
+      return pedal_lost(stuck_pedal());
     case PedalSignal::kChattering:
-      pedal_trouble_ = chattering_pedal();
-      return handle(StationEvent::kPedalFault);
+      return pedal_lost(chattering_pedal());
     case PedalSignal::kReleased:
       return pedal_returned();
   }
@@ -374,10 +373,7 @@ void Station::scan_ended(const ScanOutcome& outcome) {
     store_trouble_.reset();
     return handle(StationEvent::kStored);
   }
-  if (outcome.store_failed) {
-    store_trouble_ = outcome.error;
-    return handle(StationEvent::kStoreFailed);
-  }
+  if (outcome.store_failed) return store_failed(*outcome.error);
   handle(outcome.error->code == ErrorCode::kCancelled ? StationEvent::kScanCancelled
                                                       : StationEvent::kScanFailed);
 }

@@ -72,6 +72,10 @@ class Station {
   void begin();
   /// Results cannot be written.
   void store_failed(const Error& error);
+  /// Which trouble of the store lasts, for store_tried_out(); nothing if there is none.
+  std::optional<std::uint64_t> store_trouble() const;
+  /// What came of trying out the store for that trouble; passed over if it failed again since.
+  void store_tried_out(std::uint64_t trouble, const Result<void>& outcome);
 
   /// As the pedal does. Fails with kBusy while a scan runs, or with the camera's trouble.
   Result<void> request_scan();
@@ -126,6 +130,7 @@ class Station {
   std::optional<PedalWatch> pedal_;
   std::optional<Error> pedal_trouble_;
   std::optional<Error> store_trouble_;
+  std::uint64_t store_failures_ = 0;
   std::optional<Error> open_trouble_;
 
   Devices devices_;  ///< without its cameras, which the set owns

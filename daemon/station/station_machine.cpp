@@ -69,6 +69,9 @@ Actions StationMachine::handle(StationEvent event) {
       store_fault_ = true;
       if (phase_ != Phase::kStoring) return {};
       return end_scan({StationAction::kAnnounceFailure});
+    case StationEvent::kStoreReady:
+      store_fault_ = false;
+      return {};
     case StationEvent::kScanFailed:
       return phase_ == Phase::kCapturing
                  ? end_scan({StationAction::kAnnounceFailure, StationAction::kCheckCameras})

@@ -30,6 +30,7 @@ enum class StationEvent {
   kStored,         ///< the results are durable
   kScanFailed,     ///< while capturing or measuring
   kStoreFailed,    ///< results cannot be written: found at start-up, or while storing
+  kStoreReady,     ///< results can be written again
   kScanCancelled,  ///< the scan has ended on request
   kShutdown,
 };

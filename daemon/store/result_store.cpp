@@ -10,6 +10,9 @@ namespace {
 
 constexpr const char* kWriting = ".writing-";
 constexpr const char* kDeleting = ".deleting-";
+constexpr const char* kTrial = ".trying-out";
+/// As large as a result with its cloud, so that a disk which takes it takes the next scan too.
+constexpr std::size_t kTrialSize = 2 * 1024 * 1024;
 constexpr std::size_t kLargestResultJson = 16 * 1024 * 1024;
 
 bool is_leftover(const std::string& name) {
@@ -60,6 +63,16 @@ Result<Prepared> ResultStore::prepare() {
     }
   }
   return prepared;
+}
+
+Result<void> ResultStore::try_out() {
+  const auto trial = root_ / kTrial;
+  // One that a sudden end has left; mostly there is none.
+  (void)storage_->remove_file(trial);
+  const auto tried = storage_->make_folder(root_).and_then(
+      [&] { return write_file(trial, std::string(kTrialSize, 'x')); });
+  const auto gone = storage_->remove_file(trial);
+  return tried ? gone : tried;
 }
 
 Result<std::filesystem::path> ResultStore::put(const std::string& id,

@@ -53,6 +53,10 @@ class ResultStore {
   /// left half-done. Once, before anything else.
   Result<Prepared> prepare();
 
+  /// Whether a result could be stored now: writes, flushes and removes a file as large as one, which
+  /// lies beside the results and is none. For one thread at a time.
+  Result<void> try_out();
+
   /// Stores a result and returns its folder. On failure nothing is left but, if the cleaning up
   /// fails too, a leftover that prepare() clears.
   Result<std::filesystem::path> put(const std::string& id, const ResultContent& content);

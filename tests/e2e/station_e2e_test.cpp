@@ -375,7 +375,11 @@ TEST(Station, NamesAFullDiskAndRecoversFromIt) {
   const auto full = station.run_instep("scan");
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_THAT(full.text, HasSubstr("make room on the disk")) << station.log();
+  ASSERT_TRUE(station.wait_for("STATUS=fault", kLong)) << station.log();
   std::filesystem::remove(disk / "filler");
+  // It would look by itself within a minute.
+  station.signal(SIGHUP);
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
   const auto next = station.run_instep("scan");
   EXPECT_EQ(next.exit_code, 0) << next.text << station.log();
   station.signal(SIGTERM);

@@ -65,6 +65,7 @@ const std::vector<Row> kTable = {
     {S::kStarting, E::kStored, S::kStarting, {}},
     {S::kStarting, E::kScanFailed, S::kStarting, {}},
     {S::kStarting, E::kStoreFailed, S::kStarting, {}},
+    {S::kStarting, E::kStoreReady, S::kStarting, {}},
     {S::kStarting, E::kScanCancelled, S::kStarting, {}},
     {S::kStarting, E::kShutdown, S::kStarting, {A::kLeave}},
 
@@ -79,6 +80,7 @@ const std::vector<Row> kTable = {
     {S::kReady, E::kStored, S::kReady, {}},
     {S::kReady, E::kScanFailed, S::kReady, {}},
     {S::kReady, E::kStoreFailed, S::kFault, {}},
+    {S::kReady, E::kStoreReady, S::kReady, {}},
     {S::kReady, E::kScanCancelled, S::kReady, {}},
     {S::kReady, E::kShutdown, S::kReady, {A::kLeave}},
 
@@ -93,6 +95,7 @@ const std::vector<Row> kTable = {
     {S::kCapturing, E::kStored, S::kCapturing, {}},
     {S::kCapturing, E::kScanFailed, S::kReady, {A::kAnnounceFailure, A::kCheckCameras}},
     {S::kCapturing, E::kStoreFailed, S::kCapturing, {}},
+    {S::kCapturing, E::kStoreReady, S::kCapturing, {}},
     {S::kCapturing, E::kScanCancelled, S::kReady, {A::kAnnounceCancelled}},
     {S::kCapturing, E::kShutdown, S::kCapturing, {A::kCancelScan}},
 
@@ -107,6 +110,7 @@ const std::vector<Row> kTable = {
     {S::kMeasuring, E::kStored, S::kMeasuring, {}},
     {S::kMeasuring, E::kScanFailed, S::kReady, {A::kAnnounceFailure}},
     {S::kMeasuring, E::kStoreFailed, S::kMeasuring, {}},
+    {S::kMeasuring, E::kStoreReady, S::kMeasuring, {}},
     {S::kMeasuring, E::kScanCancelled, S::kReady, {A::kAnnounceCancelled}},
     {S::kMeasuring, E::kShutdown, S::kMeasuring, {A::kCancelScan}},
 
@@ -121,6 +125,7 @@ const std::vector<Row> kTable = {
     {S::kStoring, E::kStored, S::kReady, {A::kAnnounceResult}},
     {S::kStoring, E::kScanFailed, S::kReady, {A::kAnnounceFailure}},
     {S::kStoring, E::kStoreFailed, S::kFault, {A::kAnnounceFailure}},
+    {S::kStoring, E::kStoreReady, S::kStoring, {}},
     {S::kStoring, E::kScanCancelled, S::kReady, {A::kAnnounceCancelled}},
     {S::kStoring, E::kShutdown, S::kStoring, {}},
 
@@ -135,6 +140,7 @@ const std::vector<Row> kTable = {
     {S::kDegraded, E::kStored, S::kDegraded, {}},
     {S::kDegraded, E::kScanFailed, S::kDegraded, {}},
     {S::kDegraded, E::kStoreFailed, S::kFault, {}},
+    {S::kDegraded, E::kStoreReady, S::kDegraded, {}},
     {S::kDegraded, E::kScanCancelled, S::kDegraded, {}},
     {S::kDegraded, E::kShutdown, S::kDegraded, {A::kLeave}},
 
@@ -149,12 +155,13 @@ const std::vector<Row> kTable = {
     {S::kFault, E::kStored, S::kFault, {}},
     {S::kFault, E::kScanFailed, S::kFault, {}},
     {S::kFault, E::kStoreFailed, S::kFault, {}},
+    {S::kFault, E::kStoreReady, S::kFault, {}},
     {S::kFault, E::kScanCancelled, S::kFault, {}},
     {S::kFault, E::kShutdown, S::kFault, {A::kLeave}},
 };
 
 TEST(StationMachine, FollowsItsTableInEveryStateOnEveryEvent) {
-  ASSERT_EQ(kTable.size(), 7U * 13U);
+  ASSERT_EQ(kTable.size(), 7U * 14U);
   for (const auto& row : kTable) {
     StationMachine machine = machine_in(row.from);
     ASSERT_EQ(machine.state(), row.from);
@@ -195,6 +202,15 @@ TEST(StationMachine, RecoversFromAFullDiskWithTheNextScan) {
   EXPECT_EQ(machine.state(), S::kReady);
 }
 
+// It was in fault until somebody scanned, long after there was room again.
+TEST(StationMachine, RecoversFromAFullDiskWithoutAScan) {
+  StationMachine machine = machine_in(S::kReady);
+  machine.handle(E::kStoreFailed);
+  EXPECT_EQ(machine.state(), S::kFault);
+  EXPECT_TRUE(machine.handle(E::kStoreReady).empty());
+  EXPECT_EQ(machine.state(), S::kReady);
+}
+
 TEST(StationMachine, RemembersACameraThatWasLostDuringTheScan) {
   StationMachine machine = machine_in(S::kCapturing);
   machine.handle(E::kCamerasLost);
@@ -208,7 +224,7 @@ TEST(StationMachine, NeverStartsASecondScanNorForgetsOneInRandomWalks) {
     StationMachine machine;
     int running = 0;
     for (int step = 0; step < 200; ++step) {
-      const auto event = static_cast<E>(random() % 12);  // all but the shutdown
+      const auto event = static_cast<E>(random() % 13);  // all but the shutdown
       const bool was_busy = machine.is_busy();
       const auto actions = machine.handle(event);
       running += static_cast<int>(std::count(actions.begin(), actions.end(), A::kStartScan));

@@ -89,6 +89,29 @@ TEST_P(ResultStoreFault, DeletesWholeResultsOrNoneWhicheverCallFails) {
   EXPECT_GT(call, 8U);
 }
 
+// What is on trial is the disk: the results, and one that is being written, are left as they are.
+TEST_P(ResultStoreFault, SaysOfADiskThatFailsThatItDoesAndLeavesNoTrialBehind) {
+  const std::filesystem::path half_made = "/scans/2026/11/20/.writing-x";
+  std::size_t call = 1;
+  for (bool struck = true; struck; ++call) {
+    const auto disk = disk_with_an_old_result();
+    ASSERT_TRUE(disk->make_folder(half_made));
+    const auto faulty = std::make_shared<FaultyStorage>(disk, GetParam(), call);
+    const bool works = ResultStore(faulty, "/scans").try_out().has_value();
+    struck = faulty->struck();
+    const bool is_clearing = call == 1;  // of what an earlier one left, which there is none of
+    const bool harmless =
+        GetParam() == Fault::kShortWrite ||
+        (is_clearing && GetParam() != Fault::kDiesBefore && GetParam() != Fault::kDiesAfter);
+    EXPECT_EQ(works, !struck || harmless) << "call " << call;
+    ASSERT_TRUE(ResultStore(disk, "/scans").try_out()) << "call " << call;
+    EXPECT_EQ(disk->list("/scans")->size(), 1U) << "call " << call;
+    EXPECT_TRUE(disk->list(half_made)) << "call " << call;
+    check_after_restart(disk, {kOld}, "call " + std::to_string(call));
+  }
+  EXPECT_GT(call, 5U);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ResultStoreFault,
                          testing::Values(Fault::kIo, Fault::kNoSpace, Fault::kShortWrite,
                                          Fault::kDiesBefore, Fault::kDiesAfter));
