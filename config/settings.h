@@ -35,7 +35,7 @@ struct CaptureSettings {
   int frames_per_camera = 15;                   ///< 1 to 120
   int warmup_frames = 3;                        ///< dropped before the first one counts, 0 to 120
   std::chrono::milliseconds deadline{5000};     ///< for the whole capture, 200 to 60000
-  std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 10000
+  std::chrono::milliseconds frame_limit{1000};  ///< for a single frame, 50 to 5000
   /// The cameras take turns, for those whose projectors disturb each other. What switches an
   /// emitter is its stream: OpenNI2 has a property for it (EmitterState of PS1080), which can be
   /// written but not read, so that nobody could tell whether a sensor obeyed.

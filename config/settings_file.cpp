@@ -32,7 +32,8 @@ void read_capture(SettingsTable& table, CaptureSettings& capture) {
   table.read("frames_per_camera", capture.frames_per_camera, 1, 120);
   table.read("warmup_frames", capture.warmup_frames, 0, 120);
   table.read("deadline_ms", capture.deadline, 200, 60000);
-  table.read("frame_limit_ms", capture.frame_limit, 50, 10000);
+  // A silent camera takes no step for so long, and WatchdogSec of the unit is 10 s.
+  table.read("frame_limit_ms", capture.frame_limit, 50, 5000);
   table.read("one_at_a_time", capture.one_at_a_time);
   table.read("check_every_s", capture.check_every, 1, 3600);
 }

@@ -276,9 +276,12 @@ std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& 
         return gathering->bring(i, cancelled());
       }
       Result<Frames> frames = caught("the capture", [&] {
-        return camera->start().and_then(
-            [&] { return take_frames(*camera, *tally, settings, gathering->cancelled, progress); });
+        return camera->start().and_then([&] {
+          progress.step();
+          return take_frames(*camera, *tally, settings, gathering->cancelled, progress);
+        });
       });
+      progress.step();
       camera->stop();
       gathering->bring(i, std::move(frames));
     });
@@ -324,9 +327,12 @@ void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
                          tally = worker.tally, id = worker.id()](TaskProgress& progress) {
       const Report tell = look->begin();
       const auto outcome = caught("the look at it", [&] {
-        return camera->start().and_then(
-            [&] { return look_at(*camera, *tally, settings, zero_frames, progress); });
+        return camera->start().and_then([&] {
+          progress.step();
+          return look_at(*camera, *tally, settings, zero_frames, progress);
+        });
       });
+      progress.step();
       camera->stop();
       outcome ? tell(i, {}) : tell(i, tl::make_unexpected(named_after_camera(id, outcome.error())));
     });

@@ -134,8 +134,10 @@ StationStatus Station::status() const {
 }
 
 void Station::note_progress(ProgressWatch& watch) const {
-  // Opening devices is one long call that tells no steps; the state shows that it goes on.
-  watch.note("scan", scan_thread_.is_busy() && !opening_, scan_thread_.progress());
+  // Opening devices is one long call that tells no steps, and a disk that stalls holds up storing:
+  // to be killed then would cost a scan that is measured. The state shows that it goes on.
+  const bool is_one_call = opening_ || machine_.state() == StationState::kStoring;
+  watch.note("scan", scan_thread_.is_busy() && !is_one_call, scan_thread_.progress());
   if (cameras_) cameras_->note_progress(watch);
 }
 

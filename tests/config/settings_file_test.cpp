@@ -144,6 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[capture]\nframes_per_camera = 0", "is outside 1 to 120"},
         Fault{"[capture]\nframes_per_camera = 9223372036854775807", "is outside 1 to 120"},
         Fault{"[capture]\ndeadline_ms = 10", "is outside 200 to 60000"},
+        Fault{"[capture]\nframe_limit_ms = 5001", "is outside 50 to 5000"},
         Fault{"[simulation]\nseed = -1", "simulation.seed = -1 is below 0"},
         Fault{"[simulation]\nnoise = []", "must be text in quotes, but it is a list"},
         Fault{"[[camera]]\nkind = \"recording\"", "camera.path is missing"},

@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -15,8 +16,22 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/control/control_client.h"
+#include "daemon/scan/scan_id.h"
 #include "tests/support/small_station.h"
 #include "tests/support/temporary_folder.h"
+
+namespace {
+
+/// A disk that stalls: what is written is durable only once it is set. Nothing = one that does not.
+std::atomic<std::promise<void>*> stalled = nullptr;
+
+}  // namespace
+
+/// In place of the C library's.
+extern "C" int fsync(int file) {
+  if (auto* const release = stalled.exchange(nullptr)) release->get_future().wait();
+  return static_cast<int>(::syscall(SYS_fsync, file));
+}
 
 namespace instep {
 namespace {
@@ -203,6 +218,27 @@ TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenTheWorkHangsAndEndsWithinASe
   EXPECT_FALSE(stored_anything());
   release->set_value();
   over->get_future().wait();
+}
+
+// To be killed for it would cost a customer's scan, and mend no disk.
+TEST_F(MeasuringService, FeedsTheWatchdogWhileTheDiskStallsWithAMeasuredScanInHand) {
+  constexpr auto kPatient = 2000ms;
+  set_watchdog(kPatient);
+  std::promise<void> release;
+  begin([&](const Capture&, const PipelineSettings&,
+            const ScanProgress&) -> Result<std::vector<ScanRecord>> {
+    std::vector<ScanRecord> records(1);
+    records[0].time = std::chrono::system_clock::now();
+    records[0].id = new_scan_ids(records[0].time, 1).at(0);
+    stalled = &release;
+    return records;
+  });
+  ASSERT_TRUE(notifications_.wait_for("STATUS=storing", kLong));
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient)) << i;
+  release.set_value();
+  EXPECT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+  EXPECT_EQ(end(), true);
+  EXPECT_TRUE(stored_anything());
 }
 
 }  // namespace
