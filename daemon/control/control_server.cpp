@@ -44,7 +44,7 @@ bool ControlServer::Connection::is_done() const {
 
 void ControlServer::Connection::await_events() {
   std::uint32_t events = 0;
-  if (!has_open_request && !is_read_out) events |= EPOLLIN;
+  if (!has_open_request && !is_read_out && output.empty()) events |= EPOLLIN;
   if (!output.empty()) events |= EPOLLOUT;
   watch.set_events(events);
 }
@@ -143,7 +143,7 @@ bool ControlServer::read(Connection& connection) {
 
 bool ControlServer::take_lines(Client client, Connection& connection) {
   connection.takes_lines = true;
-  while (!connection.has_open_request) {
+  while (!connection.has_open_request && connection.output.empty()) {
     const auto end = connection.input.find('\n');
     if (std::min(end, connection.input.size()) > kLongestRequest) {
       send(client, error_answer({ErrorCode::kInvalidInput, Remedy::kOperator,

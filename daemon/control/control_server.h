@@ -19,7 +19,8 @@ namespace instep {
 /// The listening end of the local protocol (protocol.h), on the event loop; never blocks. Clients
 /// cannot hurt it: their number, the length of their lines and the unread output they may pile up
 /// are bounded, and who goes beyond is disconnected. Of each client one request is open at a time,
-/// so that answers come in order; those behind it wait, the most of them unread in its socket.
+/// until its answer has been taken, so that answers come in order and do not pile up; those behind
+/// it wait, the most of them unread in its socket.
 class ControlServer {
  public:
   using Client = std::uint64_t;

@@ -36,6 +36,9 @@ using testing::HasSubstr;
 const std::string kStatus = "{\"verb\": \"status\"}\n";
 const std::string kWatch = "{\"verb\": \"watch\"}\n";
 const std::string kList = "{\"verb\": \"list\"}\n";
+const std::string kShow = "{\"verb\": \"show\", \"id\": \"latest\"}\n";
+/// More than a socket holds.
+constexpr std::size_t kLongAnswer = 2 * 1024 * 1024;
 
 void connect_to(const std::filesystem::path& path, int socket) {
   sockaddr_un address{};
@@ -62,7 +65,9 @@ class ControlServerTest : public testing::Test {
   }
 
   void serve(ControlServer::Client client, const Request& request) {
+    ++served_;
     if (request.verb == "list") return waiting_.push_back(client);
+    if (request.verb == "show") return server_->answer(client, std::string(kLongAnswer, 'x'));
     const bool refused = request.verb == "watch" && !server_->add_watcher(client);
     server_->answer(client, refused ? "refused" : request.verb);
   }
@@ -82,6 +87,7 @@ class ControlServerTest : public testing::Test {
   test::LoopThread loop_;
   std::unique_ptr<ControlServer> server_;
   std::deque<ControlServer::Client> waiting_;
+  int served_ = 0;
 };
 
 TEST_F(ControlServerTest, AnswersAllOfWhoShutDownItsWritingSide) {
@@ -113,6 +119,20 @@ TEST_F(ControlServerTest, AnswersEachOfManyRequestsSentAtOnce) {
   ASSERT_TRUE(answer_list());
   EXPECT_EQ(client.line(), "list");
   for (int i = 0; i < kMany; ++i) ASSERT_EQ(client.line(), "status") << "after " << i;
+}
+
+// The answers piled up to the 20 MiB that one client may leave unread, of each of 32 clients.
+TEST_F(ControlServerTest, AnswersNoMoreUntilAnAnswerIsRead) {
+  constexpr int kMany = 8;
+  LineClient client(socket_);
+  for (int i = 0; i < kMany; ++i) ASSERT_TRUE(client.send(kShow));
+  ASSERT_TRUE(loop_.wait_until([this] { return served_ > 0; }));
+  // The loop comes to all that it has to do before it answers another client.
+  LineClient other(socket_);
+  ASSERT_TRUE(other.send(kStatus));
+  EXPECT_EQ(other.line(), "status");
+  loop_.call([this] { EXPECT_EQ(served_, 2) << "one long answer, and the other client's"; });
+  for (int i = 0; i < kMany; ++i) EXPECT_EQ(client.line()->size(), kLongAnswer) << i;
 }
 
 TEST_F(ControlServerTest, DoesWhatWasAskedByWhoDidNotWaitForTheAnswer) {
