@@ -16,6 +16,7 @@
 
 #include "config/calibration_file.h"
 #include "config/settings_file.h"
+#include "config/settings_search.h"
 #include "daemon/command_line/calibration_report.h"
 #include "daemon/command_line/calibration_target.h"
 #include "daemon/command_line/command_output.h"
@@ -117,8 +118,9 @@ Result<Subject> look_at_station(const CalibrateCommand& command, const StopReque
       command.config.empty() ? find_station_settings_file() : Result<fs::path>(command.config);
   if (!file) return tl::make_unexpected(file.error());
   // As the settings say: a person who moved a camera has said so there.
-  const auto settings = load_uncalibrated_settings(*file);
+  auto settings = load_uncalibrated_settings(*file);
   if (!settings) return tl::make_unexpected(settings.error());
+  override_paths(*settings, process_environment);  // as the daemon's, which may have the cameras
   const auto real = has_real_cameras(*settings);
   if (!real) return tl::make_unexpected(real.error());
   Subject subject;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "config/settings_file.h"
+#include "config/settings_search.h"
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/station_recording.h"
@@ -50,9 +51,10 @@ RecordingLength length_of(const RecordCommand& command) {
 }
 
 Result<void> run(const RecordCommand& command) {
-  const auto settings = load_settings(command.config);
+  auto settings = load_settings(command.config);
   if (!settings) return tl::make_unexpected(settings.error());
-  const StopRequest stop;  // a killed program would leave the light on
+  override_paths(*settings, process_environment);  // as the daemon's, which may have the cameras
+  const StopRequest stop;                          // a killed program would leave the light on
   const auto recording = record_station(*settings, length_of(command), command.folder, stop);
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},

@@ -29,7 +29,14 @@ Result<void> check_that_no_daemon_has(const Settings& settings) {
   const bool has_real_cameras =
       std::any_of(settings.cameras.begin(), settings.cameras.end(),
                   [](const auto& camera) { return camera.placement() != nullptr; });
-  if (!has_real_cameras || !ControlClient::connect(settings.control.socket)) return {};
+  if (!has_real_cameras) return {};
+  const auto client = ControlClient::connect(settings.control.socket);
+  if (!client && client.error().code == ErrorCode::kNotFound) return {};
+  if (!client) {
+    Error unknown = client.error();
+    unknown.message = "it cannot be told whether a daemon has the cameras: " + unknown.message;
+    return tl::make_unexpected(unknown);
+  }
   return fail(ErrorCode::kBusy, Remedy::kOperator,
               "the daemon has the cameras: it answers on " + settings.control.socket.string(),
               "systemctl stop instepd, and start it again afterwards");

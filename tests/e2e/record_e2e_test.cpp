@@ -1,4 +1,6 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <chrono>
@@ -7,7 +9,9 @@
 #include <fstream>
 #include <thread>
 
+#include "daemon/control/unix_socket.h"
 #include "tests/support/background_program.h"
+#include "tests/support/run_program.h"
 #include "tests/support/station_process.h"
 #include "tests/support/temporary_folder.h"
 
@@ -49,6 +53,27 @@ TEST(Record, EndsByItselfAtASignalInOneLineAndKeepsNothing) {
               "ready\n");
     EXPECT_FALSE(fs::exists(folder.path() / "visit"));
   }
+}
+
+// The daemon was asked on the socket of the settings, where it is not.
+TEST(Record, AsksTheDaemonOnTheSocketThatTheEnvironmentNames) {
+  const test::TemporaryFolder folder;
+  const auto settings = folder.path() / "s.toml";
+  std::ofstream(settings) << "[[camera]]\nkind = \"openni2\"\nname = \"only\"\nserial = \"A1\"\n"
+                             "station_from_camera = [ 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 500, "
+                             "0, 0, 0, 1 ]\n";
+  const auto socket = folder.path() / "named.sock";
+  const auto daemon = ListeningSocket::open(socket);
+  ASSERT_TRUE(daemon) << daemon.error().line();
+  ::setenv("INSTEP_SOCKET", socket.c_str(), 1);
+  const auto record = test::run_program(
+      "instep", {"record", "--out", folder.path() / "visit", "--config", settings});
+  const auto calibrate = test::run_program("instep", {"calibrate", "--config", settings});
+  ::unsetenv("INSTEP_SOCKET");
+  const auto has_them =
+      testing::HasSubstr("the daemon has the cameras: it answers on " + socket.string());
+  EXPECT_THAT(record.errors, has_them);
+  EXPECT_THAT(calibrate.errors, has_them);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -68,6 +69,21 @@ TEST(StationRecording, SaysThatTheDaemonHasTheCameras) {
   EXPECT_EQ(recording.error().code, ErrorCode::kBusy);
   EXPECT_THAT(recording.error().message, testing::StartsWith("the daemon has the cameras"));
   EXPECT_THAT(recording.error().advice, testing::StartsWith("systemctl stop instepd"));
+}
+
+// Of a socket that this user may not use it was taken that nobody listens there.
+TEST(StationRecording, OpensNoCameraWhenItCannotBeToldWhetherADaemonHasIt) {
+  const test::TemporaryFolder folder;
+  Settings settings;
+  settings.cameras.emplace_back();
+  settings.cameras[0].kind = CameraKind::kOpenni;
+  settings.control.socket = folder.path() / "control.sock";
+  std::ofstream(settings.control.socket) << "no socket";
+  const StopRequest stop;
+  const auto recording = record_station(settings, {1, std::nullopt}, folder.path() / "visit", stop);
+  ASSERT_FALSE(recording);
+  EXPECT_THAT(recording.error().message,
+              testing::StartsWith("it cannot be told whether a daemon has the cameras"));
 }
 
 TEST(StationRecording, LeavesADaemonThatSimulatesItsOwnCamerasAlone) {
