@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "daemon/station/cause_of_trouble.h"
+
 namespace instep {
 namespace {
 
@@ -14,12 +16,6 @@ Result<void> write_to(std::unique_ptr<OutputLine>& line, const OutputKeeper::Ope
   if (!opened) return tl::make_unexpected(opened.error());
   line = std::move(*opened);
   return line->set(on);
-}
-
-/// Looked for again and again, what is away is missed in other words: "none of 2 chips".
-std::optional<ErrorCode> cause_of(const std::optional<Error>& trouble) {
-  if (!trouble) return std::nullopt;
-  return trouble->code == ErrorCode::kDeviceGone ? ErrorCode::kNotFound : trouble->code;
 }
 
 Error silent() {

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "daemon/station/cause_of_trouble.h"
+
 namespace instep {
 
 Error stuck_pedal() {
@@ -51,7 +53,7 @@ void PedalWatch::begin() {
   debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, *pressed,
                      EventLoop::monotonic_now());
   back_off_.reset();
-  if (std::exchange(was_lost_, false)) listener_.on_returned();
+  if (std::exchange(trouble_, std::nullopt)) listener_.on_returned();
   pass_on();
 }
 
@@ -87,7 +89,9 @@ void PedalWatch::lost(const Error& error) {
   watch_ = {};
   settle_timer_.clear();
   debouncer_.reset();
-  if (!std::exchange(was_lost_, true)) listener_.on_lost(error);
+  const bool is_news = cause_of(error) != cause_of(trouble_);
+  trouble_ = error;
+  if (is_news) listener_.on_lost(error);
   reopen_timer_.set(back_off_.next());
 }
 

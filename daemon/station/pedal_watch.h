@@ -24,7 +24,7 @@ class PedalWatch {
   /// What the owner is told.
   struct Listener {
     std::function<void(PedalSignal)> on_signal;
-    std::function<void(const Error&)> on_lost;
+    std::function<void(const Error&)> on_lost;  ///< and again when the cause is another one
     std::function<void()> on_returned;
   };
   /// Opens the pedal; asked again with growing pauses as long as it fails.
@@ -53,7 +53,7 @@ class PedalWatch {
   EventLoop::Timer settle_timer_;
   EventLoop::Timer reopen_timer_;
   BackOff back_off_;
-  bool was_lost_ = false;
+  std::optional<Error> trouble_;
 };
 
 }  // namespace instep

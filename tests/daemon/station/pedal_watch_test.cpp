@@ -4,6 +4,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include <deque>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -82,6 +83,31 @@ TEST(PedalWatch, TakesNewTimesWhileThePedalIsOpen) {
   loop.call([&] { watch.reset(); });
   ASSERT_FALSE(signals.empty());
   EXPECT_EQ(signals.front(), PedalSignal::kPressed);
+}
+
+// A pedal that was plugged in again, and may not be read, was said to be unplugged for ever.
+TEST(PedalWatch, TellsWhyThePedalIsAwayAgainWhenTheCauseChanges) {
+  test::LoopThread loop;
+  std::deque<ErrorCode> causes = {ErrorCode::kDeviceGone, ErrorCode::kNotFound,
+                                  ErrorCode::kPermissionDenied};
+  std::vector<ErrorCode> told;
+  bool returned = false;
+  std::optional<PedalWatch> watch;
+  loop.call([&] {
+    const auto open = [&]() -> Result<std::unique_ptr<Pedal>> {
+      if (causes.empty()) return std::make_unique<ContactPedal>(std::make_shared<Contact>());
+      const auto cause = causes.front();
+      causes.pop_front();
+      return fail(cause, "it is away", "");
+    };
+    watch.emplace(loop.loop(), PedalSettings{}, open,
+                  PedalWatch::Listener{[](PedalSignal) {},
+                                       [&](const Error& error) { told.push_back(error.code); },
+                                       [&] { returned = true; }});
+  });
+  EXPECT_TRUE(loop.wait_until([&] { return returned; }));
+  loop.call([&] { watch.reset(); });
+  EXPECT_EQ(told, (std::vector{ErrorCode::kDeviceGone, ErrorCode::kPermissionDenied}));
 }
 
 }  // namespace
