@@ -26,6 +26,7 @@ class DepthCamera {
  public:
   virtual ~DepthCamera() = default;
 
+  /// A start() may add the serial number, of a device that was away before.
   virtual const CameraDescription& description() const = 0;
 
   /// Begins streaming. Starting a started camera is a no-op. Fails with kNotFound or kDeviceGone

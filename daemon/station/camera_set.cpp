@@ -22,6 +22,34 @@ constexpr milliseconds kStopGrace{300};
 /// A camera that sends this many bad frames for each one asked is broken.
 constexpr int kMostBadFramesForEach = 3;
 
+/// What a camera says of itself, for others than its own thread.
+class ToldDescription {
+ public:
+  explicit ToldDescription(const CameraDescription& told) : told_(told) {}
+
+  void take(const CameraDescription& told) {
+    const std::lock_guard lock(mutex_);
+    told_ = told;
+  }
+  CameraDescription get() const {
+    const std::lock_guard lock(mutex_);
+    return told_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  CameraDescription told_;
+};
+
+/// Starts it, and takes down what it has learnt of itself by that.
+Result<void> begin_stream(DepthCamera& camera, ToldDescription& description,
+                          TaskProgress& progress) {
+  auto started = camera.start();
+  progress.step();
+  if (started) description.take(camera.description());
+  return started;
+}
+
 /// Takes as many good frames as are asked for from a started camera.
 Result<Frames> take_frames(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
                            const std::atomic<bool>& cancelled, TaskProgress& progress) {
@@ -134,16 +162,16 @@ struct CameraSet::Look {
 struct CameraSet::Worker {
   explicit Worker(std::unique_ptr<DepthCamera> owned)
       : camera(std::move(owned)),
-        description(camera->description()),
-        thread(std::make_unique<TaskThread>("cam " + description.geometry.id)) {}
+        id(camera->description().geometry.id),
+        description(std::make_shared<ToldDescription>(camera->description())),
+        thread(std::make_unique<TaskThread>("cam " + id)) {}
 
   std::shared_ptr<DepthCamera> camera;
-  CameraDescription description;
+  const std::string id;
+  std::shared_ptr<ToldDescription> description;
   std::shared_ptr<FrameTally> tally = std::make_shared<FrameTally>();
   std::shared_ptr<Look> look = std::make_shared<Look>();
   std::unique_ptr<TaskThread> thread;
-
-  const std::string& id() const { return description.geometry.id; }
 };
 
 /// Where the cameras of one capture bring their frames. Shared, so that a camera that comes far too
@@ -225,7 +253,7 @@ bool CameraSet::end_by(steady_clock::time_point deadline) {
 
 std::vector<CameraDescription> CameraSet::descriptions() const {
   std::vector<CameraDescription> all;
-  for (const auto& worker : workers_) all.push_back(worker->description);
+  for (const auto& worker : workers_) all.push_back(worker->description->get());
   return all;
 }
 
@@ -271,13 +299,13 @@ std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& 
   gathering->brought.resize(workers_.size());
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     workers_[i]->thread->post([gathering, i, settings, camera = workers_[i]->camera,
+                               description = workers_[i]->description,
                                tally = workers_[i]->tally](TaskProgress& progress) {
       if (settings.one_at_a_time && !gathering->wait_for_turn(i, progress)) {
         return gathering->bring(i, cancelled());
       }
       Result<Frames> frames = caught("the capture", [&] {
-        return camera->start().and_then([&] {
-          progress.step();
+        return begin_stream(*camera, *description, progress).and_then([&] {
           return take_frames(*camera, *tally, settings, gathering->cancelled, progress);
         });
       });
@@ -300,7 +328,7 @@ Result<Frames> CameraSet::frames_of(Gathering& gathering) const {
   CaptureFaults faults;
   for (std::size_t i = 0; i < workers_.size(); ++i) {
     auto& brought = gathering.brought[i];
-    const std::string& id = workers_[i]->id();
+    const std::string& id = workers_[i]->id;
     if (!brought) {
       faults.blame(id, silent_camera(id));
     } else if (brought->has_value()) {
@@ -324,11 +352,11 @@ void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
     // A camera that hangs is not to find a heap of them.
     if (worker.look->ask(report)) continue;
     worker.thread->post([i, settings, zero_frames, look = worker.look, camera = worker.camera,
-                         tally = worker.tally, id = worker.id()](TaskProgress& progress) {
+                         description = worker.description, tally = worker.tally,
+                         id = worker.id](TaskProgress& progress) {
       const Report tell = look->begin();
       const auto outcome = caught("the look at it", [&] {
-        return camera->start().and_then([&] {
-          progress.step();
+        return begin_stream(*camera, *description, progress).and_then([&] {
           return look_at(*camera, *tally, settings, zero_frames, progress);
         });
       });
@@ -345,7 +373,7 @@ void CameraSet::interrupt() const {
 
 void CameraSet::note_progress(ProgressWatch& watch) const {
   for (const auto& worker : workers_) {
-    watch.note("camera " + worker->id(), worker->thread->is_busy(), worker->thread->progress());
+    watch.note("camera " + worker->id, worker->thread->is_busy(), worker->thread->progress());
   }
 }
 

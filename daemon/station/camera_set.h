@@ -30,6 +30,7 @@ class CameraSet {
   CameraSet& operator=(const CameraSet&) = delete;
 
   std::size_t size() const { return workers_.size(); }
+  /// As they were told at the last start of each.
   std::vector<CameraDescription> descriptions() const;
   /// Of all frames that this camera has given here.
   FrameCounts frame_counts(std::size_t camera) const;

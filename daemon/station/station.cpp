@@ -243,7 +243,9 @@ void Station::end_check() {
   ++check_round_;
   check_deadline_.clear();
   bool all = true;
+  const auto told = cameras_->descriptions();
   for (std::size_t i = 0; i < camera_status_.size(); ++i) {
+    camera_status_[i].serial = told[i].serial;
     if (unanswered_[i]) {
       camera_status_[i].trouble = silent_camera(camera_status_[i].id);
     }

@@ -64,7 +64,7 @@ Result<void> V4l2Camera::start() {
   if (stream_) return {};
   const auto nodes = find_video_nodes(settings_.address, settings_.folders);
   if (!nodes) return tl::make_unexpected(nodes.error());
-  const auto& serial = nodes->front().device.address.serial;
+  const auto serial = nodes->front().device.address.serial;
   if (!description_.serial.empty() && serial != description_.serial) {
     return fail(ErrorCode::kUnsupported, "another camera than before is in its place",
                 "plug the old one in again, or restart instepd");
@@ -72,7 +72,9 @@ Result<void> V4l2Camera::start() {
   std::optional<Error> refusal;
   for (const auto& node : *nodes) {
     auto stream = VideoStream::open(system_, node.path, settings_.format);
-    if (stream) return begin(std::move(*stream));
+    if (stream) {
+      return begin(std::move(*stream)).map([&] { description_.serial = serial; });
+    }
     if (stream.error().code != ErrorCode::kUnsupported) {
       return tl::make_unexpected(stream.error());
     }

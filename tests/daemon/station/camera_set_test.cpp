@@ -258,6 +258,31 @@ TEST(CameraSet, ReportsEachCameraWhenChecked) {
   EXPECT_EQ(reports.of(1), "camera right: it left");
 }
 
+/// One that was away when it was made.
+class LateCamera final : public ScriptedCamera {
+ public:
+  LateCamera() : ScriptedCamera("late", {}) { description_.geometry.id = "late"; }
+  const CameraDescription& description() const override { return description_; }
+  Result<void> start() override {
+    description_.serial = "A1";
+    return ScriptedCamera::start();
+  }
+
+ private:
+  CameraDescription description_;
+};
+
+TEST(CameraSet, TellsTheSerialNumberThatACameraLearntAtItsStart) {
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  all.push_back(std::make_unique<LateCamera>());
+  CameraSet set(std::move(all));
+  EXPECT_EQ(set.descriptions().at(0).serial, "");
+  Reports reports(1);
+  set.check(settings(), CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  EXPECT_EQ(reports.of(0), "");
+  EXPECT_EQ(set.descriptions().at(0).serial, "A1");
+}
+
 // Unlike one that is still opening, it does not begin to send by being waited for.
 TEST(CameraSet, HasACameraThatStreamsAndSendsNothingOpenedAgain) {
   const auto set = cameras({Step::kTimeout}, {});

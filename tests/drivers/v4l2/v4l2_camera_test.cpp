@@ -276,5 +276,25 @@ TEST(V4l2CameraInASocket, TellsWhichUnitIsInItsSocketAndTakesNoOtherForIt) {
   EXPECT_TRUE(fresh->start());
 }
 
+// Whether its calibration is that of another unit could not be told until a restart.
+TEST(V4l2CameraInASocket, TellsItsSerialNumberOnceItHasComeAndTakesNoOtherUnitFromThen) {
+  test::V4l2Bench bench;
+  auto settings = bench.settings();
+  settings.address = {list_video_nodes(settings.folders).at(0).device.address.bus_path, ""};
+  bench.unplug();
+  const auto camera = bench.camera(settings);
+  EXPECT_EQ(camera->description().serial, "");
+  bench.plug(0);
+  ASSERT_TRUE(camera->start());
+  EXPECT_EQ(camera->description().serial, "A1");
+  camera->stop();
+  bench.unplug();
+  bench.bus().plug({.port = "2", .serial = "B2", .nodes = {0}});
+  bench.kernel().add(bench.node(), {});
+  const auto started = camera->start();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kUnsupported);
+}
+
 }  // namespace
 }  // namespace instep
