@@ -83,7 +83,8 @@ Result<void> SimulatedPedal::open_descriptors() {
 Result<void> SimulatedPedal::open_fifo() {
   const std::string name = settings_.fifo.string();
   const std::string advice = "choose another file for the pedal, or another folder";
-  const bool made = mkfifo(name.c_str(), 0660) == 0;
+  constexpr mode_t kMode = 0660;
+  const bool made = mkfifo(name.c_str(), kMode) == 0;
   if (!made && errno != EEXIST) return system_failure("cannot make the FIFO " + name, advice);
   // Open for writing as well: the FIFO then never reports its last writer's leaving.
   fifo_descriptor_ = ::open(name.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
@@ -92,7 +93,12 @@ Result<void> SimulatedPedal::open_fifo() {
   if (fstat(fifo_descriptor_, &status) != 0 || !S_ISFIFO(status.st_mode)) {
     return fail(ErrorCode::kInvalidInput, name + " is there, but is no FIFO", advice);
   }
-  if (made) made_fifo_ = FileIdentity::of(fifo_descriptor_);
+  if (!made) return {};
+  made_fifo_ = FileIdentity::of(fifo_descriptor_);
+  // What the umask took away of the group's right to press is given back.
+  if (fchmod(fifo_descriptor_, kMode) != 0) {
+    return system_failure("cannot give the group its right to " + name, advice);
+  }
   return {};
 }
 

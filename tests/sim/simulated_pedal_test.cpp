@@ -124,6 +124,19 @@ TEST(SimulatedPedal, MakesAndRemovesItsFifo) {
   EXPECT_TRUE(std::filesystem::is_fifo(fifo)) << "it was somebody else's";
 }
 
+// The daemon's umask left the group without the right to press.
+TEST(SimulatedPedal, LetsItsGroupPressWhateverTheUmask) {
+  const test::TemporaryFolder folder;
+  const auto fifo = folder.path() / "pedal";
+  const auto before = ::umask(0027);
+  const auto pedal = SimulatedPedal::open({{}, fifo});
+  ::umask(before);
+  ASSERT_TRUE(pedal);
+  struct stat there {};
+  ASSERT_EQ(::stat(fifo.c_str(), &there), 0);
+  EXPECT_EQ(there.st_mode & 07777U, 0660U);
+}
+
 TEST(SimulatedPedal, RefusesAFileThatIsNoFifo) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "precious";
