@@ -10,6 +10,7 @@
 
 #include "config/pose_matrix.h"
 #include "config/settings_table.h"
+#include "config/toml_reading.h"
 #include "core/fusion/camera_limits.h"
 
 namespace instep {
@@ -153,25 +154,19 @@ std::vector<CalibratedCamera> read_cameras(SettingsTable& root, int version,
   return cameras;
 }
 
-StationCalibration read_all(std::string_view text, const std::string& file,
-                            SettingsFaults& faults) {
+StationCalibration read_root(const toml::table& toml, SettingsFaults& faults) {
   StationCalibration calibration;
-  try {
-    const toml::table toml = toml::parse(text, file);
-    SettingsTable root(toml, "", faults);
-    const auto version = read_version(root, faults);
-    if (!version) return calibration;  // nobody knows what else it may say
-    calibration.time = read_time(root, faults);
-    calibration.cameras = read_cameras(root, *version, faults);
-    if (*version == kVersion) {
-      root.read("platform_height_mm", calibration.platform_height_mm, -kFarthestCameraMm,
-                kFarthestCameraMm);
-      require(root, "platform_height_mm", faults);
-    }
-    root.finish();
-  } catch (const toml::parse_error& error) {
-    faults.add(error.source().begin.line, std::string(error.description()));
+  SettingsTable root(toml, "", faults);
+  const auto version = read_version(root, faults);
+  if (!version) return calibration;  // nobody knows what else it may say
+  calibration.time = read_time(root, faults);
+  calibration.cameras = read_cameras(root, *version, faults);
+  if (*version == kVersion) {
+    root.read("platform_height_mm", calibration.platform_height_mm, -kFarthestCameraMm,
+              kFarthestCameraMm);
+    require(root, "platform_height_mm", faults);
   }
+  root.finish();
   return calibration;
 }
 
@@ -193,7 +188,9 @@ std::string calibration_toml(const StationCalibration& calibration) {
 Result<StationCalibration> read_calibration(std::string_view toml,
                                             const std::filesystem::path& file) {
   SettingsFaults faults(file.string());
-  StationCalibration calibration = read_all(toml, file.string(), faults);
+  StationCalibration calibration;
+  read_toml(toml, file, faults,
+            [&](const toml::table& root) { calibration = read_root(root, faults); });
   if (faults.count() == 0) return calibration;
   return fail(ErrorCode::kInvalidInput, fmt::format("{}", fmt::join(faults.in_order(), "\n")),
               "mend it, or delete it and run instep calibrate again");
