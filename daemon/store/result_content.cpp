@@ -10,8 +10,7 @@ namespace instep {
 Result<ResultContent> content_of(const ScanRecord& record) {
   auto cloud = cloud_to_ply(record.foot.cloud);
   if (!cloud) return tl::make_unexpected(cloud.error());
-  Json json = result_json(record);
-  if (!record.truth.empty()) json["truth"] = record.truth;
+  const Json json = result_json(record);
   constexpr int kIndent = 2;
   return ResultContent{json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n",
                        std::move(*cloud), sections_svg(record.foot, record.measures),
