@@ -166,8 +166,6 @@ void Station::act(StationAction action) {
       return listener_.on_failure(*outcome_.error);
     case StationAction::kAnnounceCancelled:
       return listener_.on_failure(machine_.is_leaving() ? stopping() : *outcome_.error);
-    case StationAction::kCheckCameras:
-      return check_cameras();
     case StationAction::kLeave:
       return listener_.on_left();
   }

@@ -73,9 +73,7 @@ Actions StationMachine::handle(StationEvent event) {
       store_fault_ = false;
       return {};
     case StationEvent::kScanFailed:
-      return phase_ == Phase::kCapturing
-                 ? end_scan({StationAction::kAnnounceFailure, StationAction::kCheckCameras})
-                 : end_scan({StationAction::kAnnounceFailure});
+      return end_scan({StationAction::kAnnounceFailure});
     case StationEvent::kScanCancelled:
       return end_scan({StationAction::kAnnounceCancelled});
     case StationEvent::kShutdown:

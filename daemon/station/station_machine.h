@@ -44,8 +44,7 @@ enum class StationAction {
   kAnnounceResult,
   kAnnounceFailure,
   kAnnounceCancelled,
-  kCheckCameras,  ///< find out which of them is away
-  kLeave,         ///< nothing runs any more: the daemon can end
+  kLeave,  ///< nothing runs any more: the daemon can end
 };
 
 /// The rules of the station, with no clock and no input or output: events in, actions out. An event

@@ -93,7 +93,7 @@ const std::vector<Row> kTable = {
     {S::kCapturing, E::kCaptured, S::kMeasuring, {}},
     {S::kCapturing, E::kMeasured, S::kCapturing, {}},
     {S::kCapturing, E::kStored, S::kCapturing, {}},
-    {S::kCapturing, E::kScanFailed, S::kReady, {A::kAnnounceFailure, A::kCheckCameras}},
+    {S::kCapturing, E::kScanFailed, S::kReady, {A::kAnnounceFailure}},
     {S::kCapturing, E::kStoreFailed, S::kCapturing, {}},
     {S::kCapturing, E::kStoreReady, S::kCapturing, {}},
     {S::kCapturing, E::kScanCancelled, S::kReady, {A::kAnnounceCancelled}},
