@@ -159,12 +159,17 @@ void StationService::sweep_part(std::size_t removed_before) {
   archive_->post([this, retention, removed_before, store = store_, leaving = leaving_,
                   post = loop_->poster()](TaskProgress& progress) {
     std::optional<std::chrono::nanoseconds> end;  // told once they are listed, which takes long too
-    auto swept = store->sweep(retention, std::chrono::system_clock::now(), [&] {
+    const auto go_on = [&] {
       progress.step();
       const auto now = EventLoop::monotonic_now();
       if (!end) end = now + kLongestSweep;
       return !*leaving && now < *end;
+    };
+    const auto outcome = caught("the removal of old results", [&]() -> Result<Swept> {
+      return store->sweep(retention, std::chrono::system_clock::now(), go_on);
     });
+    Swept swept = outcome.value_or(Swept());
+    if (!outcome) swept.trouble = outcome.error();
     const bool goes_on = swept.is_interrupted && swept.removed > 0;
     swept.removed += removed_before;
     post([this, swept, goes_on] {
@@ -270,7 +275,9 @@ void StationService::begin_to_watch(ControlServer::Client client) {
 
 void StationService::serve_from_store(ControlServer::Client client, const Request& request) {
   archive_->post([this, client, request, store = store_, post = loop_->poster()](TaskProgress&) {
-    post([this, client, line = answer_from_store(*store, request)] {
+    const auto answer = caught(
+        "the answer", [&]() -> Result<std::string> { return answer_from_store(*store, request); });
+    post([this, client, line = answer ? *answer : error_answer(answer.error())] {
       if (server_) server_->answer(client, line);
     });
   });
