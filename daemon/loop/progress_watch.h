@@ -33,6 +33,14 @@ class ProgressWatch {
     return {};
   }
 
+  /// The same, once for each time that it hangs: empty if that was told.
+  std::string newly_hung() {
+    std::string now = hung();
+    if (now == told_) return {};
+    told_ = now;
+    return now;
+  }
+
  private:
   struct Seen {
     bool known = false;
@@ -40,6 +48,7 @@ class ProgressWatch {
     bool fine = true;
   };
   std::map<std::string, Seen> threads_;
+  std::string told_;
 };
 
 }  // namespace instep

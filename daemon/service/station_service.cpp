@@ -322,10 +322,9 @@ void StationService::feed_watchdog() {
   station_->note_progress(progress_);
   // An ailing disk is what it tries out, and to be started again mends none.
   progress_.note("archive", archive_->is_busy() && !is_trying_out_, archive_->progress());
-  if (progress_.all_moved()) {
-    manager_.feed_watchdog();
-  } else if (said_.is_news("hung", progress_.hung())) {
-    log_warning(progress_.hung() + " has made no step for a while");
+  if (progress_.all_moved()) manager_.feed_watchdog();
+  if (const auto hung = progress_.newly_hung(); !hung.empty()) {
+    log_warning(hung + " has made no step for a while");
   }
   watchdog_timer_.set(std::min(kWatchdogTick, limit / 4));
 }

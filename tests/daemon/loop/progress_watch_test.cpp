@@ -44,6 +44,20 @@ TEST(ProgressWatch, ForgivesAThreadThatMovesAgain) {
   EXPECT_EQ(watch.hung(), "");
 }
 
+// The log said nothing of its second time.
+TEST(ProgressWatch, TellsOnceEachTimeThatAThreadHangs) {
+  ProgressWatch watch;
+  const auto told = [&](std::uint64_t progress) {
+    watch.note("scan", true, progress);
+    return watch.newly_hung();
+  };
+  EXPECT_EQ(told(7), "");
+  EXPECT_EQ(told(7), "scan");
+  EXPECT_EQ(told(7), "");
+  EXPECT_EQ(told(8), "");
+  EXPECT_EQ(told(8), "scan");
+}
+
 TEST(ProgressWatch, SeesAMeasuringThreadThatHangs) {
   std::promise<void> begun, released;
   TaskThread thread("measuring");
