@@ -310,9 +310,9 @@ void StationService::reload() {
 }
 
 void StationService::shut_down() {
+  if (leaving_->exchange(true)) return;
   manager_.stopping();
   log_info("stopping");
-  *leaving_ = true;
   shutdown_timer_.set(kShutdownLimit);
   station_->shut_down();
 }

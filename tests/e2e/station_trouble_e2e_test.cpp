@@ -1,10 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <stdlib.h>
 
+#include <chrono>
 #include <fstream>
 
+#include "tests/support/run_program.h"
 #include "tests/support/station_process.h"
+#include "tests/support/temporary_folder.h"
 
 namespace instep {
 namespace {
@@ -48,6 +52,19 @@ TEST(StationTrouble, LogsTheStagesOfAScanWhereTheLevelIsDebug) {
       EXPECT_EQ(station.log().find(stage) != std::string::npos, debug) << stage << station.log();
     }
   }
+}
+
+TEST(StationTrouble, SaysOnceThatItStopsHoweverOftenItIsTold) {
+  StationProcess station;
+  station.start();
+  ASSERT_TRUE(station.wait_for("STATUS=ready", kLong)) << station.log();
+  ASSERT_EQ(station.run_instep("scan --no-wait").exit_code, 0);
+  for (const int number : {SIGSTOP, SIGTERM, SIGINT, SIGCONT}) station.signal(number);
+  ASSERT_EQ(station.wait_for_exit(kLong), 0) << station.log();
+  const std::string log = station.log();
+  const auto first = log.find("stopping");
+  ASSERT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find(" stopping\n", first + 1), std::string::npos) << log;
 }
 
 }  // namespace
