@@ -1,12 +1,12 @@
 #include "daemon/command_line/station_talk.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 
 #include "config/settings_search.h"
 #include "daemon/command_line/command_output.h"
@@ -60,6 +60,28 @@ Result<json> stored_result(ControlClient& client, const std::string& id) {
     return tl::make_unexpected(answer_not_understood());
   }
   return std::move(*result);
+}
+
+/// Nobody who waits comes to be let in, nor turns another file into a socket.
+bool is_in_vain(const Error& error) {
+  return error.code == ErrorCode::kPermissionDenied || error.code == ErrorCode::kInvalidInput;
+}
+
+/// Until the station is ready, it is late, or to wait is in vain.
+void wait_until_ready(milliseconds limit) {
+  constexpr milliseconds kLongestPause{1000};
+  const auto socket = station_settings().control.socket;
+  const auto deadline = steady_clock::now() + limit;
+  milliseconds pause{50};
+  while (true) {
+    const auto status = ControlClient::connect(socket).and_then(
+        [](ControlClient&& client) { return client.ask("status"); });
+    if (status ? string_at(*status, "state") == "ready" : is_in_vain(status.error())) return;
+    const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
+    if (left.count() <= 0) return;
+    std::this_thread::sleep_for(std::min(pause, left));
+    pause = std::min(2 * pause, kLongestPause);
+  }
 }
 
 /// The result or failure that the next scan ends with.
@@ -157,21 +179,15 @@ Result<void> scan_on_station(bool wait, bool as_json) {
 }
 
 Result<void> show_station_status(std::optional<seconds> wait_ready, bool as_json) {
-  const auto deadline = steady_clock::now() + wait_ready.value_or(seconds(0));
-  while (true) {
-    const auto status = ask_daemon("status");
-    const bool ready = status && string_at(*status, "state") == "ready";
-    if (!wait_ready || ready) {
-      if (!status) return tl::make_unexpected(status.error());
-      return as_json ? print_json(*status) : print_text(status_text(*status));
-    }
-    if (steady_clock::now() >= deadline) {
-      if (!status) return tl::make_unexpected(status.error());
-      return fail(ErrorCode::kTimeout, "the station is not ready but " + status_line(*status),
-                  "see what it waits for: instep status");
-    }
-    ::usleep(50 * 1000);
+  if (wait_ready) wait_until_ready(*wait_ready);
+  const auto status = ask_daemon("status");
+  if (!status) return tl::make_unexpected(status.error());
+  const bool is_late = wait_ready && string_at(*status, "state") != "ready";
+  if (is_late) {
+    return fail(ErrorCode::kTimeout, "the station is not ready but " + status_line(*status),
+                "see what it waits for: instep status");
   }
+  return as_json ? print_json(*status) : print_text(status_text(*status));
 }
 
 Result<void> watch_station(std::optional<seconds> until_result) {

@@ -67,5 +67,19 @@ TEST(StationTrouble, SaysOnceThatItStopsHoweverOftenItIsTold) {
   EXPECT_EQ(log.find(" stopping\n", first + 1), std::string::npos) << log;
 }
 
+// Ten minutes later there is still no socket to talk to.
+TEST(StationTrouble, IsNotWaitedForWhereNobodyCanBeReachedHoweverLong) {
+  const test::TemporaryFolder folder;
+  const auto no_socket = folder.path() / "control.sock";
+  std::ofstream(no_socket) << "no socket";
+  ::setenv("INSTEP_SOCKET", no_socket.c_str(), 1);
+  const auto begun = std::chrono::steady_clock::now();
+  const auto status = test::run_program("instep", {"status", "--wait-ready", "600"});
+  ::unsetenv("INSTEP_SOCKET");
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, kLong);
+  EXPECT_EQ(status.exit_code, 1);
+  EXPECT_THAT(status.errors, HasSubstr("is there and is no socket"));
+}
+
 }  // namespace
 }  // namespace instep
