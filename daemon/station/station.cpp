@@ -93,6 +93,7 @@ void Station::reload(const Settings& settings) {
   settings_.pedal.debounce = settings.pedal.debounce;
   settings_.pedal.hold_to_cancel = settings.pedal.hold_to_cancel;
   if (pedal_) pedal_->set(settings_.pedal);
+  check_cameras();  // and from then on as often as is wanted now
 }
 
 void Station::shut_down() {

@@ -82,7 +82,7 @@ class Station {
   /// Fails with kNotFound if no scan runs that can be cancelled.
   Result<void> request_cancel();
   /// Takes over what can change while running: station, capture, measures, sizes, the pedal's
-  /// times.
+  /// times. Looks at the cameras by them.
   void reload(const Settings& settings);
   /// Ends a scan that runs; on_left follows.
   void shut_down();

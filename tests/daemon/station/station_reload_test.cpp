@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "daemon/station/station.h"
@@ -51,6 +53,16 @@ class ReloadedStation : public testing::Test {
     return measured_;
   }
 
+  /// Frames that the camera has given, for scans and looks.
+  std::uint64_t frames() {
+    std::uint64_t good = 0;
+    loop_.call([&] {
+      const auto status = station_->status();
+      if (!status.cameras.empty()) good = status.cameras[0].frames.good;
+    });
+    return good;
+  }
+
  private:
   test::TemporaryFolder folder_;
   test::LoopThread loop_;
@@ -73,6 +85,22 @@ TEST_F(ReloadedStation, GoesBackToWhatTheCamerasSayWhereASettingIsTakenOut) {
   const auto again = scan();
   EXPECT_EQ(again.platform_height_mm, 0.0);
   EXPECT_EQ(again.side, std::nullopt);
+}
+
+// The new time counted only from the next look on, which might be an hour away.
+TEST_F(ReloadedStation, LooksAtItsCamerasAsOftenAsTheNewSettingsSay) {
+  scan();
+  auto settings = test::small_station();
+  settings.capture.check_every = std::chrono::hours(1);
+  reload(settings);
+  settings.capture.check_every = std::chrono::seconds(1);
+  reload(settings);
+  const auto before = frames();
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (frames() < before + 4 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_GE(frames(), before + 4);
 }
 
 TEST(StationWarnings, TellOfAPlatformThatTheCamerasWereNotCalibratedFor) {
