@@ -141,8 +141,12 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   replay->footer(std::string(kExamples) + "\n" + kMeasuringEnvironmentHelp);
   const auto command = std::make_shared<ReplayCommand>();
   replay->add_option("RECORDING", command->recording, "folder of a recording")->required();
-  replay->add_option("--out", command->out,
-                     "folder to keep the results in; else they are only printed");
+  replay
+      ->add_option("--out", command->out,
+                   "folder to keep the results in; else they are only printed")
+      ->check([](const std::string& folder) {
+        return std::string(folder.empty() ? "needs the name of a folder" : "");
+      });
   replay->add_option("--side", command->side, "which foot it is; auto tells it from the shape")
       ->check(CLI::IsMember({"left", "right", "auto"}))
       ->capture_default_str();

@@ -221,6 +221,7 @@ TEST_F(BadInput, AFolderThatTakesNoResultsIsOneBeforeAnythingIsMeasured) {
     GTEST_SKIP() << "needs the right to mount a disk";
   }
   expect_failure({"replay", visit, "--out", disk}, 1, "choose another --out");
+  expect_failure({"replay", visit, "--out", ""}, 2, "needs the name of a folder");
   ::umount(disk.c_str());
 }
 
