@@ -186,6 +186,11 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   if (!clock.begin("align", 0.6)) return cancelled();
   auto feet = align_feet(scene->feet, alignment_of(*scene, settings), go_on);
   if (!feet) return noticed(of_scan(feet.error()));
+  if (feet->size() > 1 && settings.side) {
+    warnings.emplace_back(
+        "two feet: which is which is told by where they stand; the side that was given was not "
+        "used");
+  }
 
   std::vector<ScanRecord> records;
   for (auto& aligned : *feet) {

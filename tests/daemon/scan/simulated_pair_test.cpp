@@ -27,9 +27,15 @@ TEST(SimulatedPair, HasIntervalsThatHoldWhereOneFootHidesTheOther) {
     settings.subject = Subject::kFeet;
     auto scan = scan_of(settings);
     ASSERT_TRUE(scan);
-    const auto records = measure_capture(scan->capture, {}, {});
+    // That a side was given, and is of no use here, is said and not passed over.
+    PipelineSettings pipeline;
+    if (seed == 7U) pipeline.side = Side::kLeft;
+    const auto records = measure_capture(scan->capture, pipeline, {});
     ASSERT_TRUE(records) << records.error().line();
     ASSERT_EQ(records->size(), 2U);
+    EXPECT_EQ(is_said("the side that was given was not used", records->front().warnings),
+              pipeline.side.has_value());
+    EXPECT_NE(records->front().foot.side, records->back().foot.side);
     for (std::size_t i = 0; i < 2; ++i) {
       const Measure* ball = (*records)[i].measures.find("ball_girth");
       ASSERT_NE(ball, nullptr) << seed;
