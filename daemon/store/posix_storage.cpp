@@ -40,7 +40,11 @@ tl::unexpected<Error> folder_failed(const std::string& doing, const std::filesys
 Error storage_error(int error_number, const std::string& doing, const std::filesystem::path& path,
                     const std::filesystem::path& folder) {
   Error error = file_error(error_number, doing, path);
-  if (error_number == EROFS) return error;
+  if (error_number == EROFS) {
+    // To a service of systemd all is read-only but what its unit names.
+    error.advice += "; or name it in ReadWritePaths= (systemctl edit instepd)";
+    return error;
+  }
   switch (error.code) {
     case ErrorCode::kNoSpace:
       error.advice =
