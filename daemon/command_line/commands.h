@@ -16,7 +16,7 @@ void add_cloud_commands(CLI::App& app, int& exit_code);
 /// replay, simulate, record, calibrate: recordings and cameras, no daemon.
 void add_recording_commands(CLI::App& app, int& exit_code);
 
-/// scan, status, watch, list, show, export, delete: talk to the daemon.
+/// scan, cancel, status, watch, list, show, export, delete: talk to the daemon.
 void add_station_commands(CLI::App& app, int& exit_code);
 
 /// repeat: results on disk, no daemon.

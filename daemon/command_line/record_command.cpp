@@ -73,8 +73,10 @@ void add_record_command(CLI::App& app, int& exit_code) {
   record->add_option("--config", command->config, "settings file of the station, with its cameras")
       ->required();
   record
-      ->add_option("--frames", command->frames,
-                   "how many each camera takes (15 if nothing is said; a scan uses 120)")
+      ->add_option(
+          "--frames", command->frames,
+          "how many each camera takes (15 if nothing is said, as a scan does; one takes 120 at "
+          "the most)")
       ->check(CLI::Range(1, 10000));
   record
       ->add_option("--seconds", command->seconds, "how long each camera records, by its own clock")

@@ -98,7 +98,9 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   simulate->add_option("--cameras", command->cameras, "how many stand round the platform")
       ->check(CLI::Range(1, 8))
       ->capture_default_str();
-  simulate->add_option("--frames", command->frames, "how many each camera takes (a scan uses 120)")
+  simulate
+      ->add_option("--frames", command->frames,
+                   "how many each camera takes (a scan 15 if nothing is said, 120 at the most)")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   simulate->callback([command, &exit_code] { exit_code = finish_command(run(*command)); });
