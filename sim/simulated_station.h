@@ -11,7 +11,6 @@
 #include "core/result.h"
 #include "sim/scene.h"
 #include "sim/simulated_camera.h"
-#include "sim/simulated_pedal.h"
 
 namespace instep {
 

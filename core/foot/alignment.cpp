@@ -1,5 +1,6 @@
 #include "core/foot/alignment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "core/foot/side_from_shape.h"
 #include "core/foot/unseen_half.h"
 #include "core/in_millimetres.h"
+#include "core/in_percent.h"
 
 namespace instep {
 namespace {
@@ -37,9 +39,34 @@ Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOpt
   return plane_under_foot(cloud);
 }
 
-/// Where cameras look from one side only, an end of the foot does not tell its axis. Of a scan, to
-/// which points were put where no camera saw any; normals in other files need not point outwards.
+/// Of the points that are no leg's, those clearly before the toes that were found or behind the
+/// heel.
+double share_beyond_ends(const FootScan& foot) {
+  constexpr double kLegInLengths = 0.35;  // above the floor
+  constexpr double kClearlyInLengths = 0.1;
+  const double length = foot.landmarks.at("acropodion").position_mm.x();
+  double low = 0.0;
+  double beyond = 0.0;
+  for (const auto& point : foot.shape().positions) {
+    if (point.z() > kLegInLengths * length) continue;
+    low += 1.0;
+    if (std::abs(point.x() / length - 0.5) > 0.5 + kClearlyInLengths) beyond += 1.0;
+  }
+  return beyond / std::max(low, 1.0);
+}
+
+/// An end that stands too high for the outline, as of a tilted last, is not found. And where
+/// cameras look from one side only, an end of the foot does not tell its axis: of a scan, to which
+/// points were put where no camera saw any; normals in other files need not point outwards.
 Result<void> check_ends(const FootScan& foot) {
+  constexpr double kNoStrays = 0.03;
+  if (const double beyond = share_beyond_ends(foot); beyond > kNoStrays) {
+    return fail(
+        ErrorCode::kInsufficientData,
+        "the ends of the foot were not found: " + in_percent(beyond) +
+            " of its points lie beyond them",
+        "measure one whole foot that stands on its sole, with more points on heel and toes");
+  }
   if (!foot.cloud.stands_on_platform()) return {};
   const auto half = unseen_half(foot);
   if (!half) return {};

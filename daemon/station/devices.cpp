@@ -17,6 +17,7 @@
 #include "drivers/usb/usb_devices.h"
 #include "drivers/v4l2/v4l2_camera.h"
 #include "sim/fault_script.h"
+#include "sim/simulated_pedal.h"
 #include "sim/simulated_station.h"
 
 namespace instep {
