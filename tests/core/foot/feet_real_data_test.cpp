@@ -18,6 +18,7 @@
 #include "tests/support/cases/point_patterns.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/places.h"
+#include "tests/support/random_numbers.h"
 #include "tests/support/shape_files.h"
 
 namespace instep {
@@ -237,6 +238,21 @@ TEST_F(RealFeet, AreToldFromLasts) {
   }
   EXPECT_FALSE(is_shoe_last(measured(cloud("retail_left.stl", 1000.0)).foot));
   EXPECT_FALSE(is_shoe_last(measured(cloud("lab_left.ply", 1.0)).foot));
+}
+
+/// One of 800 points lay tilted, with its heel over what was taken for the outline, and was told
+/// 146 mm long.
+TEST_F(RealFeet, OfFewPointsAreNoLastsHalfAsLong) {
+  const auto all =
+      test::read_shape(test::trial_data() / "lasts" / "Donna_STD_38_T30.ply").cloud.positions;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    test::RandomNumbers random(seed);
+    PointCloud few;
+    while (few.size() < 800) few.positions.push_back(all[random.below(all.size())]);
+    const auto foot = align_foot(few);
+    if (!foot) continue;  // with the reason
+    EXPECT_NEAR(foot->landmarks.at("acropodion").position_mm.x(), 249.0, 25.0) << seed;
+  }
 }
 
 /// Of the last with a heel of 25 mm the girth of the instep was 335 mm instead of 291: it was stood
