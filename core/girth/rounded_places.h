@@ -14,7 +14,8 @@ double rounding_step_mm(const PlaneBand& band, const PointCloud& cloud);
 /// the way is `length`, in that unit too. Where the skin is about level with an axis, on both its
 /// sides and for two axes, all points go to the same level, by half a step too far out or in;
 /// elsewhere, and where the points' own noise is as wide as half a step, rounding is noise of each
-/// point and counts as that. Zero of steps under 0.2 mm, which do hardly anything, found quickly.
+/// point and counts as that. Zero of exact points, which lie on a lattice by nature, and of steps
+/// under 0.2 mm, which do hardly anything, found quickly.
 double doubt_of_rounding(const PlaneBand& band, const PointCloud& cloud, double length);
 
 }  // namespace instep
