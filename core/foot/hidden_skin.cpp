@@ -140,7 +140,7 @@ HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth
 }
 
 double doubt_of_deeper_sole(double below_mm, const TapePlane& plane, const Girth& girth) {
-  constexpr double kEdgeMm = 12.0;  // radius of a sole's edges, of real feet
+  constexpr double kEdgeMm = 12.0;  // radius of a sole's edges, as girths of two real feet tell
   const bool passes_under =
       std::any_of(girth.contour.begin(), girth.contour.end(),
                   [&](const Vector2d& corner) { return plane.lift(corner).z() < below_mm; });

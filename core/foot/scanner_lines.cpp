@@ -22,8 +22,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLeastPitchMm = 1.2;
-constexpr double kWidestPitchMm = 15.0;
-constexpr double kFinerPitch = 0.93;  ///< the next that is looked at, of the one before
+constexpr double kWidestPitchMm = 15.0;  ///< feet in lines further apart are hardly feet
+constexpr double kFinerPitch = 0.93;     ///< the next that is looked at, of the one before
 /// Points whose nearest one is further off are in no lines: to be so much nearer is chance.
 constexpr double kNearestInPitches = 1.15;
 /// Points at most among which neighbours are looked for, and such as show the waves.
@@ -170,7 +170,7 @@ std::vector<Vector3d> ways_across(const PointIndex& index) {
   return ways;
 }
 
-/// A wave along `across`, in turns to the millimetre, and how well points are in step with it.
+/// A wave along a way, in turns to the millimetre, and how well points are in step with it.
 struct Wave {
   Vector3d turns_mm = Vector3d::UnitX();
   double in_step = 0.0;
@@ -230,13 +230,15 @@ Vector3d nearer(const Vector3d& wave, const std::vector<Arms>& rounds) {
   return wave - squares.ldlt().solve(products);
 }
 
-/// As points further and further from each other tell it, for as long as they are in step.
-Wave refined(Wave wave, const Rounds& rounds) {
-  double radius = kRadiusInPitches * wave.pitch_mm();
+/// In turns to the millimetre, as points further and further from each other tell it, for as long
+/// as they are in step.
+Vector3d refined(const Wave& found, const Rounds& rounds) {
+  Vector3d wave = found.turns_mm;
+  double radius = kRadiusInPitches * found.pitch_mm();
   for (std::size_t i = 0; i < kRefinements; ++i, radius *= kFurtherRound) {
     const auto wider = rounds.within(radius);
-    if (in_step(wider, wave.turns_mm) < kLeastInStep) break;
-    wave.turns_mm = nearer(wave.turns_mm, wider);
+    if (in_step(wider, wave) < kLeastInStep) break;
+    wave = nearer(wave, wider);
   }
   return wave;
 }
@@ -268,7 +270,7 @@ std::optional<ScannerLines> scanner_lines(const std::vector<Vector3d>& points_mm
     if (found.in_step > best.in_step) best = found;
   }
   if (!(best.in_step >= least_in_step(best.pitch_mm()))) return std::nullopt;
-  const Vector3d wave = refined(best, rounds).turns_mm;
+  const Vector3d wave = refined(best, rounds);
   ScannerLines lines{.across = wave.normalized(), .pitch_mm = 1.0 / wave.norm()};
   lines.first_mm = lines.pitch_mm * phase_of(apart, wave);
   const double spacing = rounds.spacing(kRadiusInPitches * lines.pitch_mm);

@@ -16,7 +16,6 @@ class SkinNoise {
 
   /// Standard deviation along the normal of the skin, the middle one over the places: some of the
   /// points, by their numbers. Of crowded points it is told by more of them the thicker they lie.
-  /// Some 0.1 ms a place.
   double deviation_mm(const std::vector<std::size_t>& places) const;
 
   /// The same points in another unit and about their middle: directions are those of the input.
