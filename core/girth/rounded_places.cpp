@@ -25,6 +25,7 @@ double rounding_step_mm(const PlaneBand& band, const PointCloud& cloud) {
 }
 
 double doubt_of_rounding(const PlaneBand& band, const PointCloud& cloud, double length) {
+  if (band.sigma * band.unit_mm < kExactInSteps * kLeastStepMm) return 0.0;
   if (!is_coordinate_step_over(kLeastStepMm, cloud.positions)) return 0.0;
   const double step = rounding_step_mm(band, cloud) / band.unit_mm;
   if (band.sigma > kDitheredInSteps * step || band.sigma < kExactInSteps * step) return 0.0;
