@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/foot/floor_below.h"
 #include "core/foot/foot_alone.h"
 #include "core/foot/foot_axis.h"
 #include "core/foot/normals_of_shape.h"
@@ -118,6 +119,18 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
                      "front border at 0.415 of the ball's breadth from medial"};
 }
 
+/// Puts the floor as much below what was seen as the walls' ends tell.
+void stand_deeper(FootScan& foot) {
+  foot.floor_below = floor_below(foot);
+  const RigidTransform higher(Eigen::Translation3d(0.0, 0.0, foot.floor_below.depth_mm));
+  foot.foot_from_input = higher * foot.foot_from_input;
+  foot.cloud = transformed(higher, foot.cloud);
+  if (foot.quieted) foot.quieted->cloud = transformed(higher, foot.quieted->cloud);
+  for (auto& [name, landmark] : foot.landmarks) {
+    landmark.position_mm = higher * landmark.position_mm;
+  }
+}
+
 /// A foot's cloud put into its own frame, if it stands on a plane.
 Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                          const AlignmentOptions& options) {
@@ -147,7 +160,10 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
                             to_string(guess.side) + " one: check the side");
   }
   if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
-  if (is_sole_open(foot)) close_open_sole(foot);
+  if (is_sole_open(foot)) {
+    stand_deeper(foot);
+    close_open_sole(foot);
+  }
   return foot;
 }
 
@@ -165,6 +181,11 @@ std::optional<FootScan> last_standing(const FootScan& body, const AlignmentOptio
 Result<FootScan> as_last(const FootScan& body, const AlignmentOptions& options,
                          Result<FootScan> found) {
   if (auto last = last_standing(body, options, Eigen::Vector3d::UnitZ())) {
+    if (last->cloud.stands_on_platform()) {
+      return fail(ErrorCode::kInsufficientData,
+                  "the bottom of this shoe last was not seen, and nothing else tells its shape",
+                  "scan it from below as well, or measure a file with all of it");
+    }
     last->warnings.emplace_back(
         "how the last stands is taken from its file: by z, which points up");
     return *std::move(last);

@@ -62,6 +62,13 @@ struct Redraws {
   std::optional<RedrawnLandmarks> of_other_side;
 };
 
+/// How much deeper the floor was put than the lowest skin that was seen, of a sole that was not
+/// (floor_below()); zero of one that was.
+struct FloorBelow {
+  double depth_mm = 0.0;
+  double u95_mm = 0.0;  ///< half-width of its 95 % interval
+};
+
 /// One foot in its own frame, ready to be measured.
 ///
 /// Foot frame: origin at the pternion projected on the floor, x from heel to toes, z up from the
@@ -77,6 +84,7 @@ struct FootScan {
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();
   bool is_floor_known = false;  ///< given with the cloud, not found from it
+  FloorBelow floor_below;       ///< what was seen
   MeasuringRules rules;         ///< by which it is aligned, marked and measured
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()

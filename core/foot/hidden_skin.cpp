@@ -98,6 +98,14 @@ double hidden_range(const Stretch& stretch, const Vector2d& middle, const Vector
   return (1.0 - slope / kBending) * std::max(0.0, corner - std::hypot(height, breadth));
 }
 
+/// By how much the arc in which a sole's edge comes down the last millimetres to the floor is
+/// longer than what is level of its chord.
+double longer_round_edge(double height_mm) {
+  constexpr double kEdgeMm = 12.0;  // its radius, as girths of two real feet tell
+  const double turn = std::acos(1.0 - std::min(height_mm / kEdgeMm, 1.0));
+  return kEdgeMm * (turn - std::sin(turn));
+}
+
 }  // namespace
 
 double doubt_of_guessed_skin(const PointCloud& cloud, const TapePlane& plane) {
@@ -139,15 +147,13 @@ HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth
   return hidden;
 }
 
-double doubt_of_deeper_sole(double below_mm, const TapePlane& plane, const Girth& girth) {
-  constexpr double kEdgeMm = 12.0;  // radius of a sole's edges, as girths of two real feet tell
+double doubt_of_deeper_sole(const FloorBelow& floor, const TapePlane& plane, const Girth& girth) {
   const bool passes_under =
       std::any_of(girth.contour.begin(), girth.contour.end(),
-                  [&](const Vector2d& corner) { return plane.lift(corner).z() < below_mm; });
+                  [&](const Vector2d& corner) { return plane.lift(corner).z() < floor.u95_mm; });
   if (!passes_under) return 0.0;
-  // At either edge the arc below is longer than what is level of its chord.
-  const double turn = std::acos(1.0 - std::min(below_mm / kEdgeMm, 1.0));
-  return 2.0 * kEdgeMm * (turn - std::sin(turn));
+  return 2.0 *
+         (longer_round_edge(floor.depth_mm + floor.u95_mm) - longer_round_edge(floor.depth_mm));
 }
 
 }  // namespace instep

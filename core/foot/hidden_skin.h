@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/foot/foot_scan.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/seen_skin.h"
 #include "core/girth/girth.h"
@@ -25,9 +26,10 @@ struct HiddenWall {
 /// `girth`: of a foot on a platform. O(corners of the section * log(points)).
 HiddenWall hidden_wall(const SeenSkin& seen, const TapePlane& plane, const Girth& girth);
 
-/// Under level lines the sole may lie up to `below_mm` deeper (below_last_line_mm()): a tape that
-/// passes under it is longer then, by what its round edges have below. Zero of a tape that stays
-/// above. O(corners of the section).
-double doubt_of_deeper_sole(double below_mm, const TapePlane& plane, const Girth& girth);
+/// Where the sole may lie deeper, as one that was not seen (FootScan::floor_below) or that lies
+/// between the level lines of a scanner (below_last_line_mm()), a tape that passes under it is
+/// longer, by what its round edges have below. Zero of a tape that stays above. O(corners of the
+/// section).
+double doubt_of_deeper_sole(const FloorBelow& floor, const TapePlane& plane, const Girth& girth);
 
 }  // namespace instep

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "core/foot/floor_below.h"
 #include "core/foot/foot_lengths.h"
 #include "core/foot/hidden_skin.h"
 #include "core/foot/measure_definitions.h"
@@ -44,11 +45,12 @@ constexpr double kMostHiddenShare = 0.6;
 /// What is asked of a foot for each of its measures.
 struct FootDoubts {
   explicit FootDoubts(const FootScan& foot)
-      : seen(foot.cloud), shared(foot, seen), ends(unseen_ends(foot)) {}
+      : seen(foot.cloud), shared(foot, seen), ends(unseen_ends(foot)), deeper(if_deeper(foot)) {}
 
   SeenSkin seen;
   SharedDoubt shared;
   std::optional<UnseenEnds> ends;
+  std::vector<RedrawnLandmarks> deeper;  ///< if_deeper()
 };
 
 /// `redrawn`: landmarks as they may lie; a tape of them is laid round the foot's own points.
@@ -160,8 +162,8 @@ Result<std::optional<double>> u95_by_landmarks(const Definition& definition, con
         "calibrate the depths of the cameras with their maker's tool, or let more cameras see "
         "the foot");
   }
-  const auto u95 =
-      together({own, of_local, u95_of_shared(definition, foot), of_ends, definition.own_doubt_mm});
+  const auto u95 = together({own, of_local, u95_of_shared(definition, foot), of_ends,
+                             moved_by(about.deeper, definition, foot), definition.own_doubt_mm});
   if (u95 || foot.redraws.landmarks.empty()) return u95;
   return fail(ErrorCode::kInsufficientData, "the points do not tell how sure its landmarks are",
               "scan again, with the foot in full view of all cameras");
@@ -321,9 +323,10 @@ Result<Measure> take(const GirthDefinition& definition, const FootScan& foot,
   const auto to_other = distance_to_other_foot(definition, girth->stretched_mm, foot, options);
   if (!to_other) return tl::unexpected(to_other.error());
   if (*by_landmarks && girth->stretched_u95_mm) {
-    const double unseen =
-        std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm,
-                   doubt_of_deeper_sole(below_last_line_mm(foot), *plane, *girth));
+    FloorBelow floor = foot.floor_below;
+    floor.u95_mm += below_last_line_mm(foot);
+    const double unseen = std::hypot(doubt_of_guessed_skin(foot.cloud, *plane), hidden.doubt_mm,
+                                     doubt_of_deeper_sole(floor, *plane, *girth));
     measure.parts =
         widened({std::hypot(*girth->stretched_u95_mm, unseen), **by_landmarks}, *to_other);
     measure.u95_mm = std::hypot(measure.parts->surface, measure.parts->landmarks);

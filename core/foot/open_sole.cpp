@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/foot/full_size.h"
+#include "core/foot/low_walls.h"
 #include "core/fusion/close_sole.h"
-#include "core/geometry/moments.h"
-#include "core/geometry/place_hash.h"
-#include "core/geometry/point_index.h"
+#include "core/geometry/point_spacing.h"
+#include "core/in_millimetres.h"
 
 namespace instep {
 namespace {
@@ -20,38 +21,30 @@ using Eigen::Vector3d;
 
 constexpr double kUndersideShare = 0.08;  ///< of the length: an arch may be so high
 constexpr double kLowMm = 64.0;           ///< what stands higher says nothing of the ground below
-constexpr double kMiddleMm = 20.0;        ///< height over the floor that lies within the foot
 constexpr double kCellMm = 8.0;
-constexpr std::size_t kNeighbours = 14;
+constexpr double kCellInSpacings = 2.0;       ///< of sparse points: in few such cells is none
+constexpr std::size_t kSparsePoints = 10000;  ///< more leave no larger cells
 constexpr std::size_t kMostOfWalls = 100000;  ///< their bends are told by no more
-
-/// To full size, where the foot is looked at.
-double factor_of(const FootScan& foot) {
-  return full_size_factor(foot.landmarks.at("acropodion").position_mm.x());
-}
 
 using Cell = std::pair<long, long>;
 
-Cell cell_of(const Vector3d& point) {
-  return {std::lround(point.x() / kCellMm), std::lround(point.y() / kCellMm)};
+Cell cell_of(const Vector3d& point, double cell_mm) {
+  return {std::lround(point.x() / cell_mm), std::lround(point.y() / cell_mm)};
 }
 
-/// Normals of a wall round a foot, pointing away from the foot's middle line.
-std::vector<Vector3d> wall_normals(const std::vector<Vector3d>& points) {
-  const PointIndex index(points);
-  std::vector<Vector3d> normals;
-  normals.reserve(points.size());
-  for (const auto& point : points) {
-    const auto close = index.nearest(point, kNeighbours);
-    Moments moments;
-    for (const auto& one : close) moments.add(points[one.index] - point);
-    Vector3d normal = moments.flattest();
-    const Vector3d middle(std::clamp(point.x(), 0.12 * kFullSizeMm, 0.85 * kFullSizeMm), 0.0,
-                          kMiddleMm);
-    if (normal.dot(point - middle) < 0.0) normal = -normal;
-    normals.push_back(normal);
-  }
-  return normals;
+double cell_for(const std::vector<Vector3d>& points, double factor) {
+  constexpr std::size_t kAsked = 500;
+  if (points.size() > kSparsePoints) return kCellMm;
+  return std::max(kCellMm, kCellInSpacings * factor * usual_spacing(PointIndex(points), kAsked));
+}
+
+/// What was guessed of the floor, where it matters.
+std::string how_deep(const FloorBelow& floor) {
+  constexpr double kWorthSayingMm = 0.5;
+  if (floor.depth_mm + floor.u95_mm < kWorthSayingMm) return "";
+  return ", which by the bend of its edge lies " + in_millimetres(floor.depth_mm) +
+         " below its lowest skin, give or take " + in_millimetres(floor.u95_mm) +
+         ": leave some floor round the foot in the cloud, and it is known";
 }
 
 }  // namespace
@@ -61,11 +54,12 @@ bool is_sole_open(const FootScan& foot) {
   // Walls stand on the border of the ground that is covered, so that only ground further in tells.
   std::map<Cell, bool> ground;
   std::map<long, std::pair<long, long>> rows;
-  const double factor = factor_of(foot);
+  const double factor = full_size_factor(foot.landmarks.at("acropodion").position_mm.x());
+  const double cell_mm = cell_for(foot.cloud.positions, factor);
   for (const auto& own : foot.cloud.positions) {
     const Vector3d point = factor * own;
     if (point.z() > kLowMm) continue;
-    const Cell cell = cell_of(point);
+    const Cell cell = cell_of(point, cell_mm);
     auto& is_covered = ground[cell];
     is_covered = is_covered || point.z() < kUndersideShare * kFullSizeMm;
     const auto [row, is_new] = rows.try_emplace(cell.first, cell.second, cell.second);
@@ -86,36 +80,24 @@ bool is_sole_open(const FootScan& foot) {
 }
 
 void close_open_sole(FootScan& foot) {
-  // As high as the lowest seen end of a wall may be, and as much above it as tells its bend.
-  constexpr double kWallHeightMm = kHighestWallEndMm + kWallBendReachMm;
+  LowWalls walls(foot, kMostOfWalls);
+  const std::size_t seen = walls.points.size();
+  if (seen == 0) return;
   SoleSettings settings;
-  const double factor = factor_of(foot);
   // Looked at as a foot of full size, but what is added is as it says on the foot itself.
-  settings.spacing_mm *= factor;
-  settings.sigma_mm *= factor;
-  std::vector<std::size_t> low;
-  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
-    if (factor * foot.cloud.positions[i].z() < kWallHeightMm) low.push_back(i);
-  }
-  PointCloud walls = foot.cloud.subset(low);
-  if (walls.size() > kMostOfWalls) {
-    walls = walls.subset(some_by_place(walls.positions, kMostOfWalls));
-  }
-  walls.drop_errors_along_normals();  // what is added has none
-  for (auto& place : walls.positions) place *= factor;
-  if (walls.size() < kNeighbours) return;
-  if (!walls.has_normals()) walls.normals = wall_normals(walls.positions);
-  const std::size_t seen = walls.size();
-  close_sole(walls, 0.0, settings);
+  settings.spacing_mm *= walls.to_full_size;
+  settings.sigma_mm *= walls.to_full_size;
+  close_sole(walls.points, 0.0, settings);
   std::vector<std::size_t> added;
-  for (std::size_t i = seen; i < walls.size(); ++i) added.push_back(i);
+  for (std::size_t i = seen; i < walls.points.size(); ++i) added.push_back(i);
   if (added.empty()) return;
   if (foot.cloud.origins.empty()) foot.cloud.origins.assign(foot.cloud.size(), PointOrigin::kSeen);
-  PointCloud sole = walls.subset(added);
-  for (auto& place : sole.positions) place /= factor;
+  PointCloud sole = walls.points.subset(added);
+  for (auto& place : sole.positions) place /= walls.to_full_size;
   foot.cloud.append(sole);
   if (foot.quieted) foot.quieted->cloud.append(sole);
-  foot.warnings.emplace_back("the sole was not seen: it is taken to stand flat on the floor");
+  foot.warnings.push_back("the sole was not seen: it is taken to stand flat on the floor" +
+                          how_deep(foot.floor_below));
 }
 
 }  // namespace instep

@@ -87,7 +87,7 @@ std::optional<Landmark> find_toe1_top(const FootOutline& outline, const Landmark
                          inner_limit(tibiale, fibulare), tibiale.position_mm.y()},
                         kToeSmoothingMm);
   const auto top = back.at(tip.position_mm.x() - kBehindTipMm);
-  if (!top) return std::nullopt;
+  if (!top || !outline.was_seen(back.position(*top))) return std::nullopt;
   return Landmark{back.position(*top), kConfidence,
                   "highest point 15/260 of the foot's length behind the first toe's tip"};
 }

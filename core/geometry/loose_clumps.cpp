@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/geometry/moments.h"
@@ -98,18 +99,22 @@ double flat_share(const std::vector<Vector3d>& all, const Members& members) {
 
 /// Which of all points outside a clump is nearest to any of it, and how near.
 PointIndex::Neighbour nearest_beyond(const PointIndex& clump, const Members& members,
-                                     const Eigen::AlignedBox3d& box,
-                                     const std::vector<Vector3d>& all) {
+                                     const Eigen::AlignedBox3d& box, const PointIndex& all) {
   PointIndex::Neighbour nearest{0, std::numeric_limits<double>::infinity()};
-  auto member = members.begin();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (member != members.end() && *member == i) {
-      ++member;
-    } else if (box.squaredExteriorDistance(all[i]) < nearest.squared_distance) {
-      const double squared = clump.nearest(all[i], 1).front().squared_distance;
-      if (squared < nearest.squared_distance) nearest = {i, squared};
+  const auto keep_nearer = [&](std::size_t index) {
+    if (std::binary_search(members.begin(), members.end(), index)) return;
+    const double squared = clump.nearest(all.points()[index], 1).front().squared_distance;
+    if (std::tie(squared, index) < std::tie(nearest.squared_distance, nearest.index)) {
+      nearest = {index, squared};
     }
-  }
+  };
+  const Vector3d middle = box.center();
+  // By one more than the clump has; no further from its middle than this and its half lies any that
+  // is nearer.
+  for (const auto& one : all.nearest(middle, members.size() + 1)) keep_nearer(one.index);
+  const double reach = std::sqrt(nearest.squared_distance) + 0.5 * box.diagonal().norm();
+  constexpr double kRounded = 1.0 + 1e-9;
+  for (const auto& one : all.around(middle, kRounded * reach)) keep_nearer(one.index);
   return nearest;
 }
 
@@ -165,7 +170,7 @@ bool is_loose(const Members& members, const PointIndex& all) {
   const bool has_others_near =
       all.around(clump.points().front(), least_gap).size() > members.size();
   if (has_others_near) return false;
-  const auto beyond = nearest_beyond(clump, members, box, all.points());
+  const auto beyond = nearest_beyond(clump, members, box, all);
   const double spacing =
       std::max(spacing_among(clump), own_spacing(all, all.points()[beyond.index]));
   return std::sqrt(beyond.squared_distance) > std::max(kGapInSpacings * spacing, least_gap) &&

@@ -18,7 +18,7 @@ namespace instep {
 /// scanner's lines on skin that is aslant to them some may be far enough from all others: do not
 /// ask where there are such (scanner_lines()). Which points hang together is told by cells of 1.5,
 /// 3 and 6 spacings, so that a gap of up to five may pass for none, by how they lie. Three sorts,
-/// and where there are clumps search trees, and for each that nothing is near a look at all points.
+/// and where there are clumps search trees: O(n log n).
 std::vector<bool> loose_clumps(const std::vector<Eigen::Vector3d>& points, double spacing);
 
 }  // namespace instep

@@ -164,15 +164,15 @@ TEST(DeeperSole, LeavesOpenWhatRoundEdgesAddBelowTheLastLine) {
   const Section section(20.0);
   for (const double below : {1.5, 3.0, 6.0}) {
     const double longer = 2.0 * (half_way_round(0.0) - half_way_round(below));
-    EXPECT_NEAR(doubt_of_deeper_sole(below, section.plane, section.girth), longer, 0.01) << below;
+    EXPECT_NEAR(doubt_of_deeper_sole({0.0, below}, section.plane, section.girth), longer, 0.01) << below;
   }
 }
 
 TEST(DeeperSole, IsNoneOfATapeAboveItAndOfAKnownFloor) {
   Section section(20.0);
-  EXPECT_EQ(doubt_of_deeper_sole(0.0, section.plane, section.girth), 0.0);
+  EXPECT_EQ(doubt_of_deeper_sole({}, section.plane, section.girth), 0.0);
   section.plane = *TapePlane::through({0, 0, 70}, {0, 50, 70}, {50, 0, 70});
-  EXPECT_EQ(doubt_of_deeper_sole(2.0, section.plane, section.girth), 0.0);
+  EXPECT_EQ(doubt_of_deeper_sole({0.0, 2.0}, section.plane, section.girth), 0.0);
 }
 
 TEST(HiddenWall, BearsNoSectionAndNoSeenPoint) {

@@ -93,17 +93,18 @@ Cases shape_cases(std::size_t count, double sigma_mm, double hole_mm, std::uint6
 std::vector<CaseClass> smooth_classes() {
   std::vector<CaseClass> classes;
   for (const auto& [per_ring, rings] : {std::pair{120, 10}, {60, 15}, {30, 15}}) {
-    classes.push_back({"rings",
-                       fmt::format("cylinder of {} rings of {}", rings, per_ring),
-                       {.mean_mm = {}, .worst_mm = 0.001, .bias_mm = {}},
-                       [=] { return ring_cases(per_ring, rings); }});
+    classes.push_back(
+        {"rings",
+         fmt::format("cylinder of {} rings of {}", rings, per_ring),
+         {.mean_mm = {}, .worst_mm = 0.001, .bias_mm = {}},
+         [per_ring = per_ring, rings = rings] { return ring_cases(per_ring, rings); }});
   }
   for (const auto& [count, worst] : {std::pair{6000U, 0.002}, {1500U, 0.005}, {450U, 0.06}}) {
     classes.push_back(
         {"shapes",
          fmt::format("exact shapes, {} points", count),
          {.mean_mm = {}, .worst_mm = worst, .bias_mm = {}},
-         [=] { return shape_cases(count, 0.0, 0.0, 4, fmt::format("_{}.", count)); }});
+         [count = count] { return shape_cases(count, 0.0, 0.0, 4, fmt::format("_{}.", count)); }});
   }
   for (const double sigma : {0.2, 0.5, 1.0}) {
     classes.push_back(
@@ -117,7 +118,7 @@ std::vector<CaseClass> smooth_classes() {
         {"holes",
          fmt::format("hole of {} mm, 4000 points", hole),
          {.mean_mm = {}, .worst_mm = worst, .bias_mm = {}},
-         [=] { return shape_cases(4000, 0.0, hole, 4, fmt::format("hole_{}", hole)); }});
+         [hole = hole] { return shape_cases(4000, 0.0, hole, 4, fmt::format("hole_{}", hole)); }});
   }
   return classes;
 }
