@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/foot/alignment.h"
 #include "core/foot/landmarks.h"
@@ -215,6 +216,31 @@ TEST_F(RealFeet, WithAnOpenSoleAndALegKeepTheirSideAndLength) {
   const auto mirror = measured(test::mirrored(points));
   EXPECT_EQ(mirror.foot.side, Side::kRight);
   expect_same(whole, mirror, 0.5);
+}
+
+/// Their heights were as much too low as was cut off, their girths by half of it.
+TEST_F(RealFeet, CutOffOverTheFloorHaveTheirHeightsAndGirths) {
+  for (const char* name : {"retail_left.stl", "retail_right.stl"}) {
+    const auto points = cloud(name, 1000.0);
+    const auto whole = measured(points);
+    const auto lowest = std::min_element(
+        points.positions.begin(), points.positions.end(),
+        [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.z() < b.z(); });
+    for (const double cut_mm : {2.0, 4.0, 6.0}) {
+      std::vector<std::size_t> kept;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points.positions[i].z() > lowest->z() + cut_mm) kept.push_back(i);
+      }
+      const auto cut = measured(points.subset(kept));
+      for (const char* id : {"instep_height", "ball_height", "toe1_height", "ball_girth",
+                             "waist_girth", "instep_girth", "ankle_girth"}) {
+        const Measure* measure = cut.set.find(id);
+        ASSERT_NE(measure, nullptr) << name << " " << cut_mm << " " << id;
+        EXPECT_NEAR(measure->value_mm, whole.set.find(id)->value_mm, *measure->u95_mm)
+            << name << " " << cut_mm << " " << id;
+      }
+    }
+  }
 }
 
 TEST_F(RealFeet, AreToldFromLasts) {
