@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/foot/alignment.h"
+#include "core/geometry/place_hash.h"
 #include "core/geometry/point_spacing.h"
 #include "tests/support/foot_body.h"
 
@@ -31,6 +32,16 @@ std::vector<Vector3d> put_under(const FootScan& foot) {
 TEST(OpenSole, IsToldFromAClosedOne) {
   EXPECT_GT(put_under(without_sole(260.0)).size(), 1000U);
   EXPECT_TRUE(put_under(align_foot(test::FootBody{}.points()).value()).empty());
+}
+
+TEST(OpenSole, IsNoneWhereItsPointsAreFew) {
+  const auto points = test::FootBody{}.points();
+  for (const std::size_t few : {500U, 700U, 1000U}) {
+    FootScan foot;
+    foot.cloud = points.subset(some_by_place(points.positions, few));
+    foot.landmarks["acropodion"].position_mm = Vector3d(260.0, 0.0, 0.0);
+    EXPECT_FALSE(is_sole_open(foot)) << few;
+  }
 }
 
 /// The doubt of a tape that passes over it counts its points.
