@@ -14,7 +14,7 @@
 namespace instep {
 namespace {
 
-constexpr double kEdgeMm = 11.0;
+constexpr double kEdgeMm = 11.0;  ///< radius of a sole's edge, by two feet of one scanner
 constexpr double kDoubtShare = 0.5;
 /// What ends clearly above it stands over an arch or between toes.
 constexpr double kOverFloorMm = -2.0;

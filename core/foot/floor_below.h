@@ -19,8 +19,7 @@ namespace instep {
 FloorBelow floor_below(const FootScan& foot);
 
 /// The landmarks as they would be if the floor were as much deeper as FootScan::floor_below leaves
-/// open; none where that
-/// is nothing. Once more the cost of the landmarks, without redraws.
+/// open; none where that is nothing. Once more the cost of the landmarks, without redraws.
 std::vector<RedrawnLandmarks> if_deeper(const FootScan& foot);
 
 }  // namespace instep

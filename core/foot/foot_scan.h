@@ -84,7 +84,7 @@ struct FootScan {
   double side_confidence = 0.0;  ///< 0.5 (a coin) to 1
   RigidTransform foot_from_input = RigidTransform::Identity();
   bool is_floor_known = false;  ///< given with the cloud, not found from it
-  FloorBelow floor_below;       ///< what was seen
+  FloorBelow floor_below;       ///< its lowest skin, where no sole was seen
   MeasuringRules rules;         ///< by which it is aligned, marked and measured
   Landmarks landmarks;
   Redraws redraws;  ///< none before find_landmarks()
