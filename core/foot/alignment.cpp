@@ -175,22 +175,26 @@ std::optional<FootScan> last_standing(const FootScan& body, const AlignmentOptio
   return *std::move(last);
 }
 
+/// It is not flat, so that nothing can be put in its place.
+tl::unexpected<Error> bottom_not_seen() {
+  return fail(ErrorCode::kInsufficientData,
+              "the bottom of this shoe last was not seen, and nothing else tells its shape",
+              "scan it from below as well, or measure a file with all of it");
+}
+
 /// A last has no flat sole to be found by; files of lasts have z up, or down. Upside down no last
 /// passes for one: both its ends are high then. Else what was found, but for a last: it rests on
 /// heel and ball, or on its top, not as in its shoe.
 Result<FootScan> as_last(const FootScan& body, const AlignmentOptions& options,
                          Result<FootScan> found) {
   if (auto last = last_standing(body, options, Eigen::Vector3d::UnitZ())) {
-    if (last->cloud.stands_on_platform()) {
-      return fail(ErrorCode::kInsufficientData,
-                  "the bottom of this shoe last was not seen, and nothing else tells its shape",
-                  "scan it from below as well, or measure a file with all of it");
-    }
+    if (last->cloud.stands_on_platform()) return bottom_not_seen();
     last->warnings.emplace_back(
         "how the last stands is taken from its file: by z, which points up");
     return *std::move(last);
   }
   if (auto last = last_standing(body, options, -Eigen::Vector3d::UnitZ())) {
+    if (last->cloud.stands_on_platform()) return bottom_not_seen();
     last->warnings.emplace_back(
         "the last stands upside down in its file and was turned over: how it stands is taken from "
         "z, which points down");

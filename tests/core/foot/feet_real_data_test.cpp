@@ -283,6 +283,19 @@ TEST_F(RealFeet, OfFewPointsAreNoLastsHalfAsLong) {
 
 /// Of the last with a heel of 25 mm the girth of the instep was 335 mm instead of 291: it was stood
 /// on heel and ball.
+TEST_F(RealFeet, AreNoLastsWithoutABottom) {
+  const auto last =
+      test::read_shape(test::trial_data() / "lasts" / "Donna_STD_38_T30.ply", 1.0).cloud;
+  std::vector<std::size_t> above;
+  for (std::size_t i = 0; i < last.size(); ++i) {
+    if (last.normals[i].z() > -0.8) above.push_back(i);
+  }
+  const auto foot = align_foot(last.subset(above));
+  ASSERT_FALSE(foot.has_value());
+  EXPECT_NE(foot.error().message.find("bottom of this shoe last"), std::string::npos)
+      << foot.error().line();
+}
+
 TEST_F(RealFeet, AreNoLastsThatStandUpsideDown) {
   for (const char* name : {"Uomo_STD_T10_42.ply", "Uomo_STD_T25_43.ply", "Donna_STD_38_T30.ply"}) {
     const auto upright = test::read_shape(test::trial_data() / "lasts" / name).cloud;
