@@ -8,6 +8,7 @@
 #include "core/foot/border_crest.h"
 #include "core/foot/border_smoothing.h"
 #include "core/foot/hidden_crest.h"
+#include "core/foot/skin_round.h"
 #include "core/normal_spread.h"
 
 namespace instep {
@@ -31,9 +32,6 @@ constexpr double kPatchAcrossMm = 10.0;
 constexpr double kPriorConfidence = 0.3;  ///< where the border has no say
 constexpr double kMostConfidence = 0.95;  ///< where it alone decides
 
-// Where a wall was lost, as between two feet, what is put below the rim of what was seen reaches
-// less far the deeper it is.
-constexpr double kBelowRimMm = 6.0;
 constexpr double kUsualHalfShare = 0.085;  ///< of the foot's length, to either side
 
 /// A border round the usual place of a point of the ball, of a foot one unit long: the reach's
@@ -70,11 +68,26 @@ std::optional<SkinBorder::Place> crest_in_range(const FootOutline& outline,
   return place;
 }
 
+/// The samples of a border near where a rule looks that are no rim of a hole.
+SkinBorder on_skin(const FootOutline& outline, const SkinBorder& border, const Rule& rule) {
+  constexpr double kBesideMm = 30.0;
+  std::vector<Eigen::Vector3d> near;
+  for (const auto& point : outline.points()) {
+    const bool is_near = point.x() > rule.from - kBesideMm && point.x() < rule.to + kBesideMm &&
+                         border.view().outwards.dot(point) > 0.0 &&
+                         point.z() < kLandmarkOutlineHeightMm + kBesideMm;
+    if (is_near) near.push_back(point);
+  }
+  return border.where([&](const SkinBorder::Place& place) {
+    return place.along >= rule.from && place.along <= rule.to &&
+           is_skin_all_round(near, border.position(place), border.view().outwards);
+  });
+}
+
 /// The samples of a border that are on skin that was seen, or close under it.
 SkinBorder told_part(const FootOutline& outline, const SkinBorder& border) {
-  return border.where([&](const SkinBorder::Place& place) {
-    return outline.distance_to_seen(border.position(place)) <= kBelowRimMm;
-  });
+  return border.where(
+      [&](const SkinBorder::Place& place) { return outline.is_told(border.position(place)); });
 }
 
 /// Second derivative of the handicap.
@@ -120,16 +133,18 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   };
   const SkinBorder smooth = border.smoothed_over(kSmoothingMm);
   auto peak = smooth.furthest(rule.from, rule.to, handicap);
-  if (outline.has_unseen_points()) {
-    const SkinBorder told = told_part(outline, border);
-    const double place = peak ? peak->along : rule.prior;
-    const double from = std::min(place, rule.prior) - rule.patch_mm;
-    const double to = std::max(place, rule.prior) + rule.patch_mm;
-    if (has_gap(told, from, to)) {
-      if (auto hidden = hidden_point(outline, told, border, rule)) return hidden;
-    }
+  const SkinBorder skin = on_skin(outline, border, rule);
+  const SkinBorder told = told_part(outline, skin);
+  const double place = peak ? peak->along : rule.prior;
+  const double from = std::max(std::min(place, rule.prior) - rule.patch_mm, rule.from);
+  const double to = std::min(std::max(place, rule.prior) + rule.patch_mm, rule.to);
+  if (has_gap(told, from, to)) {
+    if (auto hidden = hidden_point(outline, told, skin, rule)) return hidden;
   }
-  if (!peak) return std::nullopt;
+  if (!peak ||
+      !is_skin_all_round(outline.points(), border.position(*peak), border.view().outwards)) {
+    return std::nullopt;
+  }
   if (const auto crest = crest_in_range(outline, border, *peak, rule)) peak = crest;
   // What holds the place is how the border falls off to either side, and how the handicap does.
   const double by_shape = std::max(0.0, -peak->bend);
@@ -171,10 +186,14 @@ std::vector<Eigen::Vector3d> may_be_further(const Landmark& hidden, double less_
 }
 
 /// `metatarsal`: the point of the ball on that border.
-std::optional<Landmark> broadest(const SkinBorder& border, double length,
+std::optional<Landmark> broadest(const FootOutline& outline, const SkinBorder& border,
                                  const Landmark& metatarsal) {
+  const double length = outline.length_mm();
   const auto peak = border.furthest(0.50 * length, 0.85 * length);
-  if (!peak) return std::nullopt;
+  if (!peak ||
+      !is_skin_all_round(outline.points(), border.position(*peak), border.view().outwards)) {
+    return std::nullopt;
+  }
   Landmark furthest{border.position(*peak), 0.9,
                     "furthest point of the outline in 0.50-0.85 of the foot's length"};
   if (metatarsal.deviations_off_mm.empty()) return furthest;
@@ -212,17 +231,19 @@ std::optional<Landmark> find_metatarsale_fibulare(const FootOutline& outline,
 }
 
 std::optional<Landmark> find_ball_medial(const FootOutline& outline, const Landmark& tibiale) {
-  return broadest(outline.medial(), outline.length_mm(), tibiale);
+  return broadest(outline, outline.medial(), tibiale);
 }
 
 std::optional<Landmark> find_ball_lateral(const FootOutline& outline, const Landmark& fibulare) {
-  return broadest(outline.lateral(), outline.length_mm(), fibulare);
+  return broadest(outline, outline.lateral(), fibulare);
 }
 
 std::optional<Landmark> find_ball_top(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare) {
   const auto top = top_over(outline, tibiale.position_mm, fibulare.position_mm);
-  if (!top) return std::nullopt;
+  if (!top || !is_skin_all_round(outline.points(), *top, Eigen::Vector3d::UnitZ())) {
+    return std::nullopt;
+  }
   Landmark found{*top, 0.8, "highest point of the ball's section"};
   double squares = 0.0;
   const auto rise = [&](const Eigen::Vector3d& medial, const Eigen::Vector3d& lateral) {

@@ -60,6 +60,11 @@ bool FootOutline::was_seen(const Eigen::Vector3d& place) const {
   return !seen_skin_ || seen_skin_->is_near(on_foot(place));
 }
 
+bool FootOutline::is_told(const Eigen::Vector3d& place) const {
+  constexpr double kBelowRimMm = 6.0;
+  return distance_to_seen(place) <= kBelowRimMm;
+}
+
 double FootOutline::distance_to_seen(const Eigen::Vector3d& place) const {
   if (!seen_skin_) return 0.0;
   const auto nearest = seen_skin_->nearest(on_foot(place));

@@ -40,8 +40,11 @@ class FootOutline {
   bool has_unseen_points() const { return !seen_points_.empty(); }
 
   /// Whether a place is on skin that was seen (SeenSkin::is_near()), and how far it is from that:
-  /// in a cloud to which nothing was added, all places are.
+  /// in a cloud to which nothing was added, all places are. Where a wall was lost, as between two
+  /// feet, what is put below its rim reaches less far the deeper it is: close under it, to 6 mm, it
+  /// still tells.
   bool was_seen(const Eigen::Vector3d& place) const;
+  bool is_told(const Eigen::Vector3d& place) const;
   double distance_to_seen(const Eigen::Vector3d& place) const;
 
   /// Reach towards medial, and towards lateral, at each x, of the skin up to

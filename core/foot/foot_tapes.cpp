@@ -12,6 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kApartMm = 50.0;  ///< of control points that only give a direction
+
 /// The control points of a tape, named by where they touch the foot.
 struct TapePoints {
   Vector3d medial;
@@ -26,11 +28,9 @@ Result<TapePoints> ball_points(const Landmarks& landmarks) {
   if (!tibiale) return tl::unexpected(tibiale.error());
   const auto fibulare = position_of(landmarks, "metatarsale_fibulare");
   if (!fibulare) return tl::unexpected(fibulare.error());
-  const auto instep = position_of(landmarks, "instep_point");
-  if (!instep) return tl::unexpected(instep.error());
   const Vector3d medial = on_floor(*tibiale);
   const Vector3d lateral = on_floor(*fibulare);
-  return TapePoints{medial, lateral, (medial + lateral) / 2.0 + instep->z() * Vector3d::UnitZ()};
+  return TapePoints{medial, lateral, (medial + lateral) / 2.0 + kApartMm * Vector3d::UnitZ()};
 }
 
 Result<TapePoints> instep_points(const Landmarks& landmarks) {
@@ -42,8 +42,6 @@ Result<TapePoints> instep_points(const Landmarks& landmarks) {
   if (!lateral) return tl::unexpected(lateral.error());
   return TapePoints{on_floor(*arch), on_floor(*lateral), *instep};
 }
-
-constexpr double kApartMm = 50.0;  ///< of control points that only give a direction
 
 /// The plane over two points that is square to the side view.
 Result<TapePlane> heel_tape(const Landmarks& landmarks, const char* dorsal) {
@@ -90,9 +88,11 @@ Result<TapePlane> waist_tape(const Landmarks& landmarks) {
   if (!ball) return tl::unexpected(ball.error());
   const auto instep = instep_points(landmarks);
   if (!instep) return tl::unexpected(instep.error());
+  // Both dorsal points as high as the instep.
+  const Vector3d over_ball = on_floor(ball->dorsal) + instep->dorsal.z() * Vector3d::UnitZ();
   const TapePoints middle{(ball->medial + instep->medial) / 2.0,
                           (ball->lateral + instep->lateral) / 2.0,
-                          (ball->dorsal + instep->dorsal) / 2.0};
+                          (over_ball + instep->dorsal) / 2.0};
   return middle.plane();
 }
 

@@ -101,7 +101,7 @@ std::vector<LengthDefinition> outline_definitions(const MeasuringRules& rules) {
        std::string(kExtentSquareToAxis) + "in 0.50-0.85 of that length"},
       {"heel_breadth",
        heel_breadth,
-       {},
+       {"heel_breadth_medial", "heel_breadth_lateral"},
        std::string(kExtentSquareToAxis) + description(rules.heel_breadth)},
       {"ball_length",
        ball_length,
@@ -157,13 +157,13 @@ std::vector<LengthDefinition> angle_definitions() {
   return {
       {"toe1_angle",
        toe1_angle,
-       {"metatarsale_tibiale"},
+       {"heel_medial", "metatarsale_tibiale"},
        "between the line from the heel's medial point to metatarsale tibiale and the line from "
        "there to where a ruler touches the first toe; positive towards the other toes",
        LengthDefinition::Kind::kAngle},
       {"toe5_angle",
        toe5_angle,
-       {"metatarsale_fibulare"},
+       {"heel_lateral", "metatarsale_fibulare"},
        "between the line from the heel's lateral point to metatarsale fibulare and the line from "
        "there to where a ruler touches the little toe; positive towards the other toes",
        LengthDefinition::Kind::kAngle},

@@ -367,12 +367,6 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
                   "align it and find its landmarks first");
     }
   }
-  if (!foot.landmarks.contains("instep_point")) {
-    return fail(
-        ErrorCode::kInsufficientData, "the back of the foot was not seen at half its length",
-        "scan again with the whole foot in view, and see that no camera is missing, covered "
-        "or turned away");
-  }
   MeasureSet set;
   const bool is_last = is_shoe_last(foot);
   const FootDoubts about(foot);

@@ -7,6 +7,7 @@
 
 #include "core/foot/robust_extreme.h"
 #include "core/foot/rough_tape.h"
+#include "core/foot/skin_round.h"
 #include "core/geometry/quadratic_skin.h"
 #include "core/girth/tape_plane.h"
 
@@ -118,10 +119,15 @@ std::optional<Landmark> find_instep_point(const FootOutline& outline) {
   const auto slab = near_place(outline.points(), place, kRidgeSlabMm);
   if (slab.empty()) return std::nullopt;
   const Vector3d top = robust_extreme(slab, Vector3d::UnitZ());
-  if (const auto fitted = ridge(outline.points(), place, top.y())) {
-    return Landmark{*fitted, 0.8, "ridge of the foot's back at 0.50 of the foot's length"};
+  const auto fitted = ridge(outline.points(), place, top.y());
+  const Landmark instep =
+      fitted
+          ? Landmark{*fitted, 0.8, "ridge of the foot's back at 0.50 of the foot's length"}
+          : Landmark{{place, top.y(), top.z()}, 0.5, "highest point at 0.50 of the foot's length"};
+  if (!is_skin_all_round(outline.points(), instep.position_mm, Vector3d::UnitZ())) {
+    return std::nullopt;
   }
-  return Landmark{{place, top.y(), top.z()}, 0.5, "highest point at 0.50 of the foot's length"};
+  return instep;
 }
 
 std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const Landmark& instep) {
@@ -134,20 +140,25 @@ std::optional<Landmark> find_lateral_midfoot(const FootOutline& outline, const L
     const auto distance = [&](const Vector3d& at) { return (at.head<2>() - target).norm(); };
     if (!nearest || distance(point) < distance(*nearest)) nearest = point;
   }
-  if (!nearest) return std::nullopt;
+  if (!nearest || !is_skin_all_round(outline.points(), *nearest, -Vector3d::UnitY())) {
+    return std::nullopt;
+  }
   return Landmark{*nearest, 0.8,
                   "lateral outline in 0.25-0.45 of the foot's length nearest the instep"};
 }
 
 std::optional<Landmark> find_medial_arch(const FootOutline& outline, const Landmark& instep,
                                          const Landmark& lateral) {
+  const auto midfoot =
+      near_place(outline.points(), 0.45 * outline.length_mm(), 0.25 * outline.length_mm());
   // Where the medial side was not seen, what is left of a section ends on the lateral one.
   const auto medial_at = [&](double along) {
     const auto place = outline.medial().at(along);
-    return place && place->reach > instep.position_mm.y() ? place : std::nullopt;
+    const bool is_seen =
+        place && place->reach > instep.position_mm.y() &&
+        is_skin_all_round(midfoot, outline.medial().position(*place), Vector3d::UnitY());
+    return is_seen ? place : std::nullopt;
   };
-  const auto midfoot =
-      near_place(outline.points(), 0.45 * outline.length_mm(), 0.25 * outline.length_mm());
   std::vector<Vector2d> lengths;
   for (double share = kArchFrom; share <= kArchTo + 1e-9; share += kArchStep) {
     const auto place = medial_at(share * outline.length_mm());

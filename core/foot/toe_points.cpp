@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/foot/border_crest.h"
+#include "core/foot/skin_round.h"
 
 namespace instep {
 namespace {
@@ -51,6 +52,12 @@ std::optional<Vector3d> ruler_contact(const SkinBorder& border, const Vector3d& 
   return contact;
 }
 
+/// Whether a place on a border (`sign` +1 medial) is skin that tells.
+bool is_told_skin(const FootOutline& outline, const Vector3d& place, double sign) {
+  return outline.is_told(place) &&
+         is_skin_all_round(outline.points(), place, sign * Vector3d::UnitY());
+}
+
 /// Where the little toe near `contact` is furthest towards a ruler laid from `ball` to there.
 std::optional<Vector3d> crest_at_ruler(const FootOutline& outline, const Vector3d& ball,
                                        const Vector3d& contact) {
@@ -76,8 +83,9 @@ std::optional<Landmark> find_toe1_tip(const FootOutline& outline, const Landmark
       kToeSmoothingMm);
   const auto tip = front.furthest(inner_limit(tibiale, fibulare), tibiale.position_mm.y());
   if (!tip) return std::nullopt;
-  return Landmark{front.position(*tip), kConfidence,
-                  "foremost point in the medial 0.30 of the ball's breadth"};
+  const Vector3d position = front.position(*tip);
+  if (!is_skin_all_round(outline.points(), position, Vector3d::UnitX())) return std::nullopt;
+  return Landmark{position, kConfidence, "foremost point in the medial 0.30 of the ball's breadth"};
 }
 
 std::optional<Landmark> find_toe1_top(const FootOutline& outline, const Landmark& tibiale,
@@ -87,8 +95,12 @@ std::optional<Landmark> find_toe1_top(const FootOutline& outline, const Landmark
                          inner_limit(tibiale, fibulare), tibiale.position_mm.y()},
                         kToeSmoothingMm);
   const auto top = back.at(tip.position_mm.x() - kBehindTipMm);
-  if (!top || !outline.was_seen(back.position(*top))) return std::nullopt;
-  return Landmark{back.position(*top), kConfidence,
+  if (!top) return std::nullopt;
+  const Vector3d position = back.position(*top);
+  const bool is_skin = outline.was_seen(position) &&
+                       is_skin_all_round(outline.points(), position, Vector3d::UnitZ());
+  if (!is_skin) return std::nullopt;
+  return Landmark{position, kConfidence,
                   "highest point 15/260 of the foot's length behind the first toe's tip"};
 }
 
@@ -96,7 +108,7 @@ std::optional<Landmark> find_toe1_contact(const FootOutline& outline, const Land
   const double length = outline.length_mm();
   const auto contact =
       ruler_contact(outline.medial(), tibiale.position_mm, 1.0, 0.80 * length, 0.95 * length);
-  if (!contact) return std::nullopt;
+  if (!contact || !is_told_skin(outline, *contact, 1.0)) return std::nullopt;
   return Landmark{*contact, kConfidence,
                   "most medial bearing from metatarsale tibiale in 0.80-0.95 of the foot's length"};
 }
@@ -113,6 +125,7 @@ std::optional<Landmark> find_toe5_contact(const FootOutline& outline, const Land
     if (!crest || crest->x() < std::max(from, ball.x() + 1.0) || crest->x() > to) break;
     contact = crest;
   }
+  if (!is_told_skin(outline, *contact, -1.0)) return std::nullopt;
   return Landmark{*contact, kConfidence,
                   "most lateral bearing from metatarsale fibulare in 0.70-0.85 of the foot's "
                   "length"};
