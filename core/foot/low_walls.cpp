@@ -19,22 +19,29 @@ constexpr double kHeightMm = kHighestWallEndMm + kWallBendReachMm;
 constexpr double kMiddleMm = 20.0;  ///< height over the floor that lies within the foot
 constexpr std::size_t kNeighbours = 14;
 
-/// Of a wall round a foot, pointing away from the foot's middle line.
-std::vector<Vector3d> outward_normals(const std::vector<Vector3d>& points) {
-  const PointIndex index(points);
+/// Gives points of walls round a foot their normals, away from the foot's middle line, and drops
+/// those with none: of a scanner's line that runs alone nothing tells how its skin leans.
+void keep_those_of_skin(PointCloud& walls) {
+  constexpr double kLine = 0.05;  // squared: the breadth of what runs on in lines, over its length
+  const PointIndex index(walls.positions);
+  std::vector<std::size_t> kept;
   std::vector<Vector3d> normals;
-  normals.reserve(points.size());
-  for (const auto& point : points) {
-    const auto close = index.nearest(point, kNeighbours);
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Vector3d& point = walls.positions[i];
     Moments moments;
-    for (const auto& one : close) moments.add(points[one.index] - point);
-    Vector3d normal = moments.flattest();
+    for (const auto& one : index.nearest(point, kNeighbours)) {
+      moments.add(walls.positions[one.index] - point);
+    }
+    const SpreadAxes axes = moments.axes();
+    if (are_on_a_line(axes, kLine)) continue;
     const Vector3d middle(std::clamp(point.x(), 0.12 * kFullSizeMm, 0.85 * kFullSizeMm), 0.0,
                           kMiddleMm);
-    if (normal.dot(point - middle) < 0.0) normal = -normal;
-    normals.push_back(normal);
+    const Vector3d normal = axes.eigenvectors().col(0);
+    kept.push_back(i);
+    normals.push_back(normal.dot(point - middle) < 0.0 ? Vector3d(-normal) : normal);
   }
-  return normals;
+  walls = walls.subset(kept);
+  walls.normals = std::move(normals);
 }
 
 }  // namespace
@@ -52,7 +59,7 @@ LowWalls::LowWalls(const FootScan& foot, std::size_t most_points)
   }
   points.drop_errors_along_normals();  // of points at another size
   for (auto& place : points.positions) place *= to_full_size;
-  if (!points.has_normals()) points.normals = outward_normals(points.positions);
+  if (!points.has_normals()) keep_those_of_skin(points);
 }
 
 }  // namespace instep
