@@ -7,16 +7,24 @@
 #include "core/foot/border_smoothing.h"
 #include "core/foot/full_size.h"
 #include "core/foot/outline_axis.h"
+#include "core/foot/skin_round.h"
 
 namespace instep {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 // How far, as a share of the foot's length, each sign has to go to be worth one unit of evidence.
 constexpr double kClearToeOffset = 0.03;
 constexpr double kClearArchDepth = 0.02;
 constexpr double kClearBallOffset = 0.05;
+// Where less of either border was seen, its hollow and its ball are those of a rim. Real feet with
+// a side cut off, by planes from 15 mm beside the axis to all but 2 % of the points: see tests.
+constexpr double kLeastSeenShare = 0.7;
+constexpr double kMostOfHalfSeen = 0.75;  ///< confidence
+constexpr double kBorderHeightMm = 12.0;  ///< of a border over the floor, about
+constexpr double kLowMm = 45.0;
 
 /// The two borders of the outline, both counted outwards from the axis.
 struct Borders {
@@ -64,6 +72,22 @@ double ball_offset(const Borders& borders, double length) {
   return left && right ? left->place - right->place : 0.0;
 }
 
+/// Of a border from heel to ball, what is skin and not the rim of what was seen. `low`: the points
+/// up to well over the outline; `sign` +1 to the left.
+double seen_share(const std::vector<Vector3d>& low, const BorderProfile& border, double sign) {
+  constexpr double kFrom = 0.17;
+  constexpr double kTo = 0.80;
+  constexpr int kPlaces = 16;
+  int seen = 0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double place = std::lerp(kFrom, kTo, static_cast<double>(i) / kPlaces) * kFullSizeMm;
+    const auto reach = border.reach(place);
+    const Vector3d at(place, sign * reach.value_or(0.0), kBorderHeightMm);
+    if (reach && is_skin_all_round(low, at, sign * Vector3d::UnitY())) ++seen;
+  }
+  return static_cast<double>(seen) / (kPlaces + 1);
+}
+
 double unit_evidence(double value, double clear) {
   return std::clamp(value / clear, -3.0, 3.0);
 }
@@ -73,7 +97,9 @@ double unit_evidence(double value, double clear) {
 SideGuess side_from_shape(const std::vector<Eigen::Vector3d>& points, double length_mm) {
   const double factor = full_size_factor(length_mm);
   std::vector<Vector2d> outline;
+  std::vector<Vector3d> low;
   for (const auto& point : points) {
+    if (factor * point.z() < kLowMm) low.emplace_back(factor * point);
     if (point.z() > kOutlineHeightShare * length_mm) continue;
     outline.emplace_back(factor * point.head<2>());
   }
@@ -85,8 +111,11 @@ SideGuess side_from_shape(const std::vector<Eigen::Vector3d>& points, double len
       unit_evidence(hollow(borders.left, kFullSizeMm) - hollow(borders.right, kFullSizeMm),
                     kClearArchDepth * kFullSizeMm) +
       unit_evidence(ball_offset(borders, kFullSizeMm), kClearBallOffset * kFullSizeMm);
+  const double confidence = 1.0 / (1.0 + std::exp(-std::abs(for_right)));
+  const bool are_seen = std::min(seen_share(low, borders.left, 1.0),
+                                 seen_share(low, borders.right, -1.0)) >= kLeastSeenShare;
   return {for_right >= 0.0 ? Side::kRight : Side::kLeft,
-          1.0 / (1.0 + std::exp(-std::abs(for_right)))};
+          are_seen ? confidence : std::min(confidence, kMostOfHalfSeen)};
 }
 
 }  // namespace instep
