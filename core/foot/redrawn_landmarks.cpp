@@ -153,6 +153,14 @@ double variance_share(const Parting& parting) {
   return parting.is_part_left_out ? (parts - 1.0) * (parts - 1.0) / parts : 1.0 / parts;
 }
 
+/// What fewer points shift a value by goes as one over their number: that of all points over what
+/// those of a redraw are off them. Of parts left out it is the jackknife's estimate of bias (Efron,
+/// Tibshirani 1993, equation 10.8); of lines, between which nothing was seen, no more than it is.
+double bias_share(const Parting& parting) {
+  const bool are_points_left_out = parting.is_part_left_out && !parting.is_by_line;
+  return are_points_left_out ? static_cast<double>(parting.parts) - 1.0 : 1.0;
+}
+
 /// Where a redraw puts a landmark, in the frame of the foot.
 std::optional<Vector3d> place_of(const std::string& name, const RedrawnLandmarks& redrawn) {
   const auto found = redrawn.landmarks.find(name);
@@ -258,7 +266,7 @@ std::optional<double> u95_by_redraws(double told, const std::vector<std::optiona
     sum += *value;
     count += 1.0;
   }
-  return std::max(kSharedDoubt * *u95, std::abs(sum / count - told));
+  return std::max(kSharedDoubt * *u95, bias_share(parting) * std::abs(sum / count - told));
 }
 
 void set_radii(FootScan& foot) {
