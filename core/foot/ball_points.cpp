@@ -68,18 +68,23 @@ std::optional<SkinBorder::Place> crest_in_range(const FootOutline& outline,
   return place;
 }
 
-/// The samples of a border near where a rule looks that are no rim of a hole.
+/// The samples of a border, as far round a rule's range as what is usual of it reaches, that are no
+/// rim of a hole.
 SkinBorder on_skin(const FootOutline& outline, const SkinBorder& border, const Rule& rule) {
-  constexpr double kBesideMm = 30.0;
+  constexpr double kBesideMm = 20.0;  // of what is_skin_all_round() looks at
+  const double half = kUsualHalfShare * outline.length_mm();
+  const auto is_within = [&](double along, double margin) {
+    return along > rule.from - margin && along < rule.to + margin;
+  };
   std::vector<Eigen::Vector3d> near;
   for (const auto& point : outline.points()) {
-    const bool is_near = point.x() > rule.from - kBesideMm && point.x() < rule.to + kBesideMm &&
+    const bool is_near = is_within(point.x(), half + kBesideMm) &&
                          border.view().outwards.dot(point) > 0.0 &&
                          point.z() < kLandmarkOutlineHeightMm + kBesideMm;
     if (is_near) near.push_back(point);
   }
   return border.where([&](const SkinBorder::Place& place) {
-    return place.along >= rule.from && place.along <= rule.to &&
+    return is_within(place.along, half) &&
            is_skin_all_round(near, border.position(place), border.view().outwards);
   });
 }
@@ -136,8 +141,8 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   const SkinBorder skin = on_skin(outline, border, rule);
   const SkinBorder told = told_part(outline, skin);
   const double place = peak ? peak->along : rule.prior;
-  const double from = std::max(std::min(place, rule.prior) - rule.patch_mm, rule.from);
-  const double to = std::min(std::max(place, rule.prior) + rule.patch_mm, rule.to);
+  const double from = std::min(place, rule.prior) - rule.patch_mm;
+  const double to = std::max(place, rule.prior) + rule.patch_mm;
   if (has_gap(told, from, to)) {
     if (auto hidden = hidden_point(outline, told, skin, rule)) return hidden;
   }

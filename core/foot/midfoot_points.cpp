@@ -21,6 +21,7 @@ constexpr double kInstepShare = 0.50;
 constexpr double kRidgeHalfWidthMm = 8.0;
 constexpr double kRidgeSlabMm = 3.0;
 constexpr std::size_t kFewestRidgePoints = 12;
+constexpr double kSteepestRidge = 0.5;
 
 constexpr double kArchFrom = 0.35;
 constexpr double kArchTo = 0.60;
@@ -38,8 +39,14 @@ std::vector<Vector3d> near_place(const std::vector<Vector3d>& points, double pla
   return slab;
 }
 
-/// Height of the back at (place, y), by a plane in x and a quadratic in y through points near by.
-std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place, double y) {
+/// The back where it is highest near a place.
+struct Ridge {
+  Vector3d place;
+  double slope = 0.0;  ///< across; none but where it rises on
+};
+
+/// Of the back near (place, y), by a plane in x and a quadratic in y through points near by.
+std::optional<Ridge> ridge(const std::vector<Vector3d>& points, double place, double y) {
   std::vector<Vector3d> close;
   double highest = -1e300;
   for (const auto& point : near_place(points, place, kRidgeHalfWidthMm)) {
@@ -62,7 +69,8 @@ std::optional<Vector3d> ridge(const std::vector<Vector3d>& points, double place,
   const Eigen::VectorXd fitted = matrix.colPivHouseholderQr().solve(height);
   const double aside = fitted(4) < 0.0 ? -fitted(2) / (2.0 * fitted(4)) : 0.0;
   const double step = std::clamp(aside, -kRidgeHalfWidthMm, kRidgeHalfWidthMm);
-  return Vector3d(place, y + step, fitted(0) + step * (fitted(2) + step * fitted(4)));
+  return Ridge{{place, y + step, fitted(0) + step * (fitted(2) + step * fitted(4))},
+               fitted(2) + 2.0 * step * fitted(4)};
 }
 
 /// Where the cubic through (place, length) pairs is lowest, if it is so inside their range.
@@ -120,9 +128,11 @@ std::optional<Landmark> find_instep_point(const FootOutline& outline) {
   if (slab.empty()) return std::nullopt;
   const Vector3d top = robust_extreme(slab, Vector3d::UnitZ());
   const auto fitted = ridge(outline.points(), place, top.y());
+  // Beside a hole in the back its side is highest.
+  if (fitted && std::abs(fitted->slope) > kSteepestRidge) return std::nullopt;
   const Landmark instep =
       fitted
-          ? Landmark{*fitted, 0.8, "ridge of the foot's back at 0.50 of the foot's length"}
+          ? Landmark{fitted->place, 0.8, "ridge of the foot's back at 0.50 of the foot's length"}
           : Landmark{{place, top.y(), top.z()}, 0.5, "highest point at 0.50 of the foot's length"};
   if (!is_skin_all_round(outline.points(), instep.position_mm, Vector3d::UnitZ())) {
     return std::nullopt;

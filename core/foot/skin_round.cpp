@@ -14,11 +14,15 @@ using Eigen::Vector3d;
 
 constexpr double kReachMm = 12.0;
 constexpr double kDepthMm = 20.0;
-constexpr std::size_t kFewestNear = 24;
-constexpr std::size_t kSectors = 24;
-constexpr std::size_t kWidestGap = 10;  ///< of the sectors: 150 degrees
-/// In the middle of a wide hole the nearest point is as far off as the 24th; of random points on
-/// skin it is nearer than this share of that, but by a chance of 1e-7, and of a scanner's lines
+constexpr std::size_t kFewestNear = 40;
+/// Nearer ones tell nothing: some lie between a place and a rim.
+constexpr double kLeastTellingMm = 6.0;
+constexpr std::size_t kSectors = 36;
+/// Of the sectors: 130 degrees, as a hole 30 mm wide leaves at its rim. So many random points leave
+/// a wider one by a chance of 2e-6.
+constexpr std::size_t kWidestGap = 13;
+/// In the middle of a wide hole the nearest point is as far off as the 40th; of random points on
+/// skin it is nearer than this share of that, but by a chance of 1e-9, and of a scanner's lines
 /// that run round the place it is near.
 constexpr double kNearestShare = 0.7;
 constexpr double kNearMm = 15.0;
@@ -69,7 +73,8 @@ bool is_skin_all_round(const std::vector<Vector3d>& points, const Vector3d& plac
   if (nearest->norm() > std::max(kNearMm, kNearestShare * reach)) return false;
   std::array<bool, kSectors> is_filled{};
   for (const auto& offset : near) {
-    if (offset.norm() <= reach) is_filled[sector_of(offset)] = true;
+    const double distance = offset.norm();
+    if (distance >= kLeastTellingMm && distance <= reach) is_filled[sector_of(offset)] = true;
   }
   for (std::size_t i = 0; i < kSectors; ++i) {
     const Vector2d direction = direction_of(i);

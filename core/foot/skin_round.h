@@ -9,10 +9,10 @@ namespace instep {
 /// length), at full size (full_size.h). Where it is missing to one side the place is the rim of a
 /// hole, or of a scan that was cut off, and the body itself may reach further: no rule may take it.
 ///
-/// Looked at along `outwards`, the points up to 12 mm off, or the 24 nearest where these lie
-/// further apart, have to leave no gap of 150 degrees or more round the place, and one of them to
-/// be near it. What lies 20 mm or more behind it is the body's other side. The floor, z = 0, counts
-/// as seen. Holes narrower than that pass: rules bridge them. O(n).
+/// Looked at along `outwards`, the points 6 to 12 mm off, or to the 40th nearest where these lie
+/// further apart, have to leave no gap of 130 degrees or more round the place, and one point to be
+/// near it. What lies 20 mm or more behind it is the body's other side. The floor, z = 0, counts as
+/// seen. Holes less than 30 mm wide pass: rules bridge them. O(n).
 bool is_skin_all_round(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& place,
                        const Eigen::Vector3d& outwards);
 

@@ -164,7 +164,8 @@ TEST(DeeperSole, LeavesOpenWhatRoundEdgesAddBelowTheLastLine) {
   const Section section(20.0);
   for (const double below : {1.5, 3.0, 6.0}) {
     const double longer = 2.0 * (half_way_round(0.0) - half_way_round(below));
-    EXPECT_NEAR(doubt_of_deeper_sole({0.0, below}, section.plane, section.girth), longer, 0.01) << below;
+    EXPECT_NEAR(doubt_of_deeper_sole({0.0, below}, section.plane, section.girth), longer, 0.01)
+        << below;
   }
 }
 

@@ -363,14 +363,31 @@ TEST(Measures, RefuseAFootWithoutLandmarks) {
   EXPECT_EQ(set.error().code, ErrorCode::kInvalidInput);
 }
 
-/// Whoever stands there can do something about the one, and nothing about the others.
-TEST(Measures, AreRefusedWithoutTheLandmarksThatAllHangOn) {
+TEST(Measures, WithoutAnInstepAreThoseThatDoNotHangOnIt) {
+  const auto foot = prepared(FootBody{}.points());
+  const auto whole = measure_foot(foot);
+  ASSERT_TRUE(whole) << whole.error().line();
+  FootScan unseen = foot;
+  unseen.landmarks.erase("instep_point");
+  const auto set = measure_foot(unseen);
+  ASSERT_TRUE(set) << set.error().line();
+  for (const char* id : {"instep_height", "instep_girth", "waist_girth", "long_heel_girth"}) {
+    ASSERT_NE(whole->find(id), nullptr) << id;
+    EXPECT_EQ(set->find(id), nullptr) << id;
+    const auto reason = std::find_if(set->withheld.begin(), set->withheld.end(),
+                                     [&](const auto& withheld) { return withheld.id == id; });
+    ASSERT_NE(reason, set->withheld.end()) << id;
+    EXPECT_NE(reason->reason.find("instep_point was not found: scan"), std::string::npos)
+        << reason->reason;
+  }
+  for (const char* id : {"foot_length", "ball_girth", "heel_breadth"}) {
+    ASSERT_NE(set->find(id), nullptr) << id;
+    EXPECT_EQ(set->find(id)->value_mm, whole->find(id)->value_mm) << id;
+  }
+}
+
+TEST(Measures, AreRefusedOfAFootThatIsNotAligned) {
   auto foot = prepared(FootBody{}.points());
-  foot.landmarks.erase("instep_point");
-  const auto unseen = measure_foot(foot);
-  ASSERT_FALSE(unseen);
-  EXPECT_EQ(unseen.error().code, ErrorCode::kInsufficientData);
-  EXPECT_NE(unseen.error().advice.find("scan again"), std::string::npos);
   foot.landmarks.erase("pternion");
   const auto unaligned = measure_foot(foot);
   ASSERT_FALSE(unaligned);

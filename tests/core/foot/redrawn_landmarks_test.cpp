@@ -75,6 +75,15 @@ TEST(Redraws, ReachFromWhatWasToldToWhereTheyLie) {
 }
 
 /// They were other draws wherever a processor rounds otherwise.
+/// An extreme of points falls short by as much as one over their number: the whole does by three
+/// times what leaving out a fourth adds to that.
+TEST(Redraws, ThatLeaveOutPartsReachToTheBiasOfTheWhole) {
+  const Values short_ends{-1.1, -0.9, -1.0, -1.0, -1.0, -1.0, -0.9, -1.1};
+  EXPECT_NEAR(u95_by_redraws(0.0, short_ends, {4, true}).value(), 3.0, 1e-9);
+  EXPECT_NEAR(u95_by_redraws(0.0, short_ends, {4, true, true}).value(), 1.0, 1e-9);
+  EXPECT_NEAR(u95_by_redraws(0.0, short_ends, {4, false}).value(), 1.0, 1e-9);
+}
+
 TEST(Redraws, AreTheSameWhateverTheLastBitsOfPlaces) {
   const PointCloud cloud = test::FootBody{}.points();
   PointCloud rounded = cloud;

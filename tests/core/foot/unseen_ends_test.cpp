@@ -128,7 +128,7 @@ TEST(UnseenEnds, AreTheReasonWhereALongerFootCouldNotBeMeasuredSo) {
     return one.reason.find("an end of the foot was not seen") != std::string::npos;
   };
   int told = 0;
-  for (const std::uint64_t seed : {5U, 8U, 10U}) {
+  for (const std::uint64_t seed : {13U, 24U}) {
     const auto foot = align_foot(test::draw_scanned_foot_without_truth(seed).cloud);
     ASSERT_TRUE(foot) << foot.error().line();
     const double length = foot->landmarks.at("acropodion").position_mm.x();

@@ -99,7 +99,9 @@ TEST_P(CloseSoleOfRealFeet, LeavesTheirBallGirthsWithinTheirIntervalsWhereAWallW
   const WholeFoot whole(GetParam());
   AlignmentOptions options;
   options.standing_plane = StandingPlane{};
-  const double medial_sign = std::string(GetParam()) == "retail_left.stl" ? -1.0 : 1.0;
+  const bool is_left = std::string(GetParam()) == "retail_left.stl";
+  options.side = is_left ? Side::kLeft : Side::kRight;
+  const double medial_sign = is_left ? -1.0 : 1.0;
   for (const double hidden_mm : {12.0, 18.0, 24.0}) {
     const auto open = align_foot(whole.seen_beside_another(hidden_mm, medial_sign, 10), options)
                           .and_then(find_landmarks);
