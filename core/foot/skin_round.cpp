@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace instep {
@@ -39,6 +40,54 @@ Vector2d direction_of(std::size_t sector) {
   return {std::cos(turn), std::sin(turn)};
 }
 
+/// How points lie round a place, as seen along a direction.
+class Sight {
+ public:
+  Sight(const Vector3d& place, const Vector3d& outwards)
+      : place_(place),
+        outwards_(outwards),
+        aside_(outwards.unitOrthogonal()),
+        other_(outwards.cross(aside_)) {}
+
+  /// Offsets from the place of the points that are not too deep, up to a distance from it.
+  std::vector<Vector2d> offsets(const std::vector<Vector3d>& points, double most_mm) const {
+    const double most_squared = most_mm * most_mm + kDepthMm * kDepthMm;
+    std::vector<Vector2d> found;
+    for (const auto& point : points) {
+      const Vector3d offset = point - place_;
+      if (offset.squaredNorm() > most_squared) continue;
+      if (std::abs(outwards_.dot(offset)) > kDepthMm) continue;
+      const Vector2d seen(aside_.dot(offset), other_.dot(offset));
+      if (seen.norm() <= most_mm) found.push_back(seen);
+    }
+    return found;
+  }
+
+  /// Of a place so far off in a direction.
+  double height(const Vector2d& direction, double distance) const {
+    return place_.z() + distance * (direction.x() * aside_.z() + direction.y() * other_.z());
+  }
+
+ private:
+  Vector3d place_;
+  Vector3d outwards_;
+  Vector3d aside_;
+  Vector3d other_;
+};
+
+/// Those up to kReachMm off or, if they are too few, the nearest; fewer if there are no more.
+std::vector<Vector2d> nearest_offsets(const std::vector<Vector3d>& points, const Sight& sight) {
+  auto near = sight.offsets(points, kReachMm);
+  if (near.size() >= kFewestNear) return near;
+  near = sight.offsets(points, std::numeric_limits<double>::infinity());
+  if (near.size() <= kFewestNear) return near;
+  std::nth_element(
+      near.begin(), near.begin() + kFewestNear - 1, near.end(),
+      [](const Vector2d& a, const Vector2d& b) { return a.squaredNorm() < b.squaredNorm(); });
+  near.resize(kFewestNear);
+  return near;
+}
+
 /// The most that follow each other round the circle.
 std::size_t longest_gap(const std::array<bool, kSectors>& is_filled) {
   std::size_t longest = 0;
@@ -54,32 +103,21 @@ std::size_t longest_gap(const std::array<bool, kSectors>& is_filled) {
 
 bool is_skin_all_round(const std::vector<Vector3d>& points, const Vector3d& place,
                        const Vector3d& outwards) {
-  const Vector3d aside = outwards.unitOrthogonal();
-  const Vector3d other = outwards.cross(aside);
-  std::vector<Vector2d> near;
-  for (const auto& point : points) {
-    const Vector3d offset = point - place;
-    if (std::abs(outwards.dot(offset)) > kDepthMm) continue;
-    near.emplace_back(aside.dot(offset), other.dot(offset));
-  }
+  const Sight sight(place, outwards);
+  const auto near = nearest_offsets(points, sight);
   if (near.size() < kFewestNear) return false;
-  const auto is_nearer = [](const Vector2d& a, const Vector2d& b) {
-    return a.squaredNorm() < b.squaredNorm();
-  };
-  const auto last = near.begin() + kFewestNear - 1;
-  std::nth_element(near.begin(), last, near.end(), is_nearer);
-  const double reach = std::max(kReachMm, last->norm());
-  const auto nearest = std::min_element(near.begin(), last + 1, is_nearer);
-  if (nearest->norm() > std::max(kNearMm, kNearestShare * reach)) return false;
+  double nearest = std::numeric_limits<double>::infinity();
+  double reach = kReachMm;
   std::array<bool, kSectors> is_filled{};
   for (const auto& offset : near) {
     const double distance = offset.norm();
-    if (distance >= kLeastTellingMm && distance <= reach) is_filled[sector_of(offset)] = true;
+    nearest = std::min(nearest, distance);
+    reach = std::max(reach, distance);
+    if (distance >= kLeastTellingMm) is_filled[sector_of(offset)] = true;
   }
+  if (nearest > std::max(kNearMm, kNearestShare * reach)) return false;
   for (std::size_t i = 0; i < kSectors; ++i) {
-    const Vector2d direction = direction_of(i);
-    const double rise = direction.x() * aside.z() + direction.y() * other.z();
-    if (place.z() + reach * rise < 0.0) is_filled[i] = true;
+    if (sight.height(direction_of(i), reach) < 0.0) is_filled[i] = true;
   }
   return longest_gap(is_filled) < kWidestGap;
 }
