@@ -55,6 +55,11 @@ struct Rule {
   const char* name;
 };
 
+bool is_on_skin(const FootOutline& outline, const SkinBorder& border,
+                const SkinBorder::Place& place) {
+  return is_skin_all_round(outline.points(), border.position(place), border.view().outwards);
+}
+
 /// Where one surface through all points round `start` has the weighed border's furthest place.
 std::optional<SkinBorder::Place> crest_in_range(const FootOutline& outline,
                                                 const SkinBorder& border,
@@ -146,11 +151,9 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   if (has_gap(told, from, to)) {
     if (auto hidden = hidden_point(outline, told, skin, rule)) return hidden;
   }
-  if (!peak ||
-      !is_skin_all_round(outline.points(), border.position(*peak), border.view().outwards)) {
-    return std::nullopt;
-  }
+  if (!peak) return std::nullopt;
   if (const auto crest = crest_in_range(outline, border, *peak, rule)) peak = crest;
+  if (!is_on_skin(outline, border, *peak)) return std::nullopt;
   // What holds the place is how the border falls off to either side, and how the handicap does.
   const double by_shape = std::max(0.0, -peak->bend);
   const double share = by_shape / (by_shape + by_prior);
@@ -195,16 +198,16 @@ std::optional<Landmark> broadest(const FootOutline& outline, const SkinBorder& b
                                  const Landmark& metatarsal) {
   const double length = outline.length_mm();
   const auto peak = border.furthest(0.50 * length, 0.85 * length);
-  if (!peak ||
-      !is_skin_all_round(outline.points(), border.position(*peak), border.view().outwards)) {
-    return std::nullopt;
-  }
+  if (!peak) return std::nullopt;
   Landmark furthest{border.position(*peak), 0.9,
                     "furthest point of the outline in 0.50-0.85 of the foot's length"};
-  if (metatarsal.deviations_off_mm.empty()) return furthest;
+  const bool is_skin = is_on_skin(outline, border, *peak);
+  if (metatarsal.deviations_off_mm.empty()) {
+    return is_skin ? std::optional(furthest) : std::nullopt;
+  }
   const Eigen::Vector3d& outwards = border.view().outwards;
   const double less = outwards.dot(furthest.position_mm - metatarsal.position_mm);
-  if (less < 0.0) {
+  if (less < 0.0 || !is_skin) {
     furthest = metatarsal;
     furthest.rule = "as the point of the ball, where the outline was not seen";
   }

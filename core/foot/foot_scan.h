@@ -25,8 +25,8 @@ struct Landmark {
   std::optional<double> radius_mm = std::nullopt;
   /// Where it lies instead, as seen from there, if something that redraws share, and so do not
   /// show, is one standard deviation off; each for itself: of `heel_point` the edge of a standing
-  /// foot's sole, of the metatarsal points and `ball_top` a border that was not seen there. None of
-  /// all others.
+  /// foot's sole, of the points of the ball and the heel's sides a border that was not seen there.
+  /// None of all others.
   std::vector<Eigen::Vector3d> deviations_off_mm = {};
 
   /// The points hardly tell where it is. Of `toe2_tip` FootScan::has_seen_toes() tells instead.

@@ -26,8 +26,8 @@ constexpr double kHeelRangeShare = 0.1;       ///< to either side of the line th
 constexpr double kMostUnderFloorMm = 2.0;     ///< where the border's own end runs away
 constexpr double kLowestOfHeelMm = 6.0;       ///< below it no wall of a heel reaches furthest
 constexpr double kFarthestFromSeenMm = 15.0;  ///< a wall that is guessed
-/// How far the breadth of one may be off, for each millimetre from what was seen: set by eye, of
-/// holes 35 mm wide in the wall of a heel that stood on glass the border was 6 mm too far in.
+/// One standard deviation of where such a one is, for each millimetre from what was seen: set by
+/// eye, of holes 70 mm wide in the wall of a heel whose sole was not seen it was 6 mm too far in.
 constexpr double kGuessedWallShare = 0.25;
 /// Of a place that no fit tells: what it is where no point shows the edge.
 const Vector3d kUsuallyOff(-0.4, 0.0, 1.0);

@@ -7,8 +7,9 @@
 
 namespace instep {
 
-/// Right-foot form, as all here. Nothing where the cloud has no points there; of the heel's sides
-/// neither where no camera saw their wall.
+/// Right-foot form, as all here. Nothing where the cloud has no points there, or, but for the
+/// junction, only the rim of a hole (skin_round.h); of the heel's sides neither where no camera saw
+/// their wall, and beside what was seen of it with Landmark::deviations_off_mm.
 
 /// Where along the axis the heel's breadth is taken. Nothing if no breadth is found at all.
 std::optional<double> heel_breadth_place(const FootOutline& outline, HeelBreadthRule rule);

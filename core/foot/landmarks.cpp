@@ -27,7 +27,8 @@ class Marking {
 
   std::optional<Landmark> add(const char* name, std::optional<Landmark> landmark) {
     if (!landmark) {
-      foot_.warnings.push_back(std::string(name) + " not found: the cloud has no points there");
+      foot_.warnings.push_back(std::string(name) +
+                               " not found: the cloud has no points there, or a hole");
       return landmark;
     }
     if (landmark->is_placed_by_proportion()) {

@@ -51,9 +51,10 @@ namespace instep {
 ///
 /// Radii, and what the measures' intervals need (FootScan::redraws), come from redraw_landmarks().
 ///
-/// A landmark for which the cloud has no points at all is left out, with a warning; measures that
-/// need it are then withheld. Fails with kInvalidInput if `foot` lacks the landmarks of
-/// align_foot(). O(n), most of it for the redraws; tests/bench/feet prints the time.
+/// A landmark for which the cloud has no points at all, or only the rim of a hole (skin_round.h),
+/// is left out, with a warning; measures that need it are then withheld. Fails with kInvalidInput
+/// if `foot` lacks the landmarks of align_foot(). O(n), most of it for the redraws;
+/// tests/bench/feet prints the time.
 Result<FootScan> find_landmarks(FootScan foot);
 
 /// The same, of which `workers` do the redraws, some milliseconds each; with any of them the

@@ -1,6 +1,8 @@
 #include "core/foot/low_walls.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,25 +20,37 @@ using Eigen::Vector3d;
 constexpr double kHeightMm = kHighestWallEndMm + kWallBendReachMm;
 constexpr double kMiddleMm = 20.0;  ///< height over the floor that lies within the foot
 constexpr std::size_t kNeighbours = 14;
+constexpr std::size_t kMostNeighbours = 224;  ///< where these are all of one line
+
+/// How the skin spreads round a point; nothing of a scanner's line that runs alone, by which
+/// nothing tells how it leans.
+std::optional<SpreadAxes> skin_round(const Vector3d& point, const PointIndex& index) {
+  constexpr double kLine = 0.05;  // squared: the breadth of what runs on in lines, over its length
+  constexpr double kFarthestMm = 15.0;
+  for (std::size_t count = kNeighbours; count <= kMostNeighbours; count *= 4) {
+    Moments moments;
+    const auto near = index.nearest(point, count);
+    for (const auto& one : near) moments.add(index.points()[one.index] - point);
+    const SpreadAxes axes = moments.axes();
+    if (!are_on_a_line(axes, kLine)) return axes;
+    if (near.size() < count || std::sqrt(near.back().squared_distance) > kFarthestMm) break;
+  }
+  return std::nullopt;
+}
 
 /// Gives points of walls round a foot their normals, away from the foot's middle line, and drops
-/// those with none: of a scanner's line that runs alone nothing tells how its skin leans.
+/// those with none.
 void keep_those_of_skin(PointCloud& walls) {
-  constexpr double kLine = 0.05;  // squared: the breadth of what runs on in lines, over its length
   const PointIndex index(walls.positions);
   std::vector<std::size_t> kept;
   std::vector<Vector3d> normals;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Vector3d& point = walls.positions[i];
-    Moments moments;
-    for (const auto& one : index.nearest(point, kNeighbours)) {
-      moments.add(walls.positions[one.index] - point);
-    }
-    const SpreadAxes axes = moments.axes();
-    if (are_on_a_line(axes, kLine)) continue;
+    const auto axes = skin_round(point, index);
+    if (!axes) continue;
     const Vector3d middle(std::clamp(point.x(), 0.12 * kFullSizeMm, 0.85 * kFullSizeMm), 0.0,
                           kMiddleMm);
-    const Vector3d normal = axes.eigenvectors().col(0);
+    const Vector3d normal = axes->eigenvectors().col(0);
     kept.push_back(i);
     normals.push_back(normal.dot(point - middle) < 0.0 ? Vector3d(-normal) : normal);
   }

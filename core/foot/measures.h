@@ -37,11 +37,11 @@ struct MeasureOptions {
 /// whose interval is wider, to either side, than an eighth of it and 5 mm, or than 10 degrees: the
 /// foot's length alone says as much (core/foot/useless_measure.h). The length itself may be so too,
 /// and then there are no sizes; where the skin of the toes or the heel runs on and only the points
-/// end, it says so, and all intervals hold what another 10 mm of foot along its axis would change
-/// (core/foot/unseen_ends.h). One that leans on a doubtful landmark carries a warning. Fails with
-/// kInvalidInput if the foot has no pternion, acropodion or instep point. A left foot has the
-/// measures of its mirror image. The cost is that of the girths, twice where the side is not sure;
-/// `go_on` hears of each measure, and once it returns false the whole fails with kCancelled.
+/// end, or has a hole, it says so, and all intervals hold what another 10 mm of foot along its axis
+/// would change (core/foot/unseen_ends.h). One that leans on a doubtful landmark carries a warning.
+/// Fails with kInvalidInput if the foot has no pternion or acropodion. A left foot has the measures
+/// of its mirror image. The cost is that of the girths, twice where the side is not sure; `go_on`
+/// hears of each measure, and once it returns false the whole fails with kCancelled.
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
                                 const GoOn& go_on = always);
 

@@ -21,7 +21,7 @@ constexpr double kInstepShare = 0.50;
 constexpr double kRidgeHalfWidthMm = 8.0;
 constexpr double kRidgeSlabMm = 3.0;
 constexpr std::size_t kFewestRidgePoints = 12;
-constexpr double kSteepestRidge = 0.5;
+constexpr double kSteepestRidge = 0.5;  ///< across; on whole feet it is level, by how it is found
 
 constexpr double kArchFrom = 0.35;
 constexpr double kArchTo = 0.60;

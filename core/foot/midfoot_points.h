@@ -8,7 +8,8 @@
 namespace instep {
 
 /// The ridge of the foot's back at half its length, over the middle cuneiform. Right-foot form, as
-/// all here. Nothing where the cloud has no points there, as below.
+/// all here. Nothing where the cloud has no points there, or only the rim of a hole
+/// (skin_round.h), as below.
 std::optional<Landmark> find_instep_point(const FootOutline& outline);
 
 /// The point of the lateral outline nearest to the instep point in floor projection.

@@ -55,8 +55,9 @@ std::optional<double> u95_of_erring(const std::vector<std::optional<double>>& va
                                     const std::vector<std::optional<double>>& erring);
 
 /// The same of a value that was told, from what the redraws gave for it, widened for what all of
-/// them share; no narrower than the told value is off from them on average: where they agree on
-/// another, it hangs on points that few of them have, as at the border of a hole.
+/// them share; no narrower than the told value is off from them on average, or where points are
+/// left out three times that, by which the told value itself is off (the jackknife's bias): where
+/// they agree on another, it hangs on points that few of them have, as at the border of a hole.
 std::optional<double> u95_by_redraws(double told, const std::vector<std::optional<double>>& values,
                                      const Parting& parting);
 

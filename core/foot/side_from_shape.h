@@ -15,8 +15,8 @@ struct SideGuess {
 
 /// Tells left from right by what every foot has: the toes end on the medial side of the line from
 /// heel to ball, the arch hollows the medial border, and the ball protrudes further forward on the
-/// medial side (0.69 of the length against 0.63). Each is weighed by how clear it is. Where part of
-/// a border was not seen (skin_round.h) the side is not sure (kSureSide).
+/// medial side (0.69 of the length against 0.63). Each is weighed by how clear it is. Where more
+/// than 0.15 of either border was not seen (skin_round.h) the side is not sure (kSureSide). O(n).
 ///
 /// `points` stand on z = 0 with the heel at the origin and the toes at x = `length_mm`, about the
 /// axis of the outline. A mirrored shape gives the other side with the same confidence.

@@ -19,12 +19,12 @@ constexpr std::size_t kFewestNear = 40;
 /// Nearer ones tell nothing: some lie between a place and a rim.
 constexpr double kLeastTellingMm = 6.0;
 constexpr std::size_t kSectors = 36;
-/// Of the sectors: 130 degrees, as a hole 30 mm wide leaves at its rim. So many random points leave
-/// a wider one by a chance of 2e-6.
+/// Of the sectors that lie over the floor, where all do: 130 degrees, as a hole 30 mm wide leaves
+/// at its rim. So many random points leave a wider one by a chance of 2e-6.
 constexpr std::size_t kWidestGap = 13;
 /// In the middle of a wide hole the nearest point is as far off as the 40th; of random points on
-/// skin it is nearer than this share of that, but by a chance of 1e-9, and of a scanner's lines
-/// that run round the place it is near.
+/// skin it is nearer than this share of that, but by a chance of 1e-9, and of lines of a scanner up
+/// to 30 mm apart it is near.
 constexpr double kNearestShare = 0.7;
 constexpr double kNearMm = 15.0;
 
@@ -40,23 +40,31 @@ Vector2d direction_of(std::size_t sector) {
   return {std::cos(turn), std::sin(turn)};
 }
 
+/// Below skin that faces up lies the sole.
+double depth_below(const Vector3d& place, const Vector3d& outwards) {
+  constexpr double kShareOfHeight = 0.6;
+  if (!(outwards.z() > 0.0)) return kDepthMm;
+  return std::min(kDepthMm, kShareOfHeight * std::max(0.0, place.z()) / outwards.z());
+}
+
 /// How points lie round a place, as seen along a direction.
 class Sight {
  public:
   Sight(const Vector3d& place, const Vector3d& outwards)
       : place_(place),
         outwards_(outwards),
+        depth_mm_(depth_below(place, outwards)),
         aside_(outwards.unitOrthogonal()),
         other_(outwards.cross(aside_)) {}
 
   /// Offsets from the place of the points that are not too deep, up to a distance from it.
   std::vector<Vector2d> offsets(const std::vector<Vector3d>& points, double most_mm) const {
-    const double most_squared = most_mm * most_mm + kDepthMm * kDepthMm;
+    const double most_squared = most_mm * most_mm + depth_mm_ * depth_mm_;
     std::vector<Vector2d> found;
     for (const auto& point : points) {
       const Vector3d offset = point - place_;
       if (offset.squaredNorm() > most_squared) continue;
-      if (std::abs(outwards_.dot(offset)) > kDepthMm) continue;
+      if (std::abs(outwards_.dot(offset)) > depth_mm_) continue;
       const Vector2d seen(aside_.dot(offset), other_.dot(offset));
       if (seen.norm() <= most_mm) found.push_back(seen);
     }
@@ -71,6 +79,7 @@ class Sight {
  private:
   Vector3d place_;
   Vector3d outwards_;
+  double depth_mm_;
   Vector3d aside_;
   Vector3d other_;
 };
@@ -116,10 +125,13 @@ bool is_skin_all_round(const std::vector<Vector3d>& points, const Vector3d& plac
     if (distance >= kLeastTellingMm) is_filled[sector_of(offset)] = true;
   }
   if (nearest > std::max(kNearMm, kNearestShare * reach)) return false;
+  std::size_t over_floor = 0;
   for (std::size_t i = 0; i < kSectors; ++i) {
-    if (sight.height(direction_of(i), reach) < 0.0) is_filled[i] = true;
+    const bool is_over = sight.height(direction_of(i), reach) >= 0.0;
+    is_filled[i] = is_filled[i] || !is_over;
+    over_floor += is_over ? 1 : 0;
   }
-  return longest_gap(is_filled) < kWidestGap;
+  return longest_gap(is_filled) * kSectors < kWidestGap * over_floor;
 }
 
 }  // namespace instep

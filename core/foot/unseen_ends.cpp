@@ -50,9 +50,10 @@ struct SeenEnd {
 
 std::vector<Eigen::Vector3d> at_full_size(
     const FootScan& foot, const std::function<bool(const Eigen::Vector3d&)>& is_of) {
+  const double factor = full_size_factor(length_of(foot));
   std::vector<Eigen::Vector3d> part;
   for (const auto& point : foot.shape().positions) {
-    if (is_of(point)) part.emplace_back(full_size_factor(length_of(foot)) * point);
+    if (is_of(point)) part.emplace_back(factor * point);
   }
   return part;
 }
@@ -65,8 +66,10 @@ SeenEnd seen_toes(const FootScan& foot) {
       full_size_factor(length) * foot.landmarks.at("acropodion").position_mm;
   const Eigen::Vector3d forward = Eigen::Vector3d::UnitX();
   // Where the first toe is a hole, the tip of the next one is as round.
+  const bool is_first_missing =
+      foot.landmarks.contains("metatarsale_fibulare") && !foot.landmarks.contains("toe1_tip");
   return {end_facing(toes, tip, forward).value_or(0.0),
-          is_skin_all_round(toes, tip, forward) && foot.landmarks.contains("toe1_tip")};
+          !is_first_missing && is_skin_all_round(toes, tip, forward)};
 }
 
 /// At the rearmost place of its skin; the pternion may lie in the middle of what was not seen.
@@ -84,11 +87,12 @@ SeenEnd seen_heel(const FootScan& foot) {
   return {end_facing(low, end, back).value_or(0.0), is_skin_all_round(heel, end, back)};
 }
 
-/// What may be missing of it, at full size; 0 of one that was seen whole.
+/// What may be missing of it; 0 of one that was seen whole.
 double missing_of_toes_mm(const SeenEnd& toes) {
   return toes.facing < kLeastFacingOfToes || !toes.is_whole ? kUnseenToesMm : 0.0;
 }
 
+/// The same, at full size.
 double missing_of_heel_mm(const SeenEnd& heel) {
   const double by_facing =
       heel.facing < kLeastFacingOfHeel ? kUnseenHeelMm * (1.0 - heel.facing) : 0.0;

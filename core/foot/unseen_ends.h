@@ -9,12 +9,13 @@
 namespace instep {
 
 /// The ends of a foot where its skin runs on and only the points end (end_facing()), as of a foot
-/// that reached out of view: it is longer, by nobody knows how much.
+/// that reached out of view, or where it has a hole: it is longer, by nobody knows how much.
 struct UnseenEnds {
   std::string warning;
   /// The landmarks as they would be if it went on: at the toes for another 10 mm, where more was
   /// cut off the warning alone tells; at the heel for as much as its skin, which is about as round
-  /// on all feet, lacks of facing backwards, 25 mm at most, its axis turned. Of each end for
+  /// on all feet, lacks of facing backwards, at least 10 mm where it has a hole and 25 at most, its
+  /// axis turned. Of each end for
   /// itself.
   std::vector<RedrawnLandmarks> if_longer;
 };

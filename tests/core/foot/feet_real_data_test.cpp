@@ -262,7 +262,8 @@ TEST_F(RealFeet, WithAHoleTellNothingWrong) {
     std::size_t told = 0;
     for (const char* place :
          {"instep_point", "ball_top", "metatarsale_tibiale", "metatarsale_fibulare", "toe1_tip",
-          "toe5_contact", "heel_breadth_medial", "heel_breadth_lateral"}) {
+          "toe1_top", "toe5_contact", "heel_point", "heel_breadth_medial", "heel_breadth_lateral",
+          "medial_malleolus"}) {
       const Eigen::Vector3d middle =
           whole.foot.foot_from_input.inverse() * whole.foot.landmarks.at(place).position_mm;
       for (const double radius : {20.0, 30.0}) {

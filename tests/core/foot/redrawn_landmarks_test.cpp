@@ -74,7 +74,6 @@ TEST(Redraws, ReachFromWhatWasToldToWhereTheyLie) {
   EXPECT_NEAR(u95_by_redraws(-7.0, values, {2, false}).value(), 7.0 - 1.0 / 7.0, 1e-9);
 }
 
-/// They were other draws wherever a processor rounds otherwise.
 /// An extreme of points falls short by as much as one over their number: the whole does by three
 /// times what leaving out a fourth adds to that.
 TEST(Redraws, ThatLeaveOutPartsReachToTheBiasOfTheWhole) {
@@ -84,6 +83,7 @@ TEST(Redraws, ThatLeaveOutPartsReachToTheBiasOfTheWhole) {
   EXPECT_NEAR(u95_by_redraws(0.0, short_ends, {4, false}).value(), 1.0, 1e-9);
 }
 
+/// They were other draws wherever a processor rounds otherwise.
 TEST(Redraws, AreTheSameWhateverTheLastBitsOfPlaces) {
   const PointCloud cloud = test::FootBody{}.points();
   PointCloud rounded = cloud;

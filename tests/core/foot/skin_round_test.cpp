@@ -66,8 +66,22 @@ TEST(SkinRound, EndsAtTheFloor) {
     wall.emplace_back(random.uniform(-50.0, 50.0), 0.0, random.uniform(0.0, 50.0));
   }
   EXPECT_TRUE(is_skin_all_round(wall, {0.0, 0.0, 2.0}, Vector3d::UnitY()));
+  auto cut = wall;
+  std::erase_if(cut, [](const Vector3d& point) { return point.x() > 1.0; });
+  EXPECT_FALSE(is_skin_all_round(cut, {0.0, 0.0, 2.0}, Vector3d::UnitY()));
+  EXPECT_FALSE(is_skin_all_round(cut, {0.0, 0.0, 8.0}, Vector3d::UnitY()));
   for (auto& point : wall) point.z() += 30.0;
   EXPECT_FALSE(is_skin_all_round(wall, {0.0, 0.0, 32.0}, Vector3d::UnitY()));
+}
+
+/// Below a hole in a low toe's top lies its sole.
+TEST(SkinRound, OfATopIsNotTheSoleBelow) {
+  test::RandomNumbers random(11);
+  Points sole;
+  for (int i = 0; i < 5000; ++i) {
+    sole.emplace_back(random.uniform(-50.0, 50.0), random.uniform(-50.0, 50.0), 0.0);
+  }
+  EXPECT_FALSE(is_skin_all_round(sole, {0.0, 0.0, 15.0}, kUp));
 }
 
 TEST(SkinRound, IsNoneOfAFewPointsOrOfTheOtherSide) {
