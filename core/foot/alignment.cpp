@@ -141,7 +141,10 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   if (!outline) return tl::unexpected(outline.error());
   auto along_outline = standing;
   for (auto& point : along_outline) point = outline->axis_from_standing() * point;
-  const SideGuess guess = side_from_shape(along_outline, outline->length_mm);
+  SideGuess guess = side_from_shape(along_outline, outline->length_mm);
+  if (!foot.cloud.stands_on_platform()) {
+    guess = guess_by_seen_borders(guess, along_outline, outline->length_mm);
+  }
   foot.side = options.side.value_or(guess.side);
   foot.side_confidence = options.side ? 1.0 : guess.confidence;
 

@@ -149,7 +149,9 @@ std::optional<Landmark> most_protruding(const FootOutline& outline, const SkinBo
   const double from = std::min(place, rule.prior) - rule.patch_mm;
   const double to = std::max(place, rule.prior) + rule.patch_mm;
   if (has_gap(told, from, to)) {
-    if (auto hidden = hidden_point(outline, told, skin, rule)) return hidden;
+    // A wall of which nothing was seen reaches about as far as what was put below its rim.
+    const SkinBorder& guessed = outline.has_unseen_points() ? border : skin;
+    if (auto hidden = hidden_point(outline, told, guessed, rule)) return hidden;
   }
   if (!peak) return std::nullopt;
   if (const auto crest = crest_in_range(outline, border, *peak, rule)) peak = crest;

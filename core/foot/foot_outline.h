@@ -37,6 +37,8 @@ class FootOutline {
     return seen_points_.empty() ? points_ : seen_points_;
   }
 
+  bool has_unseen_points() const { return !seen_points_.empty(); }
+
   /// Whether a place is on skin that was seen (SeenSkin::is_near()), and how far it is from that:
   /// in a cloud to which nothing was added, all places are. Where a wall was lost, as between two
   /// feet, what is put below its rim reaches less far the deeper it is: close under it, to 6 mm, it

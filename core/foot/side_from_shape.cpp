@@ -109,9 +109,7 @@ double unit_evidence(double value, double clear) {
 SideGuess side_from_shape(const std::vector<Eigen::Vector3d>& points, double length_mm) {
   const double factor = full_size_factor(length_mm);
   std::vector<Vector2d> outline;
-  std::vector<Vector3d> low;
   for (const auto& point : points) {
-    if (factor * point.z() < kLowMm) low.emplace_back(factor * point);
     if (point.z() > kOutlineHeightShare * length_mm) continue;
     outline.emplace_back(factor * point.head<2>());
   }
@@ -123,10 +121,21 @@ SideGuess side_from_shape(const std::vector<Eigen::Vector3d>& points, double len
       unit_evidence(hollow(borders.left, kFullSizeMm) - hollow(borders.right, kFullSizeMm),
                     kClearArchDepth * kFullSizeMm) +
       unit_evidence(ball_offset(borders, kFullSizeMm), kClearBallOffset * kFullSizeMm);
-  const double confidence = 1.0 / (1.0 + std::exp(-std::abs(for_right)));
-  const bool are_seen = std::min(seen_share(low, 1.0), seen_share(low, -1.0)) >= kLeastSeenShare;
   return {for_right >= 0.0 ? Side::kRight : Side::kLeft,
-          are_seen ? confidence : std::min(confidence, kMostOfHalfSeen)};
+          1.0 / (1.0 + std::exp(-std::abs(for_right)))};
+}
+
+SideGuess guess_by_seen_borders(SideGuess guess, const std::vector<Vector3d>& points,
+                                double length_mm) {
+  const double factor = full_size_factor(length_mm);
+  std::vector<Vector3d> low;
+  for (const auto& point : points) {
+    if (factor * point.z() < kLowMm) low.emplace_back(factor * point);
+  }
+  if (std::min(seen_share(low, 1.0), seen_share(low, -1.0)) < kLeastSeenShare) {
+    guess.confidence = std::min(guess.confidence, kMostOfHalfSeen);
+  }
+  return guess;
 }
 
 }  // namespace instep
