@@ -22,7 +22,8 @@ constexpr double kClearArchDepth = 0.02;
 constexpr double kClearBallOffset = 0.05;
 // Where less of either border was seen, its hollow and its ball are those of a rim. Of three real
 // feet with a side cut off by planes 15 to 50 mm beside the axis 4 of 34 were told wrong and sure;
-// none is so, and whole feet and lasts of 700 to 300,000 points are as sure as before.
+// none is so, and whole feet and lasts of 1,500 to 300,000 points are as sure as before, of 700
+// few.
 constexpr double kLeastSeenShare = 0.85;
 constexpr double kMostOfHalfSeen = 0.75;  ///< confidence
 constexpr double kLowMm = 45.0;

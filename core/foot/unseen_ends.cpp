@@ -31,8 +31,7 @@ constexpr double kToesShare = 0.7;  ///< of the length, from which on its front 
 /// than 40. Where the borders of what is left run straight on, nothing tells how much it is.
 constexpr double kUnseenHeelMm = 45.0;
 constexpr double kMostUnseenHeelMm = 25.0;
-/// What is missing of one that has a hole at its end, at full size: of holes 45 and 70 mm wide in a
-/// real foot's it was 4 and 10 mm.
+/// What may be missing of one that has a hole at its end, at full size: set by eye, as of toes.
 constexpr double kHoleInHeelMm = 10.0;
 /// How far the axis is off then, in radians: of 20 feet with 12 mm cut off 0.2 degrees on average,
 /// 0.36 at most.
