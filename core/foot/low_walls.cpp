@@ -24,7 +24,7 @@ constexpr std::size_t kMostNeighbours = 224;  ///< where these are all of one li
 
 /// How the skin spreads round a point; nothing of a scanner's line that runs alone, by which
 /// nothing tells how it leans.
-std::optional<SpreadAxes> skin_round(const Vector3d& point, const PointIndex& index) {
+std::optional<SpreadAxes> spread_of_skin(const Vector3d& point, const PointIndex& index) {
   constexpr double kLine = 0.05;  // squared: the breadth of what runs on in lines, over its length
   constexpr double kFarthestMm = 15.0;
   for (std::size_t count = kNeighbours; count <= kMostNeighbours; count *= 4) {
@@ -46,7 +46,7 @@ void keep_those_of_skin(PointCloud& walls) {
   std::vector<Vector3d> normals;
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const Vector3d& point = walls.positions[i];
-    const auto axes = skin_round(point, index);
+    const auto axes = spread_of_skin(point, index);
     if (!axes) continue;
     const Vector3d middle(std::clamp(point.x(), 0.12 * kFullSizeMm, 0.85 * kFullSizeMm), 0.0,
                           kMiddleMm);

@@ -82,7 +82,12 @@ bool is_sole_open(const FootScan& foot) {
 void close_open_sole(FootScan& foot) {
   LowWalls walls(foot, kMostOfWalls);
   const std::size_t seen = walls.points.size();
-  if (seen == 0) return;
+  if (seen == 0) {
+    foot.warnings.emplace_back(
+        "the sole was not seen, nor enough of the walls over it to tell where it ends: scan with "
+        "more points, or with the sole in view");
+    return;
+  }
   SoleSettings settings;
   // Looked at as a foot of full size, but what is added is as it says on the foot itself.
   settings.spacing_mm *= walls.to_full_size;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/geometry/plane_vectors.h"
+
 namespace instep {
 namespace {
 
@@ -29,11 +31,6 @@ constexpr double kNearestShare = 0.7;
 constexpr double kNearMm = 15.0;
 
 constexpr double kSectorAngle = 2.0 * std::numbers::pi / static_cast<double>(kSectors);
-
-std::size_t sector_of(const Vector2d& offset) {
-  const double turn = std::atan2(offset.y(), offset.x()) + std::numbers::pi;
-  return std::min(static_cast<std::size_t>(turn / kSectorAngle), kSectors - 1);
-}
 
 Vector2d direction_of(std::size_t sector) {
   const double turn = (static_cast<double>(sector) + 0.5) * kSectorAngle - std::numbers::pi;
@@ -122,7 +119,7 @@ bool is_skin_all_round(const std::vector<Vector3d>& points, const Vector3d& plac
     const double distance = offset.norm();
     nearest = std::min(nearest, distance);
     reach = std::max(reach, distance);
-    if (distance >= kLeastTellingMm) is_filled[sector_of(offset)] = true;
+    if (distance >= kLeastTellingMm) is_filled[sector_of(offset, kSectors)] = true;
   }
   if (nearest > std::max(kNearMm, kNearestShare * reach)) return false;
   std::size_t over_floor = 0;
