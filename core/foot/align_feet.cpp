@@ -10,8 +10,8 @@ namespace {
 
 /// Cosine of the angle between two feet up to which "left of" has a meaning for both.
 constexpr double kSameWay = 0.5;
-/// From here on a shape is trusted enough to speak against the foot's place.
-constexpr double kClearShape = 0.85;
+/// Of people who stand on a station so few cross their feet: assumed, not measured.
+constexpr double kCrossed = 0.02;
 
 Eigen::Vector3d centre(const PointCloud& cloud) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -19,22 +19,28 @@ Eigen::Vector3d centre(const PointCloud& cloud) {
   return sum / static_cast<double>(cloud.size());
 }
 
+/// How sure the side is that a foot's place tells. `by_shape`: how sure its shape is of that side,
+/// 0 to 1.
+double by_place_too(double by_shape) {
+  const double uncrossed = (1.0 - kCrossed) * by_shape;
+  const double crossed = kCrossed * (1.0 - by_shape);
+  return std::max(0.5, uncrossed / (uncrossed + crossed));
+}
+
 /// Aligns again if the place of the foot overrules its shape.
 Result<FootScan> with_side(FootScan foot, const PointCloud& cloud, Side side,
                            AlignmentOptions options) {
-  if (foot.side == side) {
-    foot.side_confidence = std::max(foot.side_confidence, kClearShape);
-    return foot;
+  const bool is_as_shaped = foot.side == side;
+  const double by_shape = is_as_shaped ? foot.side_confidence : 1.0 - foot.side_confidence;
+  if (!is_as_shaped) {
+    options.side = side;
+    options.is_side_by_place = true;
+    auto again = align_foot(cloud, options);
+    if (!again) return again;
+    foot = *std::move(again);
   }
-  const bool clear_shape = foot.side_confidence >= kClearShape;
-  options.side = side;
-  auto again = align_foot(cloud, options);
-  if (again && clear_shape) {
-    again->warnings.push_back(std::string("it stands as the ") + to_string(side) +
-                              " foot but is shaped as the other: check that the feet are not "
-                              "crossed");
-  }
-  return again;
+  foot.side_confidence = by_place_too(by_shape);
+  return foot;
 }
 
 /// Of two feet that look like the same side one is the other: which, their shapes tell against each

@@ -158,9 +158,11 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   }
   settle_for(foot, axis.rule);
   if (foot.side != guess.side && guess.confidence > kSureSide) {
-    foot.warnings.push_back("measured as a " + std::string(to_string(foot.side)) +
-                            " foot, as asked for, but its shape is that of a " +
-                            to_string(guess.side) + " one: check the side");
+    foot.warnings.push_back(
+        "measured as a " + std::string(to_string(foot.side)) + " foot, " +
+        (options.is_side_by_place ? "as it stands beside the other" : "as asked for") +
+        ", but its shape is that of a " + to_string(guess.side) + " one: check " +
+        (options.is_side_by_place ? "that the feet are not crossed" : "the side"));
   }
   if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
   if (is_sole_open(foot)) {

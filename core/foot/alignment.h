@@ -13,6 +13,8 @@ namespace instep {
 struct AlignmentOptions {
   /// Forced side; without it the shape tells.
   std::optional<Side> side;
+  /// That side is told by where the foot stands beside another, and feet may be crossed.
+  bool is_side_by_place = false;
   /// The floor, where the station knows it: the pose is then not searched at all.
   std::optional<StandingPlane> standing_plane;
   /// Nobody saw that floor nor gave its height: heights over it are as doubtful as over one that is

@@ -209,11 +209,15 @@ std::optional<Landmark> broadest(const FootOutline& outline, const SkinBorder& b
   }
   const Eigen::Vector3d& outwards = border.view().outwards;
   const double less = outwards.dot(furthest.position_mm - metatarsal.position_mm);
-  if (less < 0.0 || !is_skin) {
+  if (less < 0.0) {
     furthest = metatarsal;
     furthest.rule = "as the point of the ball, where the outline was not seen";
+  } else if (!is_skin) {
+    furthest.rule += "; a rim, beyond which it was not seen";
   }
-  furthest.deviations_off_mm = may_be_further(metatarsal, std::max(0.0, less), outwards);
+  // Beyond a rim the border may go on, however far the point of the ball is behind it.
+  const double surely = is_skin ? std::max(0.0, less) : 0.0;
+  furthest.deviations_off_mm = may_be_further(metatarsal, surely, outwards);
   return furthest;
 }
 

@@ -81,8 +81,7 @@ std::string origin_text(const ScanRecord& record, const std::string& origin) {
   }
   if (record.simulated) add("simulated");
   if (record.foot.side_confidence < 1.0) {
-    add(fmt::format("side told from the shape, {:.0f} % sure",
-                    100.0 * record.foot.side_confidence));
+    add(fmt::format("side as the scan tells, {:.0f} % sure", 100.0 * record.foot.side_confidence));
   }
   return text;
 }

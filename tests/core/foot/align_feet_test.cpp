@@ -54,7 +54,8 @@ TEST(AlignFeet, ReturnsTheLeftOneFirst) {
     EXPECT_EQ((*feet)[0].side, Side::kLeft);
     EXPECT_EQ((*feet)[1].side, Side::kRight);
     for (const auto& foot : *feet) {
-      EXPECT_GE(foot.side_confidence, 0.85);
+      EXPECT_GE(foot.side_confidence, 0.98);
+      EXPECT_LT(foot.side_confidence, 1.0);
       EXPECT_FALSE(says(foot, "crossed"));
     }
   }
@@ -79,7 +80,11 @@ TEST(AlignFeet, GoesByThePlaceOfCrossedFeetAndSaysSo) {
   ASSERT_EQ(feet->size(), 2U);
   EXPECT_EQ((*feet)[0].side, Side::kLeft);
   EXPECT_EQ((*feet)[1].side, Side::kRight);
-  for (const auto& foot : *feet) EXPECT_TRUE(says(foot, "not crossed"));
+  for (const auto& foot : *feet) {
+    EXPECT_TRUE(says(foot, "not crossed"));
+    EXPECT_FALSE(says(foot, "asked for"));
+    EXPECT_FALSE(foot.is_side_sure()) << "its shape is clearly the other's";
+  }
   EXPECT_EQ((*feet)[0].cloud_number, 1U);
   EXPECT_EQ((*feet)[1].cloud_number, 0U);
 }
