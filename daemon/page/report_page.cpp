@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "daemon/build_facts.h"
 #include "daemon/page/numbers_block.h"
@@ -81,7 +82,8 @@ std::string origin_text(const ScanRecord& record, const std::string& origin) {
   }
   if (record.simulated) add("simulated");
   if (record.foot.side_confidence < 1.0) {
-    add(fmt::format("side as the scan tells, {:.0f} % sure", 100.0 * record.foot.side_confidence));
+    add(fmt::format("side as the scan tells, {:.0f} % sure",
+                    std::floor(100.0 * record.foot.side_confidence)));
   }
   return text;
 }

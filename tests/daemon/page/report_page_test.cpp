@@ -264,7 +264,7 @@ TEST(ReportPage, WrapsWhatSaysWhereItIsFrom) {
     said += line.text + (line.text.back() == 'x' ? "" : " ");
   }
   for (const auto& part :
-       {file + ".ply", record.station, std::string("side as the scan tells, 100 % sure")}) {
+       {file + ".ply", record.station, std::string("side as the scan tells, 99 % sure")}) {
     EXPECT_THAT(said, HasSubstr(part));
   }
   const auto heights_of_rules = numbers(page, "class=\"rule\" x1=\"#\" y1=\"#\"");
