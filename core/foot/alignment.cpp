@@ -120,8 +120,15 @@ void take_axis(FootScan& foot, const FootAxis& axis, const RigidTransform& stand
 }
 
 /// Puts the floor as much below what was seen as the walls' ends tell.
-void stand_deeper(FootScan& foot) {
-  foot.floor_below = floor_below(foot);
+Result<void> stand_deeper(FootScan& foot) {
+  const auto below = floor_below(foot);
+  if (!below) {
+    return fail(ErrorCode::kInsufficientData,
+                "the lowest part of the foot was not seen: where its walls end they do not yet "
+                "bend under it, so that nobody can tell how far below the floor is",
+                "keep what lies within 5 mm of the floor in the cloud, and better some floor too");
+  }
+  foot.floor_below = *below;
   const RigidTransform higher(Eigen::Translation3d(0.0, 0.0, foot.floor_below.depth_mm));
   foot.foot_from_input = higher * foot.foot_from_input;
   foot.cloud = transformed(higher, foot.cloud);
@@ -129,6 +136,7 @@ void stand_deeper(FootScan& foot) {
   for (auto& [name, landmark] : foot.landmarks) {
     landmark.position_mm = higher * landmark.position_mm;
   }
+  return {};
 }
 
 /// A foot's cloud put into its own frame, if it stands on a plane.
@@ -166,7 +174,7 @@ Result<FootScan> aligned(FootScan foot, const StandingPlane& plane,
   }
   if (auto checked = check_ends(foot); !checked) return tl::unexpected(checked.error());
   if (is_sole_open(foot)) {
-    stand_deeper(foot);
+    if (auto stood = stand_deeper(foot); !stood) return tl::unexpected(stood.error());
     close_open_sole(foot);
   }
   return foot;

@@ -43,8 +43,9 @@ struct AlignmentOptions {
 /// are left out; a warning tells of large parts of one foot, and of what stands near it or touches
 /// it. Normals that contradict the shape are dropped, with a warning. Of a noisy cloud the shape is
 /// read off quieted points (FootScan::shape()). A sole that was not seen is closed on the floor
-/// (close_open_sole()), as far below as its walls tell (floor_below()), with a warning; a last
-/// whose bottom was not seen is refused with kInsufficientData. A leg above the foot, an open sole
+/// (close_open_sole()), as far below as its walls tell (floor_below()), with a warning; a foot
+/// whose walls end too high to tell, and a last whose bottom was not seen, are refused with
+/// kInsufficientData. A leg above the foot, an open sole
 /// and a cut at any height above the instep are fine; most of a leg is left out, with a warning
 /// (foot_under_leg()). Fails with kInsufficientData under 200 points, where over 3 % of them lie
 /// beyond both ends that were found, and for a scan whose sole was closed if half of its heel or

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/foot/foot_scan.h"
@@ -14,9 +15,12 @@ namespace instep {
 /// mm too deep to a quarter too high; the interval, half of it, allows for edges that bend twice as
 /// sharply. Zero of a floor that is known.
 ///
+/// Nothing where the border of the foot has not begun to bend under: then the floor lies anywhere
+/// below, and the foot's border with it, which is furthest out 10 to 15 mm over the floor.
+///
 /// `foot` is in its own frame, stands on its lowest points and has its ends. O(n log n) of what is
 /// low, at most 20,000 points.
-FloorBelow floor_below(const FootScan& foot);
+std::optional<FloorBelow> floor_below(const FootScan& foot);
 
 /// The landmarks as they would be if the floor were as much deeper as FootScan::floor_below leaves
 /// open; none where that is nothing. Once more the cost of the landmarks, without redraws.

@@ -46,24 +46,30 @@ FootScan walls(double cut_mm, double length_mm) {
 }
 
 TEST(FloorBelow, IsToldByHowFarTheEdgeHasBent) {
-  for (const double cut : {1.0, 3.0, 6.0, 9.0}) {
+  for (const double cut : {1.0, 3.0, 6.0, 7.0}) {
     const auto floor = floor_below(walls(cut, 260.0));
-    EXPECT_NEAR(floor.depth_mm, cut, floor.u95_mm) << cut;
-    EXPECT_NEAR(floor.u95_mm, 0.5 * floor.depth_mm, 1e-9) << cut;
+    ASSERT_TRUE(floor) << cut;
+    EXPECT_NEAR(floor->depth_mm, cut, floor->u95_mm) << cut;
+    EXPECT_NEAR(floor->u95_mm, 0.5 * floor->depth_mm, 1e-9) << cut;
   }
+}
+
+TEST(FloorBelow, IsToldByNothingWhereTheEdgeWasNotSeen) {
+  for (const double cut : {12.0, 20.0, 30.0}) EXPECT_FALSE(floor_below(walls(cut, 260.0))) << cut;
 }
 
 TEST(FloorBelow, LiesInProportionUnderASmallFoot) {
   const auto large = floor_below(walls(4.0, 260.0));
   const auto small = floor_below(walls(4.0, 150.0));
-  EXPECT_NEAR(small.depth_mm / large.depth_mm, 150.0 / 260.0, 0.01);
+  ASSERT_TRUE(large && small);
+  EXPECT_NEAR(small->depth_mm / large->depth_mm, 150.0 / 260.0, 0.01);
 }
 
 TEST(FloorBelow, IsNoneWhereTheFloorIsKnown) {
   FootScan foot = walls(4.0, 260.0);
   foot.is_floor_known = true;
-  EXPECT_EQ(floor_below(foot).depth_mm, 0.0);
-  EXPECT_EQ(floor_below(foot).u95_mm, 0.0);
+  EXPECT_EQ(floor_below(foot)->depth_mm, 0.0);
+  EXPECT_EQ(floor_below(foot)->u95_mm, 0.0);
   EXPECT_TRUE(if_deeper(foot).empty());
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "core/foot/alignment.h"
@@ -115,6 +116,22 @@ TEST(SeenFloor, IsNotASole) {
       point += Vector3d(random.normal(), random.normal(), random.normal());
     }
     EXPECT_FALSE(seen_floor(points, kGround)) << length;
+  }
+}
+
+/// A column on a flat cone, as toes lie round what stands higher of a foot that was cut off over
+/// them.
+TEST(SeenFloor, IsNotSkinThatClimbsToTheBody) {
+  for (const double climb : {0.0, 0.1}) {
+    Points points;
+    for (double x = -90.0; x < 90.0; x += 2.0) {
+      for (double y = -90.0; y < 90.0; y += 2.0) {
+        const double away = std::hypot(x, y);
+        if (away > 40.0 && away < 90.0) points.emplace_back(x, y, climb * (90.0 - away));
+        if (away < 40.0) points.emplace_back(x, y, 40.0 - 0.5 * away);
+      }
+    }
+    EXPECT_EQ(seen_floor(points, kGround).has_value(), climb == 0.0) << climb;
   }
 }
 
