@@ -63,11 +63,11 @@ void keep_those_of_skin(PointCloud& walls) {
 LowWalls::LowWalls(const FootScan& foot, std::size_t most_points)
     : to_full_size(full_size_factor(foot.landmarks.at("acropodion").position_mm.x())) {
   std::vector<std::size_t> low;
-  for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
-    if (to_full_size * foot.cloud.positions[i].z() < kHeightMm) low.push_back(i);
+  for (std::size_t i = 0; i < foot.shape().size(); ++i) {
+    if (to_full_size * foot.shape().positions[i].z() < kHeightMm) low.push_back(i);
   }
   if (low.size() < kNeighbours) return;
-  points = foot.cloud.subset(low);
+  points = foot.shape().subset(low);
   if (points.size() > most_points) {
     points = points.subset(some_by_place(points.positions, most_points));
   }
