@@ -10,6 +10,8 @@ namespace {
 
 /// Cosine of the angle between two feet up to which "left of" has a meaning for both.
 constexpr double kSameWay = 0.5;
+/// So far aside of each other, in lengths of the shorter one, feet stand beside one another.
+constexpr double kAsideShare = 0.15;
 /// Of people who stand on a station so few cross their feet: assumed, not measured.
 constexpr double kCrossed = 0.02;
 
@@ -19,28 +21,27 @@ Eigen::Vector3d centre(const PointCloud& cloud) {
   return sum / static_cast<double>(cloud.size());
 }
 
-/// How sure the side is that a foot's place tells. `by_shape`: how sure its shape is of that side,
-/// 0 to 1.
-double by_place_too(double by_shape) {
-  const double uncrossed = (1.0 - kCrossed) * by_shape;
-  const double crossed = kCrossed * (1.0 - by_shape);
-  return std::max(0.5, uncrossed / (uncrossed + crossed));
+/// How sure a foot's shape is of a side, 0 to 1.
+double by_shape(const FootScan& foot, Side side) {
+  return foot.side == side ? foot.side_confidence : 1.0 - foot.side_confidence;
+}
+
+/// How sure it is that the left one of two feet is that which stands on the left. `left`, `right`:
+/// how sure their shapes are of it.
+double by_place_too(double left, double right) {
+  const double uncrossed = (1.0 - kCrossed) * left * right;
+  const double crossed = kCrossed * (1.0 - left) * (1.0 - right);
+  // Shapes that each are sure of the other contradict both.
+  return uncrossed + crossed > 0.0 ? std::max(0.5, uncrossed / (uncrossed + crossed)) : 0.5;
 }
 
 /// Aligns again if the place of the foot overrules its shape.
 Result<FootScan> with_side(FootScan foot, const PointCloud& cloud, Side side,
                            AlignmentOptions options) {
-  const bool is_as_shaped = foot.side == side;
-  const double by_shape = is_as_shaped ? foot.side_confidence : 1.0 - foot.side_confidence;
-  if (!is_as_shaped) {
-    options.side = side;
-    options.is_side_by_place = true;
-    auto again = align_foot(cloud, options);
-    if (!again) return again;
-    foot = *std::move(again);
-  }
-  foot.side_confidence = by_place_too(by_shape);
-  return foot;
+  if (foot.side == side) return foot;
+  options.side = side;
+  options.is_side_by_place = true;
+  return align_foot(cloud, options);
 }
 
 /// Of two feet that look like the same side one is the other: which, their shapes tell against each
@@ -104,14 +105,20 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
 
   const RigidTransform first_from_second =
       feet[0].foot_from_input * feet[1].foot_from_input.inverse();
-  if (first_from_second.linear()(0, 0) >= kSameWay) {
-    const bool second_is_left =
-        (first_from_second * centre(feet[1].cloud)).y() > centre(feet[0].cloud).y();
+  const double aside_mm =
+      (first_from_second * centre(feet[1].cloud)).y() - centre(feet[0].cloud).y();
+  const double shorter_mm = std::min(feet[0].length_mm(), feet[1].length_mm());
+  if (first_from_second.linear()(0, 0) >= kSameWay &&
+      std::abs(aside_mm) > kAsideShare * shorter_mm) {
+    const bool second_is_left = aside_mm > 0.0;
+    const double sure = by_place_too(by_shape(feet[second_is_left ? 1 : 0], Side::kLeft),
+                                     by_shape(feet[second_is_left ? 0 : 1], Side::kRight));
     for (std::size_t i = 0; i < 2; ++i) {
       const Side side = (i == 1) == second_is_left ? Side::kLeft : Side::kRight;
       auto settled = with_side(std::move(feet[i]), clouds[i], side, each);
       if (!settled) return tl::make_unexpected(of_one(settled.error(), side));
       settled->cloud_number = i;
+      settled->side_confidence = sure;
       feet[i] = std::move(*settled);
     }
   } else if (feet[0].side == feet[1].side) {

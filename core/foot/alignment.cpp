@@ -45,7 +45,7 @@ Result<StandingPlane> standing_plane(const PointCloud& cloud, const AlignmentOpt
 double share_beyond_ends(const FootScan& foot) {
   constexpr double kLegInLengths = 0.35;  // above the floor
   constexpr double kClearlyInLengths = 0.1;
-  const double length = foot.landmarks.at("acropodion").position_mm.x();
+  const double length = foot.length_mm();
   double low = 0.0;
   double beyond = 0.0;
   for (const auto& point : foot.shape().positions) {
@@ -232,7 +232,7 @@ StandingPlane floor_again(const FootScan& foot) {
   if (foot.is_floor_known) return {};
   // A last has no flat sole to settle on: it was stood on its lowest points.
   if (is_shoe_last(foot)) return plane_below(points, Eigen::Vector3d::UnitZ());
-  return plane_again(points, foot.landmarks.at("acropodion").position_mm.x());
+  return plane_again(points, foot.length_mm());
 }
 
 /// A refusal of points in lines: what is missed may lie between them.
@@ -299,7 +299,7 @@ bool realign(FootScan& foot, double deeper_mm) {
   floor.height_mm -= deeper_mm;
   const RigidTransform standing_from_cloud = floor.standing_from_input();
   OutlineAxis start;
-  start.length_mm = foot.landmarks.at("acropodion").position_mm.x();
+  start.length_mm = foot.length_mm();
   const auto standing = transformed(standing_from_cloud, foot.shape()).positions;
   const FootAxis axis = find_foot_axis(standing, start, foot.side, foot.rules.axis);
   if (axis.rule != foot.rules.axis) return false;

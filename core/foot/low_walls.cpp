@@ -61,7 +61,7 @@ void keep_those_of_skin(PointCloud& walls) {
 }  // namespace
 
 LowWalls::LowWalls(const FootScan& foot, std::size_t most_points)
-    : to_full_size(full_size_factor(foot.landmarks.at("acropodion").position_mm.x())) {
+    : to_full_size(full_size_factor(foot.length_mm())) {
   std::vector<std::size_t> low;
   for (std::size_t i = 0; i < foot.shape().size(); ++i) {
     if (to_full_size * foot.shape().positions[i].z() < kHeightMm) low.push_back(i);

@@ -54,7 +54,7 @@ bool is_sole_open(const FootScan& foot) {
   // Walls stand on the border of the ground that is covered, so that only ground further in tells.
   std::map<Cell, bool> ground;
   std::map<long, std::pair<long, long>> rows;
-  const double factor = full_size_factor(foot.landmarks.at("acropodion").position_mm.x());
+  const double factor = full_size_factor(foot.length_mm());
   const double cell_mm = cell_for(foot.cloud.positions, factor);
   for (const auto& own : foot.cloud.positions) {
     const Vector3d point = factor * own;

@@ -45,7 +45,7 @@ bool stands_flat(const FootScan& foot) {
   }
   if (on_floor.empty() || static_cast<double>(on_floor.size()) < kFlatShare * near) return false;
   const double reach = quantile(on_floor, 1.0 - kStrayOnFloor) - quantile(on_floor, kStrayOnFloor);
-  return reach > kFlatLength * foot.landmarks.at("acropodion").position_mm.x();
+  return reach > kFlatLength * foot.length_mm();
 }
 
 }  // namespace instep

@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFirstToeShare = 0.30;  ///< of the ball's breadth, from medial
 constexpr double kBehindTipMm = 15.0;
 constexpr double kToeSmoothingMm = 5.0;
 constexpr double kBearingStepMm = 1.0;

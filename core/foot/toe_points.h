@@ -10,6 +10,9 @@ namespace instep {
 /// Right-foot form, as all here. Nothing where the cloud has no points there, or only the
 /// rim of a hole (skin_round.h). `tibiale` and `fibulare` are the points of the ball.
 
+/// The first toe takes so much of the ball's breadth, from medial.
+inline constexpr double kFirstToeShare = 0.30;
+
 /// The foremost point of the outline in the medial 0.30 of the ball's breadth.
 std::optional<Landmark> find_toe1_tip(const FootOutline& outline, const Landmark& tibiale,
                                       const Landmark& fibulare);

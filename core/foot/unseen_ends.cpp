@@ -14,6 +14,7 @@
 #include "core/foot/robust_extreme.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/skin_round.h"
+#include "core/foot/toe_points.h"
 
 namespace instep {
 namespace {
@@ -22,6 +23,9 @@ namespace {
 // and more, of 200 drawn feet two have less than this, one by a hole there; of feet of 4,000 points
 // one in ten, of 1,500 three. With 4 mm cut off all of 10 have less, with 8 mm nine.
 constexpr double kLeastFacingOfToes = 0.7;
+/// The same of the first toe for itself: of those feet two have less, of 150 clouds of 2,500 to
+/// 25,000 points of three real feet eight, all of the one whose skin runs on between its toes.
+constexpr double kLeastFacingOfFirstToe = 0.8;
 /// What then may be missing, set by eye: of the front of a foot that eight views of a real camera
 /// saw the sides and the top of, some 5 mm. How the skin faces tells nothing of how much it is.
 constexpr double kUnseenToesMm = 10.0;
@@ -37,19 +41,16 @@ constexpr double kHoleInHeelMm = 10.0;
 /// 0.36 at most.
 constexpr double kUnseenHeelTurn = 0.01;
 
-double length_of(const FootScan& foot) {
-  return foot.landmarks.at("acropodion").position_mm.x();
-}
-
 /// An end as it was seen, at full size.
 struct SeenEnd {
-  double facing = 0.0;    ///< end_facing(); 0 of one without points
-  bool is_whole = false;  ///< no hole in it
+  double facing = 0.0;     ///< end_facing(); 0 of one without points
+  double first_toe = 1.0;  ///< the same at the end of the first toe
+  bool is_whole = false;   ///< no hole in it
 };
 
 std::vector<Eigen::Vector3d> at_full_size(
     const FootScan& foot, const std::function<bool(const Eigen::Vector3d&)>& is_of) {
-  const double factor = full_size_factor(length_of(foot));
+  const double factor = full_size_factor(foot.length_mm());
   std::vector<Eigen::Vector3d> part;
   for (const auto& point : foot.shape().positions) {
     if (is_of(point)) part.emplace_back(factor * point);
@@ -57,8 +58,26 @@ std::vector<Eigen::Vector3d> at_full_size(
   return part;
 }
 
+/// How squarely the first toe faces forwards at its end; 1 where nobody knows where it is. Where
+/// its front was cut off, the foremost skin may be the second one's, which was seen whole.
+double first_toe_facing(const FootScan& foot, const std::vector<Eigen::Vector3d>& toes) {
+  const auto tibiale = foot.landmarks.find("metatarsale_tibiale");
+  const auto fibulare = foot.landmarks.find("metatarsale_fibulare");
+  if (tibiale == foot.landmarks.end() || fibulare == foot.landmarks.end()) return 1.0;
+  const double factor = full_size_factor(foot.length_mm());
+  const double medial = tibiale->second.position_mm.y();
+  const double lateral = fibulare->second.position_mm.y();
+  std::vector<Eigen::Vector3d> toe;
+  for (const auto& point : toes) {
+    if ((point.y() / factor - medial) / (lateral - medial) < kFirstToeShare) toe.push_back(point);
+  }
+  if (toe.empty()) return 1.0;
+  const Eigen::Vector3d forward = Eigen::Vector3d::UnitX();
+  return end_facing(toe, robust_extreme(toe, forward), forward).value_or(1.0);
+}
+
 SeenEnd seen_toes(const FootScan& foot) {
-  const double length = length_of(foot);
+  const double length = foot.length_mm();
   const auto toes =
       at_full_size(foot, [&](const auto& point) { return point.x() > kToesShare * length; });
   const Eigen::Vector3d tip =
@@ -67,13 +86,13 @@ SeenEnd seen_toes(const FootScan& foot) {
   // Where the first toe is a hole, the tip of the next one is as round.
   const bool is_first_missing =
       foot.landmarks.contains("metatarsale_fibulare") && !foot.landmarks.contains("toe1_tip");
-  return {end_facing(toes, tip, forward).value_or(0.0),
+  return {end_facing(toes, tip, forward).value_or(0.0), first_toe_facing(foot, toes),
           !is_first_missing && is_skin_all_round(toes, tip, forward)};
 }
 
 /// At the rearmost place of its skin; the pternion may lie in the middle of what was not seen.
 SeenEnd seen_heel(const FootScan& foot) {
-  const double length = length_of(foot);
+  const double length = foot.length_mm();
   const auto heel =
       at_full_size(foot, [&](const auto& point) { return point.x() < kHeelShare * length; });
   std::vector<Eigen::Vector3d> low;
@@ -83,12 +102,14 @@ SeenEnd seen_heel(const FootScan& foot) {
   if (low.empty()) return {};
   const Eigen::Vector3d back = -Eigen::Vector3d::UnitX();
   const Eigen::Vector3d end = robust_extreme(low, back);
-  return {end_facing(low, end, back).value_or(0.0), is_skin_all_round(heel, end, back)};
+  return {end_facing(low, end, back).value_or(0.0), 1.0, is_skin_all_round(heel, end, back)};
 }
 
 /// What may be missing of it; 0 of one that was seen whole.
 double missing_of_toes_mm(const SeenEnd& toes) {
-  return toes.facing < kLeastFacingOfToes || !toes.is_whole ? kUnseenToesMm : 0.0;
+  const bool is_closed = toes.is_whole && toes.facing >= kLeastFacingOfToes &&
+                         toes.first_toe >= kLeastFacingOfFirstToe;
+  return is_closed ? 0.0 : kUnseenToesMm;
 }
 
 /// The same, at full size.
@@ -130,12 +151,13 @@ std::optional<UnseenEnds> unseen_ends(const FootScan& foot) {
     ends.warning = "the foremost part of the toes";
     ends.if_longer.push_back(lengthened(foot, {.toes_mm = toes_mm}));
   }
-  const double heel_mm = missing_of_heel_mm(seen_heel(foot)) / full_size_factor(length_of(foot));
+  const double heel_mm = missing_of_heel_mm(seen_heel(foot)) / full_size_factor(foot.length_mm());
   if (heel_mm > 0.0) {
     ends.warning +=
         (ends.warning.empty() ? "" : " and ") + std::string("the rearmost part of the heel");
-    ends.if_longer.push_back(lengthened(
-        foot, {.heel_mm = std::min(heel_mm, kMostUnseenHeelMm), .turn = kUnseenHeelTurn}));
+    ends.if_longer.push_back(lengthened(foot, {.heel_mm = std::min(heel_mm, kMostUnseenHeelMm)}));
+    // For itself, so that which way it turns does not matter.
+    ends.if_longer.push_back(lengthened(foot, {.turn = kUnseenHeelTurn}));
   }
   if (ends.if_longer.empty()) return std::nullopt;
   ends.warning +=

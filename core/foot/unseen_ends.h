@@ -14,9 +14,8 @@ struct UnseenEnds {
   std::string warning;
   /// The landmarks as they would be if it went on: at the toes for another 10 mm, where more was
   /// cut off the warning alone tells; at the heel for as much as its skin, which is about as round
-  /// on all feet, lacks of facing backwards, at least 10 mm where it has a hole and 25 at most, its
-  /// axis turned. Of each end for
-  /// itself.
+  /// on all feet, lacks of facing backwards, at least 10 mm where it has a hole and 25 at most,
+  /// and, for itself, with its axis turned. Of each end for itself.
   std::vector<RedrawnLandmarks> if_longer;
 };
 

@@ -30,7 +30,7 @@ struct Halves {
 
 /// Of the heel, or with `forwards` of the toes.
 Halves halves_of_end(const FootScan& foot, bool forwards) {
-  const double length = foot.landmarks.at("acropodion").position_mm.x();
+  const double length = foot.length_mm();
   Halves halves;
   for (std::size_t i = 0; i < foot.cloud.size(); ++i) {
     const Vector3d& point = foot.cloud.positions[i];

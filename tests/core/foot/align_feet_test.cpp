@@ -101,6 +101,17 @@ TEST(AlignFeet, KeepsTheShapesOfFeetThatPointDifferentWays) {
   }
 }
 
+/// One behind the other neither stands on the left.
+TEST(AlignFeet, KeepsTheShapesOfFeetOneBehindTheOther) {
+  PointCloud behind = at(left_foot(), -3.0);
+  for (auto& point : behind.positions) point.x() -= 330.0;
+  const auto feet = align_feet({at(right_foot(), 0.0), behind}, on_the_floor());
+  ASSERT_TRUE(feet) << feet.error().line();
+  ASSERT_EQ(feet->size(), 2U);
+  EXPECT_EQ((*feet)[0].cloud_number, 1U) << "the left one";
+  for (const auto& foot : *feet) EXPECT_FALSE(says(foot, "crossed"));
+}
+
 /// A box of 100 x 60 x 40 mm: as long as what may be a foot, but none.
 PointCloud box() {
   PointCloud cloud;

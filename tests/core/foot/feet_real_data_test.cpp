@@ -305,6 +305,44 @@ TEST_F(RealFeet, CutOffBesideTheirAxisAreNotSurelyOfTheOtherSide) {
   }
 }
 
+/// With some millimetres of the first toe cut off, the foremost skin was the second one's, and the
+/// foot up to 8 mm too short in 1.5.
+TEST_F(RealFeet, WithoutTheTipOfTheFirstToeMayBeLonger) {
+  for (const auto& [name, unit_mm] :
+       std::map<const char*, double>{{"retail_left.stl", 1000.0}, {"lab_left.ply", 1.0}}) {
+    const auto points = cloud(name, unit_mm);
+    const auto whole = measured(points);
+    const double length = whole.set.find("foot_length")->value_mm;
+    EXPECT_TRUE(whole.set.find("foot_length")->warnings.empty()) << name;
+    for (const double cut_mm : {4.0, 5.0, 6.0, 7.0, 8.0}) {
+      const auto cut = measured(without(points, [&](const Eigen::Vector3d& point) {
+        return (whole.foot.foot_from_input * point).x() > length - cut_mm;
+      }));
+      const Measure* left = cut.set.find("foot_length");
+      ASSERT_NE(left, nullptr) << name << " " << cut_mm;
+      EXPECT_NEAR(left->value_mm, length, *left->u95_mm) << name << " " << cut_mm;
+      EXPECT_FALSE(left->warnings.empty()) << name << " " << cut_mm;
+    }
+  }
+}
+
+/// The toes over the cut were taken for a floor round the foot, which was 90 mm too short in 10.
+TEST_F(RealFeet, CutOffAboveTheirEdgeAreRefused) {
+  for (const auto& [name, unit_mm] : std::map<const char*, double>{
+           {"retail_left.stl", 1000.0}, {"retail_right.stl", 1000.0}, {"lab_left.ply", 1.0}}) {
+    const auto points = cloud(name, unit_mm);
+    const auto whole = measured(points);
+    for (const double cut_mm : {15.0, 20.0, 25.0, 30.0, 40.0}) {
+      const auto cut = align_foot(without(points, [&](const Eigen::Vector3d& point) {
+        return (whole.foot.foot_from_input * point).z() < cut_mm;
+      }));
+      ASSERT_FALSE(cut) << name << " " << cut_mm;
+      EXPECT_EQ(cut.error().code, ErrorCode::kInsufficientData) << cut.error().line();
+      EXPECT_NE(cut.error().message.find("lowest part"), std::string::npos) << cut.error().line();
+    }
+  }
+}
+
 /// A line of points alone leans any way: where lines lay two centimetres apart on its back, walls
 /// were put under them, and the ball's girth was 74 mm short in 8.
 TEST_F(RealFeet, InLinesAslantHaveWallsWhereTheirSoleEnds) {
