@@ -102,10 +102,10 @@ struct FootScan {
     return toe != landmarks.end() && toe->second.confidence > 0.5;
   }
 
-  /// +1 where medial is +y (right foot), -1 where it is -y (left foot).
   /// From the heel's end to that of the toes, along the axis; of an aligned foot.
   double length_mm() const { return landmarks.at("acropodion").position_mm.x(); }
 
+  /// +1 where medial is +y (right foot), -1 where it is -y (left foot).
   double medial_sign() const { return side == Side::kRight ? 1.0 : -1.0; }
 };
 
