@@ -4,20 +4,24 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <utility>
 
 namespace instep {
 namespace {
 
-/// Cells across the contour: few corners share one, and few hold none between those that do.
-constexpr int kCells = 64;
-
-std::size_t number_of(int column, int row) {
-  return static_cast<std::size_t>(column * kCells + row);
-}
+/// Of cells across the contour, so that few corners share one, and few hold none between those that
+/// do. With fewer than two the squares round a cell would not be looked at.
+constexpr std::size_t kCornersForACell = 6;
+constexpr std::size_t kFewestCells = 2;
+constexpr std::size_t kMostCells = 64;
 
 }  // namespace
 
-ContourIndex::ContourIndex(const Contour& contour) : corners_(contour.points), ways_{0.0} {
+ContourIndex::ContourIndex(std::vector<Eigen::Vector2d> corners)
+    : corners_(std::move(corners)),
+      ways_{0.0},
+      cells_(static_cast<int>(
+          std::clamp(corners_.size() / kCornersForACell, kFewestCells, kMostCells))) {
   Eigen::AlignedBox2d box;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     const auto& next = corners_[(i + 1) % corners_.size()];
@@ -25,9 +29,9 @@ ContourIndex::ContourIndex(const Contour& contour) : corners_(contour.points), w
     box.extend(corners_[i]);
   }
   origin_ = box.min();
-  side_ = std::max(box.sizes().maxCoeff() / kCells, std::numeric_limits<double>::min());
+  side_ = std::max(box.sizes().maxCoeff() / cells_, std::numeric_limits<double>::min());
 
-  begins_.assign(number_of(kCells, 0) + 1, 0);
+  begins_.assign(number_of(cells_, 0) + 1, 0);
   const auto cell_number = [&](const Eigen::Vector2d& corner) {
     const Cell cell = cell_of(corner);
     return number_of(cell.x(), cell.y());
@@ -41,10 +45,14 @@ ContourIndex::ContourIndex(const Contour& contour) : corners_(contour.points), w
   }
 }
 
+std::size_t ContourIndex::number_of(int column, int row) const {
+  return static_cast<std::size_t>(column * cells_ + row);
+}
+
 /// Points beyond the cells belong to the nearest one.
 ContourIndex::Cell ContourIndex::cell_of(const Eigen::Vector2d& point) const {
   const Eigen::Array2d cell = (point - origin_).array() / side_;
-  return cell.max(0.0).min(kCells - 1.0).cast<int>();
+  return cell.max(0.0).min(cells_ - 1.0).cast<int>();
 }
 
 /// Looks at the cells in squares round the point's own, until none further out can hold a nearer
@@ -62,18 +70,18 @@ std::size_t ContourIndex::nearest_corner(const Eigen::Vector2d& point) const {
       nearest = members_[at];
     }
   };
-  for (int ring = 1; ring < kCells; ++ring) {
+  for (int ring = 1; ring < cells_; ++ring) {
     const double looked_at = (ring - 1) * side_;
     if (least < looked_at * looked_at) break;
     const Cell from = (middle - ring).max(0);
-    const Cell to = (middle + ring).min(kCells - 1);
+    const Cell to = (middle + ring).min(cells_ - 1);
     for (int column = from.x(); column <= to.x(); ++column) {
       if (ring == 1 || std::abs(column - middle.x()) == ring) {
         look_at(column, from.y(), to.y());
         continue;
       }
       if (middle.y() - ring >= 0) look_at(column, from.y(), from.y());
-      if (middle.y() + ring < kCells) look_at(column, to.y(), to.y());
+      if (middle.y() + ring < cells_) look_at(column, to.y(), to.y());
     }
   }
   return nearest;
@@ -100,7 +108,7 @@ ContourIndex::Foot ContourIndex::foot_of(const Eigen::Vector2d& point) const {
 bool ContourIndex::passes_within(double distance, const Eigen::Vector2d& point) const {
   const Cell cell = cell_of(point);
   const std::size_t from = number_of(cell.x(), std::max(cell.y() - 1, 0));
-  const std::size_t to = number_of(cell.x(), std::min(cell.y() + 1, kCells - 1));
+  const std::size_t to = number_of(cell.x(), std::min(cell.y() + 1, cells_ - 1));
   for (std::uint32_t at = begins_[from]; at < begins_[to + 1]; ++at) {
     if ((corners_[members_[at]] - point).norm() <= distance) return true;
   }

@@ -9,12 +9,16 @@
 
 namespace instep {
 
-/// Finds where on a traced contour a point of the plane is nearest. The contour's corners lie close
-/// and evenly, as trace_contour() puts them; at least one. Keeps what it needs of the contour.
-/// Near the contour a query looks at a few corners only.
+/// Finds where on a closed polygon a point of the plane is nearest: on a traced contour, or of any
+/// corners that lie about evenly along it; at least one. Keeps what it needs of them. Near the
+/// polygon a query looks at a few corners only, far from it at more and more of them.
 class ContourIndex {
  public:
-  explicit ContourIndex(const Contour& contour);
+  explicit ContourIndex(std::vector<Eigen::Vector2d> corners);
+  explicit ContourIndex(const Contour& contour) : ContourIndex(contour.points) {}
+
+  /// The number of the nearest corner; the first of those that are as near.
+  std::size_t nearest_corner(const Eigen::Vector2d& point) const;
 
   struct Foot {
     double distance = 0.0;
@@ -30,15 +34,16 @@ class ContourIndex {
   double length() const { return ways_.back(); }
 
  private:
-  /// Of a square cell: from 0 to below kCells, in both directions.
+  /// Of a square cell: from 0 to below cells_, in both directions.
   using Cell = Eigen::Array2i;
 
+  std::size_t number_of(int column, int row) const;
   Cell cell_of(const Eigen::Vector2d& point) const;
-  std::size_t nearest_corner(const Eigen::Vector2d& point) const;
 
   std::vector<Eigen::Vector2d> corners_;
   std::vector<double> ways_;  ///< to each corner, and to the first one again
   Eigen::Vector2d origin_;    ///< of the cells
+  int cells_;                 ///< across the contour
   double side_ = 1.0;
   std::vector<std::uint32_t> begins_;   ///< of each cell in members_, and the end of the last
   std::vector<std::uint32_t> members_;  ///< corners, cell by cell

@@ -98,7 +98,7 @@ FairLine::Place FairLine::at(double way) const {
 
 FairLine::Foot FairLine::foot_of(const Eigen::Vector2d& point) const {
   const double apart = basis_.knots_apart() / kCornersFromKnotToKnot;
-  double way = apart * static_cast<double>(corners_.nearest(point));
+  double way = apart * static_cast<double>(corners_.nearest_corner(point));
   for (int move = 0; move < kMoves; ++move) {
     const Curve near = curve_at(way);
     const Eigen::Vector2d aside = point - near.point;

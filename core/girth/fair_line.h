@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/girth/contour.h"
-#include "core/girth/corner_grid.h"
+#include "core/girth/contour_index.h"
 #include "core/surface/closed_spline_basis.h"
 
 namespace instep {
@@ -55,7 +55,7 @@ class FairLine {
 
   ClosedSplineBasis basis_;
   std::vector<Piece> pieces_;
-  CornerGrid corners_;  ///< of some places on the curve, equally many from knot to knot
+  ContourIndex corners_;  ///< of some places on the curve, equally many from knot to knot
 };
 
 }  // namespace instep

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "tests/support/random_numbers.h"
 
@@ -60,6 +61,17 @@ double length_of(const Contour& contour) {
   return length;
 }
 
+std::size_t nearest_of_all(const std::vector<Vector2d>& corners, const Vector2d& point) {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double squared = (corners[i] - point).squaredNorm();
+    if (squared < least) nearest = i;
+    least = std::min(least, squared);
+  }
+  return nearest;
+}
+
 /// Between two places on a closed line.
 double way_between(double a, double b, double length) {
   return std::abs(std::remainder(a - b, length));
@@ -95,6 +107,35 @@ TEST(ContourIndex, FindsTheFootOnACircleAsAllChordsDo) {
 TEST(ContourIndex, FindsTheFootNearAnEllipseAsAllChordsDo) {
   expect_feet_of_all_chords(0.4, 0.2, 250, 0.03);
   expect_feet_of_all_chords(0.45, 0.1, 250, 0.02);
+}
+
+TEST(ContourIndex, FindsTheNearestCornerOfAll) {
+  test::RandomNumbers random(1);
+  for (const double flat : {1.0, 0.02, 0.0}) {
+    std::vector<Vector2d> corners;
+    for (int i = 0; i < 90; ++i) {
+      corners.emplace_back(random.uniform(-3.0, 2.0), flat * random.uniform(4.0, 9.0));
+    }
+    const ContourIndex index(corners);
+    for (int i = 0; i < 5000; ++i) {
+      const Vector2d point(random.uniform(-5.0, 4.0), random.uniform(-1.0, 12.0));
+      EXPECT_EQ(index.nearest_corner(point), nearest_of_all(corners, point)) << point.transpose();
+    }
+  }
+}
+
+TEST(ContourIndex, TellsTheFirstOfCornersThatAreAsNear) {
+  const ContourIndex index(std::vector<Vector2d>{{0, 0}, {1, 1}, {1, 1}, {0, 0}});
+  EXPECT_EQ(index.nearest_corner({0.9, 0.8}), 1U);
+  EXPECT_EQ(index.nearest_corner({-50.0, 0.1}), 0U);
+  EXPECT_EQ(index.nearest_corner({0.5, 0.5}), 0U);
+}
+
+TEST(ContourIndex, TakesASingleCorner) {
+  const ContourIndex index(std::vector<Vector2d>{{2, 3}});
+  EXPECT_EQ(index.nearest_corner({2, 3}), 0U);
+  EXPECT_EQ(index.nearest_corner({7, -3}), 0U);
+  EXPECT_EQ(index.length(), 0.0);
 }
 
 TEST(ContourIndex, PutsCornersAtTheirWaysAndJoinsTheLastToTheFirst) {
