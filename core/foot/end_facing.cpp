@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/voxel_grid.h"
 #include "core/median.h"
@@ -25,11 +25,7 @@ std::vector<PointIndex::Neighbour> neighbours_of(const Vector3d& point, const Po
 }
 
 Vector3d normal_at(const Vector3d& point, const PointIndex& index) {
-  Moments moments;
-  for (const auto& neighbour : neighbours_of(point, index)) {
-    moments.add(index.points()[neighbour.index] - point);
-  }
-  return moments.flattest();
+  return moments_round(index, point, neighbours_of(point, index)).flattest();
 }
 
 /// The means over cells of a millimetre.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/point_index.h"
 #include "core/picked.h"
 #include "core/some_of.h"
@@ -49,9 +50,7 @@ void hear(const std::vector<Vector3d>& normals, const PointIndex& index, const V
           std::size_t i, Witness& witness) {
   const auto& places = index.points();
   const auto nearest = index.nearest(places[i], kNeighbours);
-  Moments moments;
-  for (const auto& other : nearest) moments.add(places[other.index] - places[i]);
-  const SpreadAxes axes = moments.axes();
+  const SpreadAxes axes = moments_round(index, places[i], nearest).axes();
   if (!lies_as_skin(axes)) return;
   const Vector3d& told = normals[i];
   witness.flat += 1.0;

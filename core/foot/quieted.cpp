@@ -7,7 +7,7 @@
 
 #include "core/foot/full_size.h"
 #include "core/foot/skin_noise.h"
-#include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/quadratic_skin.h"
@@ -100,9 +100,7 @@ std::optional<LocalSkin> skin_round(const Vector3d& place, const PointIndex& ask
   const double height = std::min(radius, kColumnInNoise * noise_mm + kColumnInRadii * radius);
   const auto neighbours = asked.around(place, std::hypot(radius, height));
   if (neighbours.size() < kFewest) return std::nullopt;
-  Moments moments;
-  for (const auto& neighbour : neighbours) moments.add(asked.points()[neighbour.index] - place);
-  const Vector3d normal = moments.flattest();
+  const Vector3d normal = moments_round(asked, place, neighbours).flattest();
   const Vector3d across = normal.unitOrthogonal();
   const SkinFrame frame{place, across, normal.cross(across), normal};
   SkinPatch patch;

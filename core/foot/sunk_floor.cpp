@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/foot/skin_noise.h"
-#include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 
@@ -28,10 +28,7 @@ constexpr std::size_t kAskedPlaces = 60;
 constexpr std::size_t kFewestPlaces = 10;
 
 bool faces_up(const PointIndex& index, const Vector3d& place) {
-  Moments moments;
-  for (const auto& neighbour : index.nearest(place, kNeighbours)) {
-    moments.add(index.points()[neighbour.index] - place);
-  }
+  const Moments moments = moments_round(index, place, index.nearest(place, kNeighbours));
   return std::abs(moments.flattest().z()) > kFacesUp;
 }
 

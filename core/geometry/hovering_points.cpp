@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/point_spacing.h"
 #include "core/picked.h"
 
@@ -52,9 +53,7 @@ bool is_on_sheet(const PointIndex& far_apart, const Eigen::Vector3d& place, doub
   const auto beside = far_apart.nearest(place, kBeside);
   if (beside.size() < kBeside) return false;
   if (own_spacing(far_apart, place) > kBesideDenser * own) return false;
-  Moments moments;
-  for (const auto& one : beside) moments.add(far_apart.points()[one.index] - place);
-  return are_flat(moments.axes(), kFlat * kFlat);
+  return are_flat(moments_round(far_apart, place, beside).axes(), kFlat * kFlat);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/quadratic_skin.h"
@@ -88,11 +89,8 @@ double flat_share(const std::vector<Vector3d>& all, const Members& members) {
   std::size_t asked = 0;
   std::size_t flat = 0;
   for (std::size_t i = 0; i < points.size(); i += stride, ++asked) {
-    Moments moments;
-    for (const auto& one : index.nearest(points[i], kBeside)) {
-      moments.add(points[one.index] - points[i]);
-    }
-    flat += are_flat(moments.axes(), kFlat * kFlat);
+    const auto beside = index.nearest(points[i], kBeside);
+    flat += are_flat(moments_round(index, points[i], beside).axes(), kFlat * kFlat);
   }
   return static_cast<double>(flat) / static_cast<double>(asked);
 }

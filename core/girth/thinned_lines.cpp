@@ -11,6 +11,7 @@
 
 #include "core/geometry/cell_crowds.h"
 #include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/near_copies.h"
 #include "core/geometry/point_index.h"
 #include "core/median.h"
@@ -154,11 +155,7 @@ class LineAverages {
   /// In which several lines spread least: that of the noise, in which a thick one may spread more
   /// than along itself.
   Eigen::Vector3d across_the_skin(const Eigen::Vector3d& place) const {
-    Moments moments;
-    for (const auto& one : index_.around(place, kSeveralLines * apart_)) {
-      moments.add(slab_.places[one.index] - place);
-    }
-    return moments.flattest();
+    return moments_round(index_, place, index_.around(place, kSeveralLines * apart_)).flattest();
   }
 
   /// The line beside a place as it bends evenly, `up` across the skin. Nothing where too few points

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/median.h"
 
 namespace instep {
@@ -41,11 +42,7 @@ Eigen::Vector3d normal_across_lines(const PointIndex& index, const Eigen::Vector
                                     SpreadAxes axes, double side) {
   for (double radius = kFirstRound * side; are_on_a_line(axes, kThinLine) && radius < kWidestRound;
        radius *= kWidening) {
-    Moments round;
-    for (const auto& near : index.around(place, radius)) {
-      round.add(index.points()[near.index] - place);
-    }
-    axes = round.axes();
+    axes = moments_round(index, place, index.around(place, radius)).axes();
   }
   return axes.eigenvectors().col(0);
 }
@@ -71,19 +68,16 @@ std::vector<Cluster> clusters_of(const VoxelGrid& grid,
 
 /// Of the points of a cell and those round it, or where these are fewer than `fewest` the nearest
 /// ones.
-Moments moments_round(std::size_t cell, const VoxelGrid& grid, const std::vector<Cluster>& clusters,
-                      const PointIndex& index, std::size_t fewest) {
+Moments moments_of_block(std::size_t cell, const VoxelGrid& grid,
+                         const std::vector<Cluster>& clusters, const PointIndex& index,
+                         std::size_t fewest) {
   const Eigen::Vector3d& middle = clusters[cell].middle;
   Moments round;
   grid.each_near(cell, [&](std::size_t other) {
     round.add(clusters[other].moments, clusters[other].middle - middle);
   });
   if (round.count >= static_cast<double>(fewest)) return round;
-  round = {};
-  for (const auto& nearest : index.nearest(middle, fewest)) {
-    round.add(index.points()[nearest.index] - middle);
-  }
-  return round;
+  return moments_round(index, middle, index.nearest(middle, fewest));
 }
 
 }  // namespace
@@ -96,7 +90,7 @@ SurfaceFacets::SurfaceFacets(const PointIndex& index, double side, double sigma,
   std::vector<double> thicknesses;
   for (std::size_t cell = 0; cell < clusters.size(); ++cell) {
     looks[cell].middle = clusters[cell].middle;
-    const Moments round = moments_round(cell, grid_, clusters, index, fewest);
+    const Moments round = moments_of_block(cell, grid_, clusters, index, fewest);
     const auto axes = round.axes();
     thicknesses.push_back(std::sqrt(std::max(axes.eigenvalues()[0], 0.0) / round.count));
     looks[cell].normal = normal_across_lines(index, looks[cell].middle, axes, side);
