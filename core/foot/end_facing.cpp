@@ -6,6 +6,7 @@
 #include "core/geometry/moments_round.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/voxel_grid.h"
+#include "core/mean.h"
 #include "core/median.h"
 
 namespace instep {
@@ -33,9 +34,8 @@ std::vector<Vector3d> thinned(const std::vector<Vector3d>& points) {
   const VoxelGrid grid(points, kCellMm);
   std::vector<Vector3d> means;
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
-    Vector3d sum = Vector3d::Zero();
-    for (const auto member : grid.members(cell)) sum += points[member];
-    means.push_back(sum / static_cast<double>(grid.members(cell).size()));
+    means.push_back(
+        mean_of(grid.members(cell), [&](std::uint32_t member) { return points[member]; }));
   }
   return means;
 }

@@ -16,6 +16,7 @@
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
+#include "core/mean.h"
 #include "core/median.h"
 #include "core/noticed.h"
 
@@ -181,9 +182,8 @@ void drop_outliers(ViewedCloud& points) {
 
 /// Share of the directions round the middle of a foot in which its wall was seen.
 double coverage_of(const PointCloud& foot) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto& point : foot.positions) middle += point.head<2>();
-  middle /= static_cast<double>(foot.size());
+  const auto middle = mean_of(
+      foot.positions, [](const Vector3d& point) -> Eigen::Vector2d { return point.head<2>(); });
   std::vector<bool> seen(kSectors, false);
   for (std::size_t i = 0; i < foot.size(); ++i) {
     const Eigen::Vector2d outward = foot.positions[i].head<2>() - middle;

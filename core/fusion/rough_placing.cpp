@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "core/degree.h"
+#include "core/mean.h"
 #include "core/stride.h"
 
 namespace instep {
@@ -56,9 +57,7 @@ std::vector<Spot> some_of(const PointCloud& skin) {
 }
 
 Vector2d middle_of(const std::vector<Spot>& spots) {
-  Vector2d sum = Vector2d::Zero();
-  for (const auto& spot : spots) sum += spot.point.head<2>();
-  return sum / static_cast<double>(std::max<std::size_t>(1, spots.size()));
+  return mean_of(spots, [](const Spot& spot) -> Vector2d { return spot.point.head<2>(); });
 }
 
 /// How the surface of what a view shows lies, roughly, wherever it is near.

@@ -12,6 +12,7 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/rectangle.h"
 #include "core/geometry/voxel_grid.h"
+#include "core/mean.h"
 
 namespace instep {
 namespace {
@@ -69,13 +70,12 @@ std::vector<Piece> find_pieces(const std::vector<Vector3d>& positions) {
   for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
     if (clusters[cell] >= pieces.size()) pieces.resize(clusters[cell] + 1);
     auto& piece = pieces[clusters[cell]];
-    Vector3d sum = Vector3d::Zero();
     for (const std::uint32_t index : grid.members(cell)) {
-      sum += positions[index];
       piece.points.push_back(index);
       piece.lowest_mm = std::min(piece.lowest_mm, positions[index].z());
     }
-    piece.cells.push_back(sum / static_cast<double>(grid.members(cell).size()));
+    piece.cells.push_back(
+        mean_of(grid.members(cell), [&](std::uint32_t index) { return positions[index]; }));
   }
   std::stable_sort(pieces.begin(), pieces.end(), larger);
   return pieces;
@@ -237,9 +237,8 @@ std::vector<Piece> adopt(std::vector<Piece>& feet, std::vector<Piece> small) {
   std::vector<std::vector<Vector2d>> hulls;
   for (const auto& foot : feet) hulls.push_back(foot.hull());
   std::erase_if(small, [&](const Piece& piece) {
-    Vector2d middle = Vector2d::Zero();
-    for (const auto& cell : piece.cells) middle += cell.head<2>();
-    middle /= static_cast<double>(piece.cells.size());
+    const auto middle =
+        mean_of(piece.cells, [](const Vector3d& cell) -> Vector2d { return cell.head<2>(); });
     for (std::size_t i = 0; i < feet.size(); ++i) {
       if (!inside_outline(hulls[i], middle)) continue;
       feet[i].points.insert(feet[i].points.end(), piece.points.begin(), piece.points.end());

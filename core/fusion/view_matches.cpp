@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/mean.h"
 #include "core/median.h"
 #include "core/normal_spread.h"
 
@@ -25,12 +26,6 @@ PointCloud even_subset(const PointCloud& cloud, std::size_t most) {
     indices.push_back(static_cast<std::size_t>(at));
   }
   return cloud.subset(indices);
-}
-
-Vector3d mean(const std::vector<Vector3d>& vectors) {
-  Vector3d sum = Vector3d::Zero();
-  for (const auto& vector : vectors) sum += vector;
-  return sum / static_cast<double>(std::max<std::size_t>(1, vectors.size()));
 }
 
 /// All queries of `view`, or one in `stride`, that find the same surface in `other` within `reach`.
@@ -94,8 +89,8 @@ std::vector<MovingView> moving_views(const std::vector<PosedCloud>& views, std::
     moving[i].queries = even_subset(cloud, queries);
     moving[i].targets = even_subset(cloud, targets);
     moving[i].index = std::make_unique<PointIndex>(moving[i].targets.positions);
-    moving[i].centroid = mean(moving[i].targets.positions);
-    moving[i].towards_camera = mean(moving[i].targets.view_directions).normalized();
+    moving[i].centroid = mean_of(moving[i].targets.positions);
+    moving[i].towards_camera = mean_of(moving[i].targets.view_directions).normalized();
     moving[i].taking_part = true;
   }
   return moving;

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "core/mean.h"
+
 namespace instep {
 namespace {
 
@@ -17,8 +19,7 @@ Eigen::Vector3d with_fixed_sign(const Eigen::Vector3d& axis) {
 
 PointSpread spread_of(const std::vector<Eigen::Vector3d>& points) {
   PointSpread spread;
-  for (const auto& point : points) spread.mean += point;
-  spread.mean /= static_cast<double>(points.size());
+  spread.mean = mean_of(points);
   for (const auto& point : points) {
     const Eigen::Vector3d offset = point - spread.mean;
     spread.covariance += offset * offset.transpose();

@@ -12,6 +12,7 @@
 #include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
+#include "core/mean.h"
 #include "core/surface/octree_surface.h"
 
 namespace instep {
@@ -79,9 +80,7 @@ Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& pla
 /// Unit normal of the straight line through points in the plane, by total least squares (step 5).
 /// Nothing if they do not determine a line.
 std::optional<Eigen::Vector2d> line_normal(const std::vector<Eigen::Vector2d>& points) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const auto& point : points) mean += point;
-  mean /= static_cast<double>(points.size());
+  const Eigen::Vector2d mean = mean_of(points);
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const auto& point : points) spread += (point - mean) * (point - mean).transpose();
   if (!(spread.trace() > 0.0)) return std::nullopt;
@@ -170,9 +169,7 @@ class SectionOfSurface {
 /// how they are ordered).
 std::vector<Eigen::Vector2d> ordered_round(const std::vector<Eigen::Vector2d>& hull,
                                            std::vector<Eigen::Vector2d> points) {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto& corner : hull) middle += corner;
-  middle /= static_cast<double>(hull.size());
+  const Eigen::Vector2d middle = mean_of(hull);
   const auto angle = [&](const Eigen::Vector2d& point) {
     return std::atan2(point.y() - middle.y(), point.x() - middle.x());
   };

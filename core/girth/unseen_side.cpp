@@ -9,19 +9,18 @@
 #include <vector>
 
 #include "core/girth/section_evidence.h"
+#include "core/mean.h"
 
 namespace instep {
 
 UnseenSide widest_unseen_side(const PlaneBand& band) {
   std::vector<Eigen::Vector2d> places;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const auto& point : band.points) {
     if (std::abs(point.position.z()) > evidence_reach(band)) continue;
     places.emplace_back(point.position.head<2>());
-    middle += places.back();
   }
   if (places.empty()) return {2.0 * std::numbers::pi, 0.0};
-  middle /= static_cast<double>(places.size());
+  const Eigen::Vector2d middle = mean_of(places);
   std::vector<std::pair<double, std::size_t>> angles;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Eigen::Vector2d arm = places[i] - middle;

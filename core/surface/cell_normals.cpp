@@ -5,6 +5,8 @@
 #include <queue>
 #include <utility>
 
+#include "core/mean.h"
+
 namespace instep {
 namespace {
 
@@ -61,9 +63,9 @@ void CellNormals::orient_by_neighbours() {
 }
 
 Eigen::Vector2d CellNormals::middle_of_all() const {
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < facets_.size(); ++i) middle += facets_[i].middle.head<2>();
-  return middle / std::max(1.0, static_cast<double>(facets_.size()));
+  return mean_of(facets_, [](const SurfaceFacets::Facet& facet) -> Eigen::Vector2d {
+    return facet.middle.head<2>();
+  });
 }
 
 /// Between -1 and 1: how far the normals of some facets face away from the middle.

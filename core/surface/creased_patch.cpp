@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/mean.h"
 #include "core/surface/crease_rule.h"
 #include "core/surface/quadratic_sheet.h"
 #include "core/surface/sheet_rows.h"
@@ -62,12 +63,9 @@ Eigen::Vector3d near_crease(const std::vector<OrientedPoint>& points, const TwoS
   places = least_high(places, kCandidatesAtCrease, [&](const Eigen::Vector3d& place) {
     return std::abs(sheets.planes[0].height(place)) + std::abs(sheets.planes[1].height(place));
   });
-  places = least_high(places, kPointsAtCrease, [&](const Eigen::Vector3d& place) {
+  return mean_of(least_high(places, kPointsAtCrease, [&](const Eigen::Vector3d& place) {
     return std::abs(first.at(place).value) + std::abs(second.at(place).value);
-  });
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const auto& place : places) middle += place;
-  return middle / static_cast<double>(places.size());
+  }));
 }
 
 struct Crease {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/mean.h"
 #include "core/picked.h"
 #include "core/stride.h"
 #include "core/surface/crease_rule.h"
@@ -84,9 +85,7 @@ constexpr double kHardlyATip = 2.95;
 constexpr double kHidesSharpness = 2e-4;
 
 Eigen::Vector3d middle_of(const std::vector<OrientedPoint>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& point : points) sum += point.position;
-  return sum / static_cast<double>(points.size());
+  return mean_of(points, &OrientedPoint::position);
 }
 
 /// By how much a length over an edge would be shorter if the edge were as round as its gaps allow,

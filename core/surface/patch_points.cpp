@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/geometry/point_spacing.h"
+#include "core/mean.h"
 #include "core/median.h"
 #include "core/picked.h"
 #include "core/stride.h"
@@ -124,9 +125,8 @@ PatchPoints::Neighbours PatchPoints::nearest_all_round(const Eigen::Vector3d& pl
   auto first = index_.nearest(place, rule_.points);
   auto nearest = first;
   for (std::size_t count = kMoreInAHole * rule_.points / 2;; count = kMoreInAHole * count / 2) {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const auto& neighbour : nearest) middle += points_[neighbour.index].position;
-    middle /= static_cast<double>(nearest.size());
+    const Eigen::Vector3d middle =
+        mean_of(nearest, [&](const auto& neighbour) { return points_[neighbour.index].position; });
     const double reach = std::sqrt(nearest.back().squared_distance);
     if ((middle - place).norm() < kOneSided * reach || is_thin(nearest)) return nearest;
     if (reach > kWidestHole || nearest.size() == points_.size()) return first;

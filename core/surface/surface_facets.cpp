@@ -6,6 +6,7 @@
 
 #include "core/geometry/moments.h"
 #include "core/geometry/moments_round.h"
+#include "core/mean.h"
 #include "core/median.h"
 
 namespace instep {
@@ -59,8 +60,7 @@ std::vector<Cluster> clusters_of(const VoxelGrid& grid,
   for (std::size_t cell = 0; cell < clusters.size(); ++cell) {
     auto& [middle, moments] = clusters[cell];
     const auto members = grid.members(cell);
-    for (const auto member : members) middle += points[member];
-    middle /= static_cast<double>(members.size());
+    middle = mean_of(members, [&](std::uint32_t member) { return points[member]; });
     for (const auto member : members) moments.add(points[member] - middle);
   }
   return clusters;

@@ -37,6 +37,8 @@ class SurfaceFacets {
 
   std::size_t size() const { return facets_.size(); }
   const Facet& operator[](std::size_t facet) const { return facets_[facet]; }
+  auto begin() const { return facets_.begin(); }
+  auto end() const { return facets_.end(); }
 
   /// To the other side.
   void turn(std::size_t facet) { facets_[facet].normal *= -1.0; }

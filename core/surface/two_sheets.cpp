@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/geometry/moments.h"
+#include "core/mean.h"
 #include "core/picked.h"
 #include "core/surface/crease_rule.h"
 #include "core/surface/quadratic_sheet.h"
@@ -47,9 +48,7 @@ Planes planes_of(const std::vector<OrientedPoint>& points, const Sides& sides) {
 
 /// The direction in which the normals differ most.
 Eigen::Vector3d direction_of_bend(const std::vector<OrientedPoint>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& point : points) mean += point.normal;
-  mean /= static_cast<double>(points.size());
+  const Eigen::Vector3d mean = mean_of(points, &OrientedPoint::normal);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const auto& point : points) {
     const Eigen::Vector3d arm = point.normal - mean;
