@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "core/foot/redrawn_landmarks.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/toe_points.h"
+#include "core/while_wanted.h"
 
 namespace instep {
 namespace {
@@ -42,17 +42,6 @@ class Marking {
   const FootOutline& outline_;
   FootScan& foot_;
 };
-
-/// As long as `go_on` allows it, which is asked after each job; the jobs left over are not done.
-Workers while_wanted(const Workers& workers, const GoOn& go_on, std::atomic<bool>& wanted) {
-  return [&](std::size_t count, const std::function<void(std::size_t job)>& work) {
-    workers(count, [&](std::size_t job) {
-      if (!wanted) return;
-      work(job);
-      if (!go_on()) wanted = false;
-    });
-  };
-}
 
 void mark_toes(const FootOutline& outline, const Landmark& tibiale, const Landmark& fibulare,
                Marking& marking) {

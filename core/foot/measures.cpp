@@ -22,6 +22,7 @@
 #include "core/girth/length_doubt.h"
 #include "core/in_millimetres.h"
 #include "core/normal_spread.h"
+#include "core/while_wanted.h"
 
 namespace instep {
 namespace {
@@ -377,10 +378,8 @@ Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& opti
   const auto definitions = girth_definitions(foot);
   std::vector<std::optional<Result<Measure>>> girths(definitions.size());
   std::atomic<bool> wanted = true;
-  options.workers(definitions.size(), [&](std::size_t i) {
-    if (!wanted) return;
+  while_wanted(options.workers, go_on, wanted)(definitions.size(), [&](std::size_t i) {
     girths[i] = take(definitions[i], foot, about, options);
-    if (!go_on()) wanted = false;
   });
   if (!wanted) return cancelled();
   for (std::size_t i = 0; i < definitions.size(); ++i) {

@@ -19,6 +19,7 @@
 #include "core/mean.h"
 #include "core/median.h"
 #include "core/noticed.h"
+#include "core/while_wanted.h"
 
 namespace instep {
 namespace {
@@ -43,11 +44,7 @@ struct Work {
   /// A job for each view; false if the work was cancelled, when some are not done.
   bool for_each_view(std::size_t count, const std::function<void(std::size_t)>& job) const {
     std::atomic<bool> wanted = true;
-    workers(count, [&](std::size_t view) {
-      if (!wanted) return;
-      job(view);
-      if (!go_on()) wanted = false;
-    });
+    while_wanted(workers, go_on, wanted)(count, job);
     return wanted;
   }
 };
