@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
@@ -9,6 +10,7 @@
 #include "core/degree.h"
 #include "core/mean.h"
 #include "core/stride.h"
+#include "core/while_wanted.h"
 
 namespace instep {
 namespace {
@@ -281,15 +283,22 @@ Result<std::vector<RigidTransform>> place_roughly(const std::vector<LevelView>& 
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (i != placed.front() && !views[i].skin.empty()) waiting.push_back(i);
   }
+  std::atomic<bool> wanted = true;
+  // A search asks for each of its pieces, and nobody asks again after the first no.
+  const GoOn still_wanted = [&] {
+    if (wanted && !go_on()) wanted = false;
+    return wanted.load();
+  };
+  const Workers search_each = while_wanted(workers, still_wanted, wanted);
   while (!waiting.empty()) {
     std::vector<Place> places(waiting.size());
     std::vector<RigidTransform> ways(waiting.size());
-    workers(waiting.size(), [&](std::size_t i) {
+    search_each(waiting.size(), [&](std::size_t i) {
       const PlaceSearch search(views, witnesses, placed, moves, waiting[i]);
-      places[i] = search.best(go_on);
+      places[i] = search.best(still_wanted);
       ways[i] = search.move_to(places[i]);
     });
-    if (!go_on()) return cancelled();
+    if (!wanted) return cancelled();
     const auto plainest = static_cast<std::size_t>(
         std::max_element(places.begin(), places.end(),
                          [](const Place& a, const Place& b) { return a.agreement < b.agreement; }) -

@@ -105,5 +105,17 @@ TEST(PlaceRoughly, EndsWhereItIsNoLongerWanted) {
   EXPECT_EQ(moves.error().code, ErrorCode::kCancelled);
 }
 
+TEST(PlaceRoughly, HeedsASingleNoWheneverItComes) {
+  const auto views = views_of_a_foot();
+  const std::vector<LevelView> two = {level(views[0]), level(views[1])};
+  for (const int refused : {1, 2, 10, 18, 22, 26}) {
+    int asked = 0;
+    const auto moves = place_roughly(two, one_after_the_other, [&] { return ++asked != refused; });
+    ASSERT_FALSE(moves) << "question " << refused;
+    EXPECT_EQ(moves.error().code, ErrorCode::kCancelled);
+    EXPECT_EQ(asked, refused);
+  }
+}
+
 }  // namespace
 }  // namespace instep
