@@ -38,8 +38,7 @@ using Sides = std::vector<std::uint8_t>;
 using Points = std::vector<Eigen::Vector3d>;
 
 /// Of the points on one side; nothing of too few or of a line.
-std::optional<OppositeWalls::Wall> wall_of(const Points& points, const Sides& sides,
-                                           std::uint8_t side) {
+std::optional<FittedPlane> wall_of(const Points& points, const Sides& sides, std::uint8_t side) {
   Moments moments;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (sides[i] == side) moments.add(points[i] - points.front());
@@ -47,7 +46,7 @@ std::optional<OppositeWalls::Wall> wall_of(const Points& points, const Sides& si
   if (moments.count < static_cast<double>(kFewestOnAWall)) return std::nullopt;
   const auto axes = moments.axes();
   if (are_on_a_line(axes, kThinLine)) return std::nullopt;
-  return OppositeWalls::Wall{points.front() + moments.middle(), axes.eigenvectors().col(0)};
+  return FittedPlane{points.front() + moments.middle(), axes.eigenvectors().col(0)};
 }
 
 /// Of heights over one plane.

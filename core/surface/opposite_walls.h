@@ -2,10 +2,11 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+#include "core/geometry/fitted_plane.h"
 
 namespace instep {
 
@@ -13,17 +14,7 @@ namespace instep {
 /// points lie that show both: one plane through all of them would run between the walls. Seen from
 /// a tape plane: the third axis is square to it.
 struct OppositeWalls {
-  /// Through the middle of its points.
-  struct Wall {
-    Eigen::Vector3d middle;
-    Eigen::Vector3d normal;  ///< of either sign
-
-    double distance(const Eigen::Vector3d& place) const {
-      return std::abs(normal.dot(place - middle));
-    }
-  };
-
-  std::array<Wall, 2> both;
+  std::array<FittedPlane, 2> both;
   std::vector<std::uint8_t> sides;  ///< of each point, 0 or 1
 
   /// Nothing if two planes do not explain the points ten times as well as one does (in squares),

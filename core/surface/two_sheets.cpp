@@ -18,14 +18,14 @@ constexpr std::size_t kFewestOnASheet = 6;
 constexpr int kRounds = 6;
 
 using Sides = std::vector<std::uint8_t>;
-using Planes = std::array<TwoSheets::Plane, 2>;
+using Planes = std::array<FittedPlane, 2>;
 
 bool are_enough_on_both(const Sides& sides) {
   const auto on_second = static_cast<std::size_t>(std::count(sides.begin(), sides.end(), 1));
   return std::min(on_second, sides.size() - on_second) >= kFewestOnASheet;
 }
 
-/// The planes of the points on either side. One with too few points has no normal.
+/// The planes of the points on either side, at least one on each.
 Planes planes_of(const std::vector<OrientedPoint>& points, const Sides& sides) {
   const Eigen::Vector3d& origin = points.front().position;
   std::array<Moments, 2> moments;
@@ -36,12 +36,23 @@ Planes planes_of(const std::vector<OrientedPoint>& points, const Sides& sides) {
   }
   Planes planes;
   for (std::size_t side = 0; side < planes.size(); ++side) {
-    TwoSheets::Plane& plane = planes[side];
-    plane.count = static_cast<std::size_t>(moments[side].count);
-    if (plane.count < kFewestOnASheet) continue;
-    plane.middle = origin + moments[side].middle();
-    plane.normal = moments[side].flattest();
-    if (plane.normal.dot(facing[side]) < 0.0) plane.normal *= -1.0;
+    planes[side] = plane_of(moments[side], origin).facing(facing[side]);
+  }
+  return planes;
+}
+
+/// The same, but square to their told normals, on average.
+Planes told_planes_of(const std::vector<OrientedPoint>& points, const Sides& sides) {
+  Planes planes;
+  std::array<double, 2> counts{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    planes[sides[i]].middle += points[i].position;
+    planes[sides[i]].normal += points[i].normal;
+    counts[sides[i]] += 1.0;
+  }
+  for (std::size_t side = 0; side < planes.size(); ++side) {
+    planes[side].middle /= counts[side];
+    planes[side].normal.normalize();
   }
   return planes;
 }
@@ -122,19 +133,9 @@ std::optional<TwoSheets> TwoSheets::by_told_normals(const std::vector<OrientedPo
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
   for (int round = 0; round < kRounds; ++round) {
-    sheets.planes = {};
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      Plane& plane = sheets.planes[sheets.sides[i]];
-      plane.middle += points[i].position;
-      plane.normal += points[i].normal;
-      ++plane.count;
-    }
-    auto& [first, second] = sheets.planes;
-    if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
-    for (Plane& plane : sheets.planes) {
-      plane.middle /= static_cast<double>(plane.count);
-      plane.normal.normalize();
-    }
+    if (!are_enough_on_both(sheets.sides)) return std::nullopt;
+    sheets.planes = told_planes_of(points, sheets.sides);
+    const auto& [first, second] = sheets.planes;
     if (sheets.turn() < kLeastTurnOfToldPlanes) return std::nullopt;
     const Sides before = sheets.sides;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -153,9 +154,8 @@ std::optional<TwoSheets> TwoSheets::by_planes(const std::vector<OrientedPoint>& 
   TwoSheets sheets;
   sheets.sides = split_by_normals(points);
   for (int round = 0; round < kRounds; ++round) {
+    if (!are_enough_on_both(sheets.sides)) return std::nullopt;
     sheets.planes = planes_of(points, sheets.sides);
-    const auto& [first, second] = sheets.planes;
-    if (std::min(first.count, second.count) < kFewestOnASheet) return std::nullopt;
     if (sheets.turn() < kLeastTurnOfPlanes) return std::nullopt;
     sheets.convex = is_convex(sheets.planes);
     Sides sides =

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/fitted_plane.h"
 #include "core/surface/oriented_point.h"
 
 namespace instep {
@@ -14,16 +15,8 @@ namespace instep {
 /// Points of two sheets that meet in an angle, parted by which of them they lie on: the body is
 /// what lies under both (a convex crease) or under either.
 struct TwoSheets {
-  /// Through the middle of the points on one side.
-  struct Plane {
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    std::size_t count = 0;
-
-    double height(const Eigen::Vector3d& place) const { return normal.dot(place - middle); }
-  };
-
-  std::array<Plane, 2> planes;
+  /// Through the middle of the points on either side; each faces as these do.
+  std::array<FittedPlane, 2> planes;
   std::vector<std::uint8_t> sides;  ///< of each point, 0 or 1
   bool convex = true;
 
