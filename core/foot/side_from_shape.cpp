@@ -9,6 +9,7 @@
 #include "core/foot/full_size.h"
 #include "core/foot/outline_axis.h"
 #include "core/foot/skin_round.h"
+#include "core/geometry/extent.h"
 
 namespace instep {
 namespace {
@@ -42,16 +43,13 @@ double middle(const Borders& borders, double place) {
 double toe_offset(const std::vector<Vector2d>& outline, const Borders& borders, double length) {
   const double heel = middle(borders, 0.17 * length);
   const double ball = middle(borders, 0.65 * length);
-  double most = -1e300;
-  double least = 1e300;
+  Extent toes = Extent::none();
   for (const auto& point : outline) {
-    if (point.x() < 0.965 * length) continue;
-    most = std::max(most, point.y());
-    least = std::min(least, point.y());
+    if (point.x() >= 0.965 * length) toes.include(point.y());
   }
-  if (most < least) return 0.0;
+  if (toes.is_none()) return 0.0;
   const double line_at_toes = heel + (ball - heel) * (0.98 - 0.17) / (0.65 - 0.17);
-  return (most + least) / 2.0 - line_at_toes;
+  return (toes.to + toes.from) / 2.0 - line_at_toes;
 }
 
 /// How deep a border dips under the straight line from heel to ball.

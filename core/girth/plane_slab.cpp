@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/geometry/distinct_points.h"
+#include "core/geometry/extent.h"
 #include "core/geometry/polygon.h"
 
 namespace instep {
@@ -69,15 +70,11 @@ PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double
 /// Sorted into strips across the first coordinate, then within each.
 std::vector<Found> in_order(const PlaneSlab& slab) {
   const std::size_t count = slab.places.size();
-  double least = std::numeric_limits<double>::infinity();
-  double most = -least;
-  for (const auto& place : slab.places) {
-    least = std::min(least, place.x());
-    most = std::max(most, place.x());
-  }
+  Extent along = Extent::none();
+  for (const auto& place : slab.places) along.include(place.x());
   const std::size_t strips = 1 + count / kPointsInAStrip;
   const auto strip_of = [&](const Eigen::Vector3d& place) {
-    const double part = most > least ? (place.x() - least) / (most - least) : 0.0;
+    const double part = along.to > along.from ? (place.x() - along.from) / along.length() : 0.0;
     return std::min(strips - 1, static_cast<std::size_t>(part * static_cast<double>(strips)));
   };
   std::vector<std::size_t> ends(strips + 1, 0);

@@ -25,7 +25,7 @@ class AdmittedCubes {
   bool operator()(const Eigen::Vector3i& cube) {
     const Eigen::Vector3d middle = grid_.middle(cube);
     for (const Eigen::Index axis : {2, 0, 1}) {
-      const AxisRange& range = column(axis, cube, middle);
+      const Extent& range = column(axis, cube, middle);
       if (!range.meets(middle[axis] - 0.5 * grid_.cube, middle[axis] + 0.5 * grid_.cube)) {
         return false;
       }
@@ -34,8 +34,8 @@ class AdmittedCubes {
   }
 
  private:
-  const AxisRange& column(Eigen::Index axis, const Eigen::Vector3i& cube,
-                          const Eigen::Vector3d& middle) {
+  const Extent& column(Eigen::Index axis, const Eigen::Vector3i& cube,
+                       const Eigen::Vector3d& middle) {
     const auto first = static_cast<std::uint64_t>(cube[(axis + 1) % 3]);
     const auto second = static_cast<std::uint64_t>(cube[(axis + 2) % 3]);
     auto& known = columns_[axis];
@@ -47,7 +47,7 @@ class AdmittedCubes {
 
   const CubeGrid& grid_;
   const CylinderRule& rule_;
-  std::unordered_map<std::uint64_t, AxisRange> columns_[3];
+  std::unordered_map<std::uint64_t, Extent> columns_[3];
 };
 
 }  // namespace

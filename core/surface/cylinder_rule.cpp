@@ -17,11 +17,6 @@ Eigen::Vector2d seen_along(Eigen::Index axis, const Eigen::Vector3d& place) {
   return {place[(axis + 1) % 3], place[(axis + 2) % 3]};
 }
 
-void extend(AxisRange& range, double low, double high) {
-  range.low = std::min(range.low, low);
-  range.high = std::max(range.high, high);
-}
-
 /// Number of the tile in which a coordinate lies, or the nearest.
 int tile_number(double coordinate, double corner, double side, int count) {
   const double tile = std::floor((coordinate - corner) / side);
@@ -57,7 +52,7 @@ CylinderRule::View CylinderRule::view_along(Eigen::Index axis,
     const int row = tile_number(seen.y(), view.corner.y(), view.side, view.counts.y());
     Tile& tile = view.tiles[static_cast<std::size_t>(row * view.counts.x() + column)];
     tile.points.push_back(point);
-    extend(tile.range, point[axis], point[axis]);
+    tile.range.include(point[axis]);
   }
   return view;
 }
@@ -79,20 +74,20 @@ CylinderRule::Content CylinderRule::content(const View& view, Eigen::Index axis,
       const Eigen::Vector2d corner = view.corner + view.side * Eigen::Vector2d(x, y);
       if (squared_farthest({corner, corner.array() + view.side}, centre) <= squared) {
         content.points += tile.points.size();
-        extend(content.range, tile.range.low, tile.range.high);
+        content.range.include(tile.range);
         continue;
       }
       for (const auto& point : tile.points) {
         if ((seen_along(axis, point) - centre).squaredNorm() > squared) continue;
         ++content.points;
-        extend(content.range, point[axis], point[axis]);
+        content.range.include(point[axis]);
       }
     }
   }
   return content;
 }
 
-AxisRange CylinderRule::range(Eigen::Index axis, const Eigen::Vector3d& place) const {
+Extent CylinderRule::range(Eigen::Index axis, const Eigen::Vector3d& place) const {
   const View& view = views_[static_cast<std::size_t>(axis)];
   const Eigen::Vector2d centre = seen_along(axis, place);
   for (double radius = first_radius_;; radius *= 2.0) {

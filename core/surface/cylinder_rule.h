@@ -3,19 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
+#include "core/geometry/extent.h"
+
 namespace instep {
-
-/// Lowest and highest coordinate along one axis; of nothing, at first.
-struct AxisRange {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  /// Whether any of an interval lies in the range.
-  bool meets(double from, double to) const { return to >= low && from <= high; }
-};
 
 /// Where a surface that reaches to infinity has to end, since the points do (the paper, section
 /// 3.4, figure 3): a place counts only if, along each of the three axes, it lies between the
@@ -31,13 +23,13 @@ class CylinderRule {
   /// What the cylinder along `axis` (0, 1, 2: x, y, z) through a place admits; the place's own
   /// coordinate along that axis does not matter. Points are seen along the axis in square tiles,
   /// and only those of the tiles that the circle cuts are looked at one by one.
-  AxisRange range(Eigen::Index axis, const Eigen::Vector3d& place) const;
+  Extent range(Eigen::Index axis, const Eigen::Vector3d& place) const;
 
  private:
   /// The points that lie on one tile, seen along an axis, and their range along it.
   struct Tile {
     std::vector<Eigen::Vector3d> points;
-    AxisRange range;
+    Extent range = Extent::none();
   };
 
   /// All tiles, row by row.
@@ -50,7 +42,7 @@ class CylinderRule {
 
   struct Content {
     std::size_t points = 0;
-    AxisRange range;
+    Extent range = Extent::none();
   };
 
   static View view_along(Eigen::Index axis, const std::vector<Eigen::Vector3d>& points);

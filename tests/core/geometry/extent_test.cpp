@@ -22,5 +22,29 @@ TEST(Extent, OfOnePointIsNone) {
   EXPECT_EQ(extent_along<Eigen::Vector3d>({{5.0, 6.0, 7.0}}, {0.0, 0.0, 1.0}).length(), 0.0);
 }
 
+TEST(Extent, IsNoneUntilSomethingIsIncluded) {
+  Extent extent = Extent::none();
+  EXPECT_TRUE(extent.is_none());
+  EXPECT_FALSE(extent.meets(-1e9, 1e9));
+  extent.include(Extent::none());
+  EXPECT_TRUE(extent.is_none());
+  extent.include(3.0);
+  EXPECT_FALSE(extent.is_none());
+  EXPECT_EQ(extent.length(), 0.0);
+  extent.include({-1.0, 2.0});
+  EXPECT_EQ(extent.from, -1.0);
+  EXPECT_EQ(extent.to, 3.0);
+}
+
+TEST(Extent, MeetsIntervalsUpToItsEnds) {
+  const Extent extent{2.0, 5.0};
+  EXPECT_TRUE(extent.meets(3.0, 4.0));
+  EXPECT_TRUE(extent.meets(0.0, 9.0));
+  EXPECT_TRUE(extent.meets(5.0, 9.0));
+  EXPECT_TRUE(extent.meets(0.0, 2.0));
+  EXPECT_FALSE(extent.meets(5.1, 9.0));
+  EXPECT_FALSE(extent.meets(0.0, 1.9));
+}
+
 }  // namespace
 }  // namespace instep

@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "tests/support/random_numbers.h"
 
 namespace instep {
@@ -23,19 +20,17 @@ Points random_points(std::size_t count) {
 }
 
 /// The paper's steps (1) to (5), counted anew at each radius.
-AxisRange range_by_steps(const Points& points, double radius, Eigen::Index axis,
-                         const Vector3d& place) {
+Extent range_by_steps(const Points& points, double radius, Eigen::Index axis,
+                      const Vector3d& place) {
   for (;; radius *= 2.0) {
-    AxisRange range{std::numeric_limits<double>::infinity(),
-                    -std::numeric_limits<double>::infinity()};
+    Extent range = Extent::none();
     std::size_t inside = 0;
     for (const auto& point : points) {
       Vector3d offset = point - place;
       offset[axis] = 0.0;
       if (offset.norm() > radius) continue;
       ++inside;
-      range.low = std::min(range.low, point[axis]);
-      range.high = std::max(range.high, point[axis]);
+      range.include(point[axis]);
     }
     if (10 * inside >= points.size()) return range;
   }
@@ -49,8 +44,8 @@ TEST(CylinderRule, FollowsThePapersStepsAlongEachAxis) {
       for (Eigen::Index axis = 0; axis < 3; ++axis) {
         const auto expected = range_by_steps(points, 0.7, axis, place);
         const auto range = rule.range(axis, place);
-        EXPECT_EQ(range.low, expected.low) << count << " points, axis " << axis;
-        EXPECT_EQ(range.high, expected.high);
+        EXPECT_EQ(range.from, expected.from) << count << " points, axis " << axis;
+        EXPECT_EQ(range.to, expected.to);
       }
     }
   }
@@ -59,7 +54,7 @@ TEST(CylinderRule, FollowsThePapersStepsAlongEachAxis) {
 TEST(CylinderRule, AdmitsWhatMeetsTheOutermostPointsOfItsCylinder) {
   Points points;
   for (int i = 0; i < 100; ++i) points.emplace_back(i % 10, i / 10, i % 2 == 0 ? 1.0 : 2.0);
-  const AxisRange range = CylinderRule(points, 1.5).range(2, {4.5, 4.5, 100.0});
+  const Extent range = CylinderRule(points, 1.5).range(2, {4.5, 4.5, 100.0});
   EXPECT_TRUE(range.meets(1.2, 1.3));
   EXPECT_TRUE(range.meets(0.5, 1.0));
   EXPECT_TRUE(range.meets(2.0, 9.0));
