@@ -14,6 +14,7 @@
 #include "core/fusion/separate_feet.h"
 #include "core/fusion/thin.h"
 #include "core/fusion/working_view.h"
+#include "core/geometry/plane_vectors.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
 #include "core/mean.h"
@@ -28,7 +29,7 @@ using Eigen::Vector3d;
 
 constexpr int kPlatformStride = 3;      // every so many pixels, both ways, for finding the platform
 constexpr double kLowestShare = 0.002;  // of a scene's points below which they are taken for noise
-constexpr int kSectors = 72;
+constexpr std::size_t kSectors = 72;
 // Of what one view saw of the feet, what others see through. By poses that fit it is 0.0002 at the
 // most in simulated scans, 0.07 in a real one; where a view that shares no skin with others is
 // turned by 20 to 180 degrees, shifted by 80 mm or swapped, 0.5 and more of one.
@@ -186,8 +187,7 @@ double coverage_of(const PointCloud& foot) {
     const Eigen::Vector2d outward = foot.positions[i].head<2>() - middle;
     if (std::abs(foot.normals[i].z()) > 0.8 || outward.dot(foot.normals[i].head<2>()) < 0.0)
       continue;
-    const double turn = std::atan2(outward.y(), outward.x()) / (2.0 * std::numbers::pi) + 0.5;
-    seen[std::min<std::size_t>(kSectors - 1, static_cast<std::size_t>(turn * kSectors))] = true;
+    seen[sector_of(outward, kSectors)] = true;
   }
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
 }
