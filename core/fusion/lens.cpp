@@ -73,4 +73,14 @@ Eigen::Vector2d pixel_of(const CameraIntrinsics& intrinsics, const Eigen::Vector
   return {intrinsics.fx * bent.x() + intrinsics.cx, intrinsics.fy * bent.y() + intrinsics.cy};
 }
 
+std::optional<Eigen::Vector2i> pixel_seeing(const CameraIntrinsics& intrinsics,
+                                            const Eigen::Vector3d& in_camera) {
+  if (!(in_camera.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector2d pixel = pixel_of(intrinsics, in_camera);
+  const double u = std::round(pixel.x());
+  const double v = std::round(pixel.y());
+  if (!(u >= 0 && v >= 0 && u < intrinsics.width && v < intrinsics.height)) return std::nullopt;
+  return Eigen::Vector2i(static_cast<int>(u), static_cast<int>(v));
+}
+
 }  // namespace instep

@@ -32,4 +32,9 @@ CameraIntrinsics widened(const CameraIntrinsics& intrinsics, double factor);
 /// The pixel coordinates of a point in the camera frame, with z > 0.
 Eigen::Vector2d pixel_of(const CameraIntrinsics& intrinsics, const Eigen::Vector3d& in_camera);
 
+/// The column and the row of the pixel that sees a point in the camera frame; nothing behind the
+/// camera or out of its image.
+std::optional<Eigen::Vector2i> pixel_seeing(const CameraIntrinsics& intrinsics,
+                                            const Eigen::Vector3d& in_camera);
+
 }  // namespace instep

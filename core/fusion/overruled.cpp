@@ -23,14 +23,10 @@ constexpr double kLeastFacing = -0.2;  // cosine; a tail stands square to the su
 
 /// The pixel that sees a place of the station, if any.
 std::optional<std::size_t> pixel_at(const SeenSurface& view, const Vector3d& place) {
-  const Vector3d own = view.camera_from_station * place;
-  if (!(own.z() > 0.0)) return std::nullopt;
-  const Eigen::Vector2d pixel = pixel_of(*view.intrinsics, own);
-  const double u = std::round(pixel.x());
-  const double v = std::round(pixel.y());
-  if (!(u >= 0 && v >= 0 && u < view.width && v < view.height)) return std::nullopt;
-  return static_cast<std::size_t>(v) * static_cast<std::size_t>(view.width) +
-         static_cast<std::size_t>(u);
+  const auto pixel = pixel_seeing(*view.intrinsics, view.camera_from_station * place);
+  if (!pixel) return std::nullopt;
+  return static_cast<std::size_t>(pixel->y()) * static_cast<std::size_t>(view.intrinsics->width) +
+         static_cast<std::size_t>(pixel->x());
 }
 
 /// Steps, along rows and columns, from each pixel to the nearest one without data.
@@ -81,11 +77,7 @@ void ask(const SeenSurface& witness, const PointCloud& cloud, std::size_t point,
 }  // namespace
 
 SeenSurface seen_surface(const PosedDepth& view, const PointCloud& points) {
-  SeenSurface seen{view.intrinsics,
-                   &points,
-                   view.station_from_camera.inverse(),
-                   view.depth->width,
-                   view.depth->height,
+  SeenSurface seen{view.intrinsics, &points, view.station_from_camera.inverse(),
                    std::vector<std::int32_t>(view.depth->depth_mm.size(), -1),
                    std::vector<float>(points.size(), 0.0F)};
   const auto steps = steps_to_rim(*view.depth);

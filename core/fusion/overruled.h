@@ -15,8 +15,6 @@ struct SeenSurface {
   const CameraIntrinsics* intrinsics = nullptr;
   const PointCloud* points = nullptr;
   RigidTransform camera_from_station = RigidTransform::Identity();
-  int width = 0;
-  int height = 0;
   std::vector<std::int32_t> point_at;  ///< pixel by pixel; -1 = no point
   /// Of each point, 0 to 1: the cosine of its incidence, less within a matching window of the rim.
   std::vector<float> trust;

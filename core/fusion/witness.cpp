@@ -14,16 +14,15 @@ Witness::Witness(const PosedDepth& view)
 Verdict Witness::judge(const Eigen::Vector3d& in_station, double margin_mm) const {
   const Eigen::Vector3d own = camera_from_station_ * in_station;
   if (!(own.z() > margin_mm)) return Verdict::kNone;
-  const Eigen::Vector2d pixel = pixel_of(*intrinsics_, own);
-  const double u = std::round(pixel.x());
-  const double v = std::round(pixel.y());
-  if (!(u >= 1 && v >= 1 && u <= depth_->width - 2 && v <= depth_->height - 2)) {
-    return Verdict::kNone;
-  }
+  const auto pixel = pixel_seeing(*intrinsics_, own);
+  if (!pixel) return Verdict::kNone;
+  const int u = pixel->x();
+  const int v = pixel->y();
+  if (u < 1 || v < 1 || u > depth_->width - 2 || v > depth_->height - 2) return Verdict::kNone;
   bool through = true;
   for (int dv = -1; dv <= 1; ++dv) {
     for (int du = -1; du <= 1; ++du) {
-      const int at = (static_cast<int>(v) + dv) * depth_->width + static_cast<int>(u) + du;
+      const int at = (v + dv) * depth_->width + u + du;
       const double z = depth_->depth_mm[static_cast<std::size_t>(at)];
       if (!(z > 0.0)) {
         through = false;
