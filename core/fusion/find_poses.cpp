@@ -230,8 +230,7 @@ class PoseSearch {
   double contradicted(std::size_t view) const {
     ViewedCloud asked;
     const auto skin = object_points(views_[view], height());
-    const std::size_t stride = stride_to_at_most(kAskedPoints, skin.size());
-    for (std::size_t i = 0; i < skin.size(); i += stride) asked.cloud.positions.push_back(skin[i]);
+    asked.cloud.positions = one_in(stride_to_at_most(kAskedPoints, skin.size()), skin);
     asked.views.assign(asked.cloud.size(), static_cast<std::uint16_t>(view));
     std::vector<PosedDepth> posed;
     for (const auto& other : views_) posed.push_back(other.posed());

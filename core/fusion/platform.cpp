@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <utility>
 
+#include "core/degree.h"
 #include "core/median.h"
 #include "core/normal_spread.h"
 #include "core/stride.h"
@@ -31,10 +31,7 @@ struct Candidate {
 
 std::vector<Eigen::Vector3d> even_sample(const std::vector<Eigen::Vector3d>& points,
                                          std::size_t most) {
-  const std::size_t stride = stride_to_at_most(most, points.size());
-  std::vector<Eigen::Vector3d> sample;
-  for (std::size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
-  return sample;
+  return one_in(stride_to_at_most(most, points.size()), points);
 }
 
 std::vector<Eigen::Vector3d> within_search(const std::vector<Eigen::Vector3d>& points,
@@ -151,7 +148,7 @@ std::optional<FoundPlatform> find_platform(const std::vector<Eigen::Vector3d>& p
   const auto sample = even_sample(points, kLargestSample);
   const auto layer_points = within_search(sample, settings);
   if (layer_points.size() < kLeastPoints) return std::nullopt;
-  const double least_cosine = std::cos(settings.most_tilt_deg * std::numbers::pi / 180.0);
+  const double least_cosine = std::cos(settings.most_tilt_deg * kDegree);
   auto plane = best_candidate(layer_points, least_cosine);
   if (!plane) return std::nullopt;
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/mean.h"
+#include "core/stride.h"
 #include "core/surface/crease_rule.h"
 #include "core/surface/quadratic_sheet.h"
 #include "core/surface/sheet_rows.h"
@@ -159,12 +160,6 @@ std::optional<TwoSheets> turning_sheets(const std::vector<OrientedPoint>& points
   if (rough.turn < kLeastTurnOfQuadratics) return std::nullopt;
   if (clear && runs_between_rows(*sheets, parts, bent, rough.turn)) return std::nullopt;
   return sheets;
-}
-
-std::vector<OrientedPoint> one_in(std::size_t stride, const std::vector<OrientedPoint>& points) {
-  std::vector<OrientedPoint> some;
-  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
-  return some;
 }
 
 }  // namespace
