@@ -22,15 +22,16 @@ Result<double> height(const Landmarks& landmarks, const char* name) {
   return position_of(landmarks, name).map([](const Vector3d& place) { return place.z(); });
 }
 
-Result<double> extent_along(const Landmarks& landmarks, const char* from, const char* to) {
+Result<double> way_along(const Landmarks& landmarks, const char* from, const char* to) {
   return between(landmarks, from, to).map([](const Vector3d& step) { return step.x(); });
 }
 
-Result<double> extent_across(const Landmarks& landmarks, const char* from, const char* to) {
+Result<double> distance_across(const Landmarks& landmarks, const char* from, const char* to) {
   return between(landmarks, from, to).map([](const Vector3d& step) { return std::abs(step.y()); });
 }
 
-/// Positive where the toe turns inwards, from `medial` or lateral.
+/// Of a toe before the ball, against the side of the foot from heel to ball: positive where it
+/// turns inwards, whichever side that is.
 Result<double> toe_angle(const Landmarks& landmarks, const char* heel, const char* ball,
                          const char* toe) {
   const auto side = between(landmarks, heel, ball);
@@ -57,7 +58,7 @@ Result<Vector3d> position_of(const Landmarks& landmarks, const std::string& name
 }
 
 Result<double> foot_length(const Landmarks& landmarks) {
-  return extent_along(landmarks, "pternion", "acropodion");
+  return way_along(landmarks, "pternion", "acropodion");
 }
 
 Result<double> foot_breadth(const Landmarks& landmarks) {
@@ -66,19 +67,19 @@ Result<double> foot_breadth(const Landmarks& landmarks) {
 }
 
 Result<double> foot_breadth_horizontal(const Landmarks& landmarks) {
-  return extent_across(landmarks, "ball_medial", "ball_lateral");
+  return distance_across(landmarks, "ball_medial", "ball_lateral");
 }
 
 Result<double> heel_breadth(const Landmarks& landmarks) {
-  return extent_across(landmarks, "heel_breadth_medial", "heel_breadth_lateral");
+  return distance_across(landmarks, "heel_breadth_medial", "heel_breadth_lateral");
 }
 
 Result<double> ball_length(const Landmarks& landmarks) {
-  return extent_along(landmarks, "pternion", "metatarsale_tibiale");
+  return way_along(landmarks, "pternion", "metatarsale_tibiale");
 }
 
 Result<double> outside_ball_length(const Landmarks& landmarks) {
-  return extent_along(landmarks, "pternion", "metatarsale_fibulare");
+  return way_along(landmarks, "pternion", "metatarsale_fibulare");
 }
 
 Result<double> instep_height(const Landmarks& landmarks) {

@@ -130,8 +130,8 @@ std::optional<double> u95_of_ends(const Definition& definition, const FootScan& 
   return about.ends ? moved_by(about.ends->if_longer, definition, foot) : 0.0;
 }
 
-/// All parts that are known, together.
-std::optional<double> together(const std::vector<std::optional<double>>& parts) {
+/// Of all parts of a doubt; nothing if one of them is not known.
+std::optional<double> root_of_squares(const std::vector<std::optional<double>>& parts) {
   double squares = 0.0;
   for (const auto& part : parts) {
     if (!part) return std::nullopt;
@@ -163,8 +163,9 @@ Result<std::optional<double>> u95_by_landmarks(const Definition& definition, con
         "calibrate the depths of the cameras with their maker's tool, or let more cameras see "
         "the foot");
   }
-  const auto u95 = together({own, of_local, u95_of_shared(definition, foot), of_ends,
-                             moved_by(about.deeper, definition, foot), definition.own_doubt_mm});
+  const auto u95 =
+      root_of_squares({own, of_local, u95_of_shared(definition, foot), of_ends,
+                       moved_by(about.deeper, definition, foot), definition.own_doubt_mm});
   if (u95 || foot.redraws.landmarks.empty()) return u95;
   return fail(ErrorCode::kInsufficientData, "the points do not tell how sure its landmarks are",
               "scan again, with the foot in full view of all cameras");

@@ -189,7 +189,7 @@ class PoseSearch {
       warn_of(i);
       if (views_.size() == 1) continue;
       camera.known_to_mm = unknown_of(i);
-      if (contradicted(i) > kMostContradicted) {
+      if (contradicted_share(i) > kMostContradicted) {
         return not_found(views_[i].id, "other cameras see through what it shows");
       }
       if (!(*camera.known_to_mm <= kMostUnknownMm)) {
@@ -227,7 +227,7 @@ class PoseSearch {
   }
 
   /// Of its points of the object, the share that another view sees through.
-  double contradicted(std::size_t view) const {
+  double contradicted_share(std::size_t view) const {
     ViewedCloud asked;
     const auto skin = object_points(views_[view], height());
     asked.cloud.positions = one_in(stride_to_at_most(kAskedPoints, skin.size()), skin);

@@ -49,7 +49,7 @@ struct Spot {
 };
 
 /// Those of a view that are asked about, evenly.
-std::vector<Spot> some_of(const PointCloud& skin) {
+std::vector<Spot> asked_spots(const PointCloud& skin) {
   const std::size_t stride = stride_to_at_most(kAskedSpots, skin.size());
   std::vector<Spot> some;
   for (std::size_t i = 0; i < skin.size(); i += stride) {
@@ -143,11 +143,11 @@ class PlaceSearch {
       : witnesses_(witnesses),
         placed_(placed),
         sought_(sought),
-        own_(some_of(views[sought].skin)),
+        own_(asked_spots(views[sought].skin)),
         own_middle_(middle_of(own_)) {
     for (const std::size_t at : placed) {
       given_from_new_.push_back(moves[at].inverse());
-      for (const auto& spot : some_of(views[at].skin)) {
+      for (const auto& spot : asked_spots(views[at].skin)) {
         known_.push_back(spot.moved(moves[at]));
       }
     }

@@ -56,7 +56,7 @@ struct PartialCloud {
   double tape_about_mm = 0.0;
 };
 
-double extent(const PointCloud& cloud) {
+double diagonal_of(const PointCloud& cloud) {
   Eigen::AlignedBox3d box;
   for (const auto& position : cloud.positions) box.extend(position);
   return box.diagonal().norm();
@@ -64,7 +64,7 @@ double extent(const PointCloud& cloud) {
 
 /// Widens the band until it is as many spacings wide as it has to be.
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = extent(cloud);
+  const double size = diagonal_of(cloud);
   const double thinnest = kUsualSlab * std::pow(kSlabGrowth, -kThinnerSlabs);
   for (double half_width = thinnest * size; half_width < 0.5 * size; half_width *= kSlabGrowth) {
     const PlaneSlab slab = slab_of(cloud, plane, half_width);

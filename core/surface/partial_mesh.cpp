@@ -13,15 +13,16 @@ namespace {
 /// of the surface.
 constexpr double kSameSheet = 0.5;
 
-/// A measure of the angle of a direction that grows with it from 0 to 4, without trigonometry.
-double turn_of(const Eigen::Vector2d& direction) {
+/// The angle of a direction in quarters of a turn, exact at whole ones: grows with it from 0 to 4,
+/// without trigonometry.
+double quarters_of(const Eigen::Vector2d& direction) {
   const double sum = std::abs(direction.x()) + std::abs(direction.y());
   const double part = direction.x() / (sum > 0.0 ? sum : 1.0);
   return direction.y() >= 0.0 ? 1.0 - part : 3.0 + part;
 }
 
-/// The turn from one to the other, counter-clockwise.
-double turn_between(double from, double to) {
+/// From one to the other, counter-clockwise.
+double quarters_between(double from, double to) {
   return to >= from ? to - from : to - from + 4.0;
 }
 
@@ -80,14 +81,14 @@ bool PartialMesh::is_clear_at(Corner corner, const Sector& sector,
   if (!(mean.dot(normal) > 0.0)) return false;
   const Eigen::Vector3d& place = points_[corner];
   const Frame frame(place, points_[sector.from] - place, mean);
-  const double width = turn_of(frame.flat(points_[sector.to]));
+  const double width = quarters_of(frame.flat(points_[sector.to]));
   if (!(width < 2.0)) return false;
   return std::none_of(fan.begin(), fan.end(), [&](const Sector& other) {
-    const double from = turn_of(frame.flat(points_[other.from]));
-    const double to = turn_of(frame.flat(points_[other.to]));
+    const double from = quarters_of(frame.flat(points_[other.from]));
+    const double to = quarters_of(frame.flat(points_[other.to]));
     const bool starts_inside = other.from != sector.to && from < width;
     const bool holds_start =
-        other.to != sector.from && turn_between(from, 4.0) < turn_between(from, to);
+        other.to != sector.from && quarters_between(from, 4.0) < quarters_between(from, to);
     return starts_inside || holds_start;
   });
 }
