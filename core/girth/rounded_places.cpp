@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/coordinate_step.h"
+#include "core/normal_spread.h"
 
 namespace instep {
 namespace {
@@ -32,7 +33,7 @@ double doubt_of_rounding(const PlaneBand& band, const PointCloud& cloud, double 
   const double radius = length / (2.0 * std::numbers::pi);
   // As far round as an arc of that radius stays within half a step of its level.
   const double turn = 2.0 * std::sqrt(step / radius);
-  return 1.96 * std::sqrt(kLevelStretches / 12.0) * step * turn;
+  return kDeviations * std::sqrt(kLevelStretches / 12.0) * step * turn;
 }
 
 }  // namespace instep
