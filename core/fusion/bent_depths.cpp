@@ -79,7 +79,8 @@ void add_products(const std::vector<DepthMatch>& matches, double most, Covariogr
       if (matches[i].normal.dot(matches[j].normal) < kLeastAlike) continue;
       const double distance = std::sqrt(square);
       const auto end = std::upper_bound(kClasses.begin(), kClasses.end(), distance);
-      if (end == kClasses.begin()) continue;
+      // The root of what is hardly less than the last end's square may be that end.
+      if (end == kClasses.begin() || end == kClasses.end()) continue;
       Class& own = covariogram[static_cast<std::size_t>(end - kClasses.begin()) - 1];
       own.products += held(matches[i].off) * held(matches[j].off);
       own.distances += distance;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "core/geometry/point_index.h"
 #include "tests/support/random_numbers.h"
@@ -268,6 +269,19 @@ TEST(BentDepths, ThatAreNoneMoveNothing) {
   const Eigen::MatrixXd alone = Eigen::MatrixXd::Ones(1, 1);
   EXPECT_TRUE(local_errors_of(one_point(), alone, {kAbove}, {}).empty());
   EXPECT_TRUE(local_errors_of({}, Eigen::MatrixXd(1, 0), {kAbove}, kBent).empty());
+}
+
+/// Its square is the last number below 72^2, the root of which is rounded to 72.
+TEST(BentDepths, TakesTwoMatchesHardlyNearerThanTheLastClassEnds) {
+  const Vector3d apart(71.99888888031536, 0.4, 0.0);
+  ASSERT_LT(apart.squaredNorm(), 72.0 * 72.0);
+  ASSERT_EQ(std::sqrt(apart.squaredNorm()), 72.0);
+  std::vector<MovingView> views(2);
+  for (auto& view : views) view.towards_camera = Vector3d::UnitZ();
+  const std::vector<ViewMatch> matches = {
+      {0, 1, 0, 0, Vector3d::Zero(), Vector3d::UnitZ(), 1.0, 1.0},
+      {0, 1, 1, 1, apart, Vector3d::UnitZ(), 1.0, 1.0}};
+  EXPECT_FALSE(bent_depths(views, matches).is_any());
 }
 
 }  // namespace
