@@ -5,6 +5,7 @@
 
 #include "core/geometry/disjoint_sets.h"
 #include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/median.h"
@@ -30,12 +31,10 @@ SkinPieces::SkinPieces(const std::vector<Vector3d>& points)
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto nearest = index.nearest(points[i], kNeighbours + 1);
     spacings.push_back(own_spacing(nearest));
-    Moments moments;
     for (const auto& other : nearest) {
-      moments.add(points[other.index] - points[i]);
       pairs_.push_back({i, other.index, std::sqrt(other.squared_distance)});
     }
-    const SpreadAxes axes = moments.axes();
+    const SpreadAxes axes = moments_round(index, points[i], nearest).axes();
     if (lies_as_skin(axes)) normals_[i] = axes.eigenvectors().col(0);
   }
   for (auto& pair : pairs_) {

@@ -131,9 +131,7 @@ bool are_opposite(const OppositeWalls& walls, const Points& points,
 
 std::optional<OppositeWalls> OppositeWalls::among(const Points& points) {
   if (points.size() < 2 * kFewestOnAWall) return std::nullopt;
-  Moments moments;
-  for (const auto& point : points) moments.add(point - points.front());
-  const auto axes = moments.axes();
+  const auto axes = Moments::of(points).axes();
   const auto whole = wall_of(points, Sides(points.size(), 0), 0);
   if (!whole) return std::nullopt;
   double squares = 0.0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/mean.h"
 #include "core/surface/neighbourhood.h"
 #include "core/surface/tangent_view.h"
 
@@ -87,9 +88,7 @@ double most_scatter(const std::vector<ScatteredPlace>& known) {
 }
 
 double mean_scatter(const std::vector<ScatteredPlace>& known) {
-  double sum = 0.0;
-  for (const auto& one : known) sum += one.sigma;
-  return known.empty() ? 0.0 : sum / static_cast<double>(known.size());
+  return mean_of(known, &ScatteredPlace::sigma);
 }
 
 }  // namespace instep
