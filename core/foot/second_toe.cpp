@@ -17,6 +17,12 @@ constexpr double kCleftMm = 1.0;    ///< depth from which a cleft parts two toes
 constexpr double kToeRadiusShare =
     0.027;  ///< of a toe's tip seen from above, over the foot's length
 
+/// Nearer to the medial border, a little behind its tip, no second toe's is, as a share of the
+/// foot's length: beside it lies the big one, by far the broadest. Of a scanned foot the second was
+/// 45 mm from it and the big one 22 to 26, of 98 % of 60 drawn feet the second 27 and more.
+constexpr double kBesideBigToeShare = 0.105;
+constexpr double kBehindTipShare = 15.0 / 260.0;
+
 struct BallBorders {
   double medial = 0.0;
   double breadth = 0.0;
@@ -66,6 +72,20 @@ std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vec
   return tips;
 }
 
+/// Which tips have room for the big toe between them and the medial border: a foot that bulges at
+/// its ball, as with a bunion, has its toes too far from there, and its first where second toes
+/// are.
+std::vector<bool> beside_a_big_toe(const std::vector<Vector2d>& tips,
+                                   const std::vector<Vector2d>& front, double length) {
+  const BorderProfile medial(front, Vector2d::UnitX(), Vector2d::UnitY(), kToeSmoothingMm);
+  std::vector<bool> beside;
+  for (const auto& tip : tips) {
+    const auto border = medial.reach(tip.x() - kBehindTipShare * length);
+    beside.push_back(!border || *border - tip.y() > kBesideBigToeShare * length);
+  }
+  return beside;
+}
+
 /// The foremost point of the toe that stands out most at `tip` when seen in the direction `square`,
 /// by its roundness: a longer neighbour often hides one of its flanks from the front.
 Vector2d foremost_of_toe(const Vector2d& tip, const Vector2d& square, double toe_radius) {
@@ -91,7 +111,7 @@ std::optional<SecondToe> find_second_toe(const std::vector<Vector2d>& outline, d
   const auto toes = visible_toes(front, square, *ball);
   std::vector<double> shares;
   for (const auto& toe : toes) shares.push_back((ball->medial - toe.y()) / ball->breadth);
-  if (const auto second = second_of_toes(shares)) {
+  if (const auto second = second_of_toes(shares, beside_a_big_toe(toes, front, length_mm))) {
     return SecondToe{foremost_of_toe(toes[*second], square, kToeRadiusShare * length_mm), true};
   }
   const auto reach = forwards.reach(expected);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/picked.h"
+
 namespace instep {
 namespace {
 
@@ -66,8 +68,11 @@ double price_of(const std::vector<double>& shares, const Names& names) {
 /// Tries all names in order, from the medial side on.
 class Naming {
  public:
-  explicit Naming(const std::vector<double>& shares)
-      : shares_(shares), names_(shares.size()), least_(shares.size() + 1, 1e300) {
+  Naming(const std::vector<double>& shares, const std::vector<bool>& may_be_second)
+      : shares_(shares),
+        may_be_second_(may_be_second),
+        names_(shares.size()),
+        least_(shares.size() + 1, 1e300) {
     name(0, 0);
   }
 
@@ -89,6 +94,7 @@ class Naming {
     names_[tip].reset();
     name(tip + 1, toe);
     for (std::size_t next = toe; next < kToes; ++next) {
+      if (next == kSecond && !may_be_second_[tip]) continue;
       names_[tip] = next;
       name(tip + 1, next + 1);
     }
@@ -96,6 +102,7 @@ class Naming {
   }
 
   const std::vector<double>& shares_;
+  const std::vector<bool>& may_be_second_;
   Names names_;
   Names best_;
   std::vector<double> least_;
@@ -103,15 +110,16 @@ class Naming {
 
 }  // namespace
 
-std::optional<std::size_t> second_of_toes(const std::vector<double>& shares) {
+std::optional<std::size_t> second_of_toes(const std::vector<double>& shares,
+                                          const std::vector<bool>& may_be_second) {
   if (shares.size() > kMostTips) return std::nullopt;
   std::vector<std::size_t> order(shares.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return shares[a] < shares[b]; });
-  std::vector<double> sorted;
-  for (const std::size_t i : order) sorted.push_back(shares[i]);
-  const Naming naming(sorted);
+  const auto sorted = picked(shares, order);
+  const auto sorted_may_be_second = picked(may_be_second, order);
+  const Naming naming(sorted, sorted_may_be_second);
   const auto toes = std::count_if(naming.likeliest().begin(), naming.likeliest().end(),
                                   [](const auto& name) { return name.has_value(); });
   const std::size_t second = second_of(naming.likeliest());

@@ -8,7 +8,7 @@ namespace instep {
 namespace {
 
 double second(const std::vector<double>& shares) {
-  const auto found = second_of_toes(shares);
+  const auto found = second_of_toes(shares, std::vector<bool>(shares.size(), true));
   return found ? shares.at(*found) : -1.0;
 }
 
@@ -25,6 +25,14 @@ TEST(ToePattern, KnowsASplayedFoot) {
   // The lab's left foot seen from above, its axis laid through the big toe: the second tip from the
   // medial side is the second toe's, though the first lies nearer to where second toes usually do.
   EXPECT_EQ(second({0.409, 0.578, 0.700, 0.821, 0.926}), 0.578);
+}
+
+/// A foot with a bunion, whose toes all lie further from the border of its ball.
+TEST(ToePattern, HeedsWhatIsKnownNotToBeTheSecond) {
+  const std::vector<double> shares{0.44, 0.59, 0.74, 0.87};
+  EXPECT_EQ(second(shares), 0.44);
+  const auto found = second_of_toes(shares, {false, true, true, true});
+  EXPECT_TRUE(!found || shares[*found] == 0.59);
 }
 
 TEST(ToePattern, PassesOverATipThatIsNone) {
