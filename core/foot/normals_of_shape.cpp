@@ -7,9 +7,9 @@
 
 #include "core/geometry/moments.h"
 #include "core/geometry/moments_round.h"
+#include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/picked.h"
-#include "core/some_of.h"
 
 namespace instep {
 namespace {
@@ -67,7 +67,7 @@ void hear(const std::vector<Vector3d>& normals, const PointIndex& index, const V
 
 bool normals_contradict_shape(const PointCloud& cloud) {
   if (!cloud.has_normals()) return false;
-  const auto numbers = some_of(cloud.size(), kMostPlaces);
+  const auto numbers = some_by_place(cloud.positions, kMostPlaces);
   const PointIndex index(picked(cloud.positions, numbers));
   const std::vector<Vector3d> normals = picked(cloud.normals, numbers);
   Vector3d middle = Vector3d::Zero();

@@ -28,7 +28,7 @@ constexpr double kWiden = 1.25;
 constexpr double kStraySampleMm = 1.5;
 constexpr double kStrayInMedians = 4.0;  ///< of how far samples lie off
 
-/// Along, across, outwards: as SkinSummit takes them.
+/// Along, across, outwards: as summit_across() takes them.
 using Local = Vector3d;
 
 /// Median of the furthest points in a strip: two strays do not move it.

@@ -9,11 +9,11 @@
 
 #include "core/foot/skin_pieces.h"
 #include "core/geometry/moments.h"
+#include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/girth/section_gaps.h"
 #include "core/picked.h"
-#include "core/some_of.h"
 
 namespace instep {
 namespace {
@@ -39,7 +39,8 @@ constexpr double kWidestOpening = 2.0 * std::numbers::pi / 3.0;  ///< round a pl
 constexpr double kSeenGapSpacings = 1.4;
 
 Points places_of(const Points& points, const Piece& piece, std::size_t most) {
-  return picked(points, picked(piece, some_of(piece.size(), most)));
+  const Points all = picked(points, piece);
+  return picked(all, some_by_place(all, most));
 }
 
 /// The skin of a body, and on which side of it the body is.
@@ -47,7 +48,7 @@ class Skin {
  public:
   explicit Skin(Points points) : index_(std::move(points)) {
     const auto& all = index_.points();
-    bulk_ = picked(all, some_of(all.size(), kBulkPoints));
+    bulk_ = picked(all, some_by_place(all, kBulkPoints));
     for (const auto& point : bulk_) middle_ += point / static_cast<double>(bulk_.size());
   }
 
@@ -210,7 +211,7 @@ void hand_out(ThingsBeside& things, const Points& points, const Points& told,
 ThingsBeside things_beside(const Points& points, double most_share) {
   ThingsBeside things;
   if (points.size() < kFewPoints) return things;
-  const Points some = picked(points, some_of(points.size(), kMostPoints));
+  const Points some = picked(points, some_by_place(points, kMostPoints));
   const SkinPieces parted(some);
   Telling telling(some, most_share);
   telling.look_at(parted.within_reach());
