@@ -8,8 +8,8 @@
 
 namespace instep {
 
-/// The mean of what `of` makes of each item, numbers or vectors of a fixed size (none of Eigen's
-/// expressions); zero of none. Summed in their order, then divided. O(items).
+/// The mean of what `of` makes of each item, floating-point numbers or vectors of a fixed size
+/// (none of Eigen's expressions); zero of none. Summed in their order, then divided. O(items).
 template <typename Items, typename Of = std::identity>
 auto mean_of(const Items& items, Of of = {}) {
   using Mean = std::decay_t<std::invoke_result_t<Of&, decltype(*std::begin(items))>>;

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
+
+#include "core/mean.h"
 
 namespace instep {
 namespace {
@@ -15,10 +18,28 @@ constexpr double kAsideShare = 0.15;
 /// Of people who stand on a station so few cross their feet: assumed, not measured.
 constexpr double kCrossed = 0.02;
 
-Eigen::Vector3d centre(const PointCloud& cloud) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const auto& position : cloud.positions) sum += position;
-  return sum / static_cast<double>(cloud.size());
+/// Where the middle of a foot's points lies in the input.
+Eigen::Vector3d place_of(const FootScan& foot) {
+  return foot.foot_from_input.inverse() * mean_of(foot.cloud.positions);
+}
+
+/// One axis of a foot as it lies in the input.
+Eigen::Vector3d in_input(const FootScan& foot, const Eigen::Vector3d& axis) {
+  return foot.foot_from_input.linear().transpose() * axis;
+}
+
+/// How far left of the first foot the second one stands, looking the way that both point on
+/// average; nothing where they point different ways, or stand rather one behind the other.
+std::optional<double> second_left_of_first_mm(const FootScan& first, const FootScan& second) {
+  const Eigen::Vector3d one_way = in_input(first, Eigen::Vector3d::UnitX());
+  const Eigen::Vector3d other_way = in_input(second, Eigen::Vector3d::UnitX());
+  if (one_way.dot(other_way) < kSameWay) return std::nullopt;
+  const Eigen::Vector3d up =
+      in_input(first, Eigen::Vector3d::UnitZ()) + in_input(second, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d left = up.cross(one_way + other_way).normalized();
+  const double left_mm = left.dot(place_of(second) - place_of(first));
+  const double shorter_mm = std::min(first.length_mm(), second.length_mm());
+  return std::abs(left_mm) > kAsideShare * shorter_mm ? std::optional(left_mm) : std::nullopt;
 }
 
 /// How sure a foot's shape is of a side, 0 to 1.
@@ -31,8 +52,9 @@ double by_shape(const FootScan& foot, Side side) {
 double by_place_too(double left, double right) {
   const double uncrossed = (1.0 - kCrossed) * left * right;
   const double crossed = kCrossed * (1.0 - left) * (1.0 - right);
-  // Shapes that each are sure of the other contradict both.
-  return uncrossed + crossed > 0.0 ? std::max(0.5, uncrossed / (uncrossed + crossed)) : 0.5;
+  // Nothing of both only of two that surely are of one side: of them shapes tell nothing.
+  if (!(uncrossed + crossed > 0.0)) return 1.0 - kCrossed;
+  return std::max(0.5, uncrossed / (uncrossed + crossed));
 }
 
 /// Aligns again if the place of the foot overrules its shape.
@@ -62,6 +84,22 @@ Error of_one(Error error, Side side) {
   return error;
 }
 
+/// Gives two feet that stand beside one another the sides of their places.
+Result<void> settle_by_place(std::vector<FootScan>& feet, const std::vector<PointCloud>& clouds,
+                             bool is_second_left, const AlignmentOptions& options) {
+  const double sure = by_place_too(by_shape(feet[is_second_left ? 1 : 0], Side::kLeft),
+                                   by_shape(feet[is_second_left ? 0 : 1], Side::kRight));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Side side = (i == 1) == is_second_left ? Side::kLeft : Side::kRight;
+    auto settled = with_side(std::move(feet[i]), clouds[i], side, options);
+    if (!settled) return tl::make_unexpected(of_one(settled.error(), side));
+    settled->cloud_number = i;
+    settled->side_confidence = sure;
+    feet[i] = *std::move(settled);
+  }
+  return {};
+}
+
 /// Where it stands beside the other shows which one failed, as long as the other is a foot.
 Error of_two(const std::vector<Result<FootScan>>& found, const std::vector<PointCloud>& clouds) {
   const std::size_t failed = found[0] ? 1 : 0;
@@ -73,8 +111,8 @@ Error of_two(const std::vector<Result<FootScan>>& found, const std::vector<Point
                         : "one foot: " + error.message + "; the other: " + other.error().message;
     return error;
   }
-  const double aside =
-      (other->foot_from_input * centre(clouds[failed])).y() - centre(other->cloud).y();
+  const double aside = (other->foot_from_input * mean_of(clouds[failed].positions)).y() -
+                       mean_of(other->cloud.positions).y();
   if (!std::isfinite(aside)) return error;
   return of_one(std::move(error), aside > 0.0 ? Side::kLeft : Side::kRight);
 }
@@ -103,24 +141,9 @@ Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
   }
   if (feet.size() != 2) return feet;
 
-  const RigidTransform first_from_second =
-      feet[0].foot_from_input * feet[1].foot_from_input.inverse();
-  const double aside_mm =
-      (first_from_second * centre(feet[1].cloud)).y() - centre(feet[0].cloud).y();
-  const double shorter_mm = std::min(feet[0].length_mm(), feet[1].length_mm());
-  if (first_from_second.linear()(0, 0) >= kSameWay &&
-      std::abs(aside_mm) > kAsideShare * shorter_mm) {
-    const bool second_is_left = aside_mm > 0.0;
-    const double sure = by_place_too(by_shape(feet[second_is_left ? 1 : 0], Side::kLeft),
-                                     by_shape(feet[second_is_left ? 0 : 1], Side::kRight));
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Side side = (i == 1) == second_is_left ? Side::kLeft : Side::kRight;
-      auto settled = with_side(std::move(feet[i]), clouds[i], side, each);
-      if (!settled) return tl::make_unexpected(of_one(settled.error(), side));
-      settled->cloud_number = i;
-      settled->side_confidence = sure;
-      feet[i] = std::move(*settled);
-    }
+  if (const auto left_mm = second_left_of_first_mm(feet[0], feet[1])) {
+    auto settled = settle_by_place(feet, clouds, *left_mm > 0.0, each);
+    if (!settled) return tl::make_unexpected(settled.error());
   } else if (feet[0].side == feet[1].side) {
     doubt_one_side(feet);
     for (auto& foot : feet) {

@@ -45,13 +45,12 @@ struct AlignmentOptions {
 /// read off quieted points (FootScan::shape()). A sole that was not seen is closed on the floor
 /// (close_open_sole()), as far below as its walls tell (floor_below()), with a warning; a foot
 /// whose walls end too high to tell, and a last whose bottom was not seen, are refused with
-/// kInsufficientData. A leg above the foot, an open sole
-/// and a cut at any height above the instep are fine; most of a leg is left out, with a warning
-/// (foot_under_leg()). Fails with kInsufficientData under 200 points, where over 3 % of them lie
-/// beyond both ends that were found, and for a scan whose sole was closed if half of its heel or
-/// toes was not seen (unseen_half()); and with kInvalidInput, saying why, for what is no whole foot
-/// or is touched by something half as large. A mirrored cloud gives the mirrored result.
-/// O(n log n).
+/// kInsufficientData. A leg above the foot, an open sole and a cut at any height above the instep
+/// are fine; most of a leg is left out, with a warning (foot_under_leg()). Fails with
+/// kInsufficientData under 200 points, where over 3 % of them lie beyond both ends that were found,
+/// and for a scan whose sole was closed if half of its heel or toes was not seen (unseen_half());
+/// and with kInvalidInput, saying why, for what is no whole foot or is touched by something half as
+/// large. A mirrored cloud gives the mirrored result. O(n log n).
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& options = {});
 
 /// The foot by another cloud in its frame: side, floor and rules, and the three landmarks of

@@ -214,6 +214,7 @@ std::optional<Landmark> broadest(const FootOutline& outline, const SkinBorder& b
     furthest.rule = "as the point of the ball, where the outline was not seen";
   } else if (!is_skin) {
     furthest.rule += "; a rim, beyond which it was not seen";
+    furthest.confidence = std::min(furthest.confidence, metatarsal.confidence);
   }
   // Beyond a rim the border may go on, however far the point of the ball is behind it.
   const double surely = is_skin ? std::max(0.0, less) : 0.0;

@@ -1,6 +1,7 @@
 #include "core/foot/end_facing.h"
 
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "core/geometry/moments_round.h"

@@ -1,6 +1,8 @@
 #include "core/foot/floor_below.h"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -9,6 +11,7 @@
 #include "core/foot/low_walls.h"
 #include "core/fusion/wall_end.h"
 #include "core/fusion/wall_foot.h"
+#include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
 #include "core/median.h"
@@ -32,11 +35,12 @@ constexpr std::size_t kFewestOnBorder = 12;
 constexpr double kLeastDip = 0.1;
 constexpr double kCloseMm = 4.0;
 constexpr double kBlurredPerMm = 0.08;
+constexpr double kMostBlurred = 0.3;
 
 double least_dip(const PointCloud& walls) {
   constexpr std::size_t kAsked = 500;
   const double spacing = usual_spacing(PointIndex(walls.positions), kAsked);
-  return kLeastDip - kBlurredPerMm * std::max(0.0, spacing - kCloseMm);
+  return kLeastDip - std::min(kMostBlurred, kBlurredPerMm * std::max(0.0, spacing - kCloseMm));
 }
 
 /// Whether the skin's border still stands upright, or leads outwards, where it was seen last.

@@ -16,7 +16,8 @@ namespace instep {
 /// sharply. Zero of a floor that is known.
 ///
 /// Nothing where the border of the foot has not begun to bend under: then the floor lies anywhere
-/// below, and the foot's border with it, which is furthest out 10 to 15 mm over the floor.
+/// below, and the foot's border with it, which is furthest out 10 to 15 mm over the floor. Points
+/// over 4 mm apart blur that: so few tell it only of feet cut off far higher.
 ///
 /// `foot` is in its own frame, stands on its lowest points and has its ends. O(n log n) of what is
 /// low, at most 20,000 points.

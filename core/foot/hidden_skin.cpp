@@ -92,9 +92,10 @@ double hidden_range(const Stretch& stretch, const Vector2d& middle, const Vector
   const double breadth = std::max({0.0, sign * level.dot(way), inset});
   const double falls = -up.dot(stretch.wall);
   const double leans = std::max(0.0, sign * level.dot(stretch.wall));
-  // What still rises where it ends, and leads outwards, may go any way.
-  const double slope = leans == 0.0 ? 0.0 : falls > 0.0 ? leans / falls : kBending;
-  if (!(height > 0.0) || slope >= kBending) return 0.0;
+  const bool is_bending = leans > 0.0 && leans >= kBending * falls;
+  if (!(height > 0.0) || is_bending) return 0.0;
+  // What still rises where it ends, and leads outwards, may come down upright.
+  const double slope = leans > 0.0 ? leans / falls : 0.0;
   const double corner = std::hypot(height, slope * height) + std::abs(breadth - slope * height);
   return (1.0 - slope / kBending) * std::max(0.0, corner - std::hypot(height, breadth));
 }

@@ -1,6 +1,5 @@
 #include "core/foot/landmarks.h"
 
-#include <algorithm>
 #include <atomic>
 #include <optional>
 #include <string>

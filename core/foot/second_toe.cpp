@@ -72,9 +72,9 @@ std::vector<Vector2d> visible_toes(const std::vector<Vector2d>& front, const Vec
   return tips;
 }
 
-/// Which tips have room for the big toe between them and the medial border: a foot that bulges at
-/// its ball, as with a bunion, has its toes too far from there, and its first where second toes
-/// are.
+/// Which tips have room for the big toe between them and the toes' medial border. A foot whose ball
+/// bulges, as with a bunion, has all toes further from the border of that, by which they are named,
+/// and its first where second toes are.
 std::vector<bool> beside_a_big_toe(const std::vector<Vector2d>& tips,
                                    const std::vector<Vector2d>& front, double length) {
   const BorderProfile medial(front, Vector2d::UnitX(), Vector2d::UnitY(), kToeSmoothingMm);

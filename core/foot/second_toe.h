@@ -17,7 +17,8 @@ struct SecondToe {
 inline constexpr double kSecondToeShare = 0.415;
 
 /// Finds the second toe's tip on the front border: of the toes that show, the one that is the
-/// second by where all of them lie (second_of_toes()); else the front border at kSecondToeShare.
+/// second by where all of them lie (second_of_toes()) and has room for the big one beside it; else
+/// the front border at kSecondToeShare.
 ///
 /// Toes recede towards the little one, so that a toe seldom stands out forwards; they are told
 /// apart by the clefts between them, seen square to the line of their tips. The tip is the foremost

@@ -19,7 +19,8 @@ struct SeenFloor {
 /// was cut out with it or a whole room's floor. `plane`: as find_standing_plane() has it for all
 /// points, within some millimetres and degrees of the floor. Points up to 3 mm above the floor, or
 /// four times its own scatter, are taken for it; so are those under the body. Nothing where too
-/// little lies there, or on too few of its sides, and where it is not level. O(n).
+/// little lies there, or on too few of its sides, and where it is not level or
+/// climbs to the body, as skin does. O(n).
 std::optional<SeenFloor> seen_floor(const std::vector<Eigen::Vector3d>& points,
                                     const StandingPlane& plane);
 

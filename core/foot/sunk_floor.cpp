@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/foot/skin_noise.h"
+#include "core/geometry/moments.h"
 #include "core/geometry/moments_round.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"

@@ -17,7 +17,8 @@ namespace instep {
 /// price for each toe that is missing and each tip that is none. Nothing where the second toe is
 /// not among them, fewer than four toes show, even the likeliest is unlikely, or another that has
 /// another second toe is hardly less so: a short second toe hides beside a big one that lies where
-/// second toes do. `may_be_second`: of each tip, false where something tells that it is not. Of
+/// second toes do. `may_be_second`: of each tip, as
+/// many as these, false where something tells that it is not. Of
 /// more than eight tips nothing is told; eight take a sixth of a millisecond.
 std::optional<std::size_t> second_of_toes(const std::vector<double>& shares,
                                           const std::vector<bool>& may_be_second);

@@ -23,9 +23,11 @@ namespace {
 // and more, of 200 drawn feet two have less than this, one by a hole there; of feet of 4,000 points
 // one in ten, of 1,500 three. With 4 mm cut off all of 10 have less, with 8 mm nine.
 constexpr double kLeastFacingOfToes = 0.7;
-/// The same of the first toe for itself: of those feet two have less, of 150 clouds of 2,500 to
-/// 25,000 points of three real feet eight, all of the one whose skin runs on between its toes.
-constexpr double kLeastFacingOfFirstToe = 0.8;
+/// The same of the first toe for itself: of those feet none has less than 0.756, of 150 clouds of
+/// 2,500 to 25,000 points of three real feet some eight, all of the one whose toes touch.
+constexpr double kLeastFacingOfFirstToe = 0.75;
+/// So far behind the foremost toe the first one may end, at full size.
+constexpr double kFirstToeBehindMm = 15.0;
 /// What then may be missing, set by eye: of the front of a foot that eight views of a real camera
 /// saw the sides and the top of, some 5 mm. How the skin faces tells nothing of how much it is.
 constexpr double kUnseenToesMm = 10.0;
@@ -44,7 +46,7 @@ constexpr double kUnseenHeelTurn = 0.01;
 /// An end as it was seen, at full size.
 struct SeenEnd {
   double facing = 0.0;     ///< end_facing(); 0 of one without points
-  double first_toe = 1.0;  ///< the same at the end of the first toe
+  double first_toe = 1.0;  ///< the same at the end of the first toe; 1 where that is not known
   bool is_whole = false;   ///< no hole in it
 };
 
@@ -73,7 +75,10 @@ double first_toe_facing(const FootScan& foot, const std::vector<Eigen::Vector3d>
   }
   if (toe.empty()) return 1.0;
   const Eigen::Vector3d forward = Eigen::Vector3d::UnitX();
-  return end_facing(toe, robust_extreme(toe, forward), forward).value_or(1.0);
+  const Eigen::Vector3d end = robust_extreme(toe, forward);
+  // Further back is the little toe of a foot of the other side, or what was left of a first one.
+  if (end.x() < kFullSizeMm - kFirstToeBehindMm) return 1.0;
+  return end_facing(toe, end, forward).value_or(1.0);
 }
 
 SeenEnd seen_toes(const FootScan& foot) {
@@ -156,8 +161,7 @@ std::optional<UnseenEnds> unseen_ends(const FootScan& foot) {
     ends.warning +=
         (ends.warning.empty() ? "" : " and ") + std::string("the rearmost part of the heel");
     ends.if_longer.push_back(lengthened(foot, {.heel_mm = std::min(heel_mm, kMostUnseenHeelMm)}));
-    // For itself, so that which way it turns does not matter.
-    ends.if_longer.push_back(lengthened(foot, {.turn = kUnseenHeelTurn}));
+    ends.if_longer.push_back(lengthened(foot, {.turn = foot.medial_sign() * kUnseenHeelTurn}));
   }
   if (ends.if_longer.empty()) return std::nullopt;
   ends.warning +=

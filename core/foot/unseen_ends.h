@@ -15,13 +15,14 @@ struct UnseenEnds {
   /// The landmarks as they would be if it went on: at the toes for another 10 mm, where more was
   /// cut off the warning alone tells; at the heel for as much as its skin, which is about as round
   /// on all feet, lacks of facing backwards, at least 10 mm where it has a hole and 25 at most,
-  /// and, for itself, with its axis turned. Of each end for itself.
+  /// and with its axis turned. Each of these for itself.
   std::vector<RedrawnLandmarks> if_longer;
 };
 
 /// Nothing of a foot that was seen whole, of one of which only some millimetres were cut off, as a
-/// rule, and of a last, the front of which may be an edge. `foot` has its landmarks. O(points), and
-/// once more the cost of the landmarks for each end, without redraws.
+/// rule, and of a last, the front of which may be an edge. `foot` has its landmarks. The first
+/// toe is asked for itself: where it was cut off, the second one's skin may be the foremost.
+/// O(points), and once more the cost of the landmarks for each entry, without redraws.
 std::optional<UnseenEnds> unseen_ends(const FootScan& foot);
 
 }  // namespace instep

@@ -7,11 +7,10 @@
 
 namespace instep {
 
-/// A plane fitted to points by least squares: through their middle, square to the direction in
-/// which they spread least.
+/// A plane through the middle of some points.
 struct FittedPlane {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, of either sign
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, of either sign; zero of none
 
   /// Over it, to the side of its normal.
   double height(const Eigen::Vector3d& place) const { return normal.dot(place - middle); }
@@ -24,7 +23,8 @@ struct FittedPlane {
   }
 };
 
-/// Of the points, at least one, whose moments these are round `origin`.
+/// By least squares, square to the direction in which the points spread least: at least one, whose
+/// moments these are round `origin`.
 inline FittedPlane plane_of(const Moments& moments, const Eigen::Vector3d& origin) {
   return {origin + moments.middle(), moments.flattest()};
 }

@@ -17,7 +17,7 @@ class ContourIndex {
   explicit ContourIndex(std::vector<Eigen::Vector2d> corners);
   explicit ContourIndex(const Contour& contour) : ContourIndex(contour.points) {}
 
-  /// The number of the nearest corner; the first of those that are as near.
+  /// The number of the corner nearest to a finite point; the first of those that are as near.
   std::size_t nearest_corner(const Eigen::Vector2d& point) const;
 
   struct Foot {

@@ -105,11 +105,18 @@ TEST(AlignFeet, KeepsTheShapesOfFeetThatPointDifferentWays) {
 TEST(AlignFeet, KeepsTheShapesOfFeetOneBehindTheOther) {
   PointCloud behind = at(left_foot(), -3.0);
   for (auto& point : behind.positions) point.x() -= 330.0;
-  const auto feet = align_feet({at(right_foot(), 0.0), behind}, on_the_floor());
-  ASSERT_TRUE(feet) << feet.error().line();
-  ASSERT_EQ(feet->size(), 2U);
-  EXPECT_EQ((*feet)[0].cloud_number, 1U) << "the left one";
-  for (const auto& foot : *feet) EXPECT_FALSE(says(foot, "crossed"));
+  // Before one that points aside by 30 degrees, the other stands on its left if seen along it.
+  for (const double turn : {0.0, 0.5}) {
+    const std::vector<PointCloud> both{at(right_foot(), 0.0, turn), behind};
+    for (const bool are_swapped : {false, true}) {
+      const auto feet =
+          align_feet(are_swapped ? std::vector{both[1], both[0]} : both, on_the_floor());
+      ASSERT_TRUE(feet) << feet.error().line();
+      ASSERT_EQ(feet->size(), 2U);
+      EXPECT_EQ((*feet)[0].cloud_number, are_swapped ? 0U : 1U) << "the left one";
+      for (const auto& foot : *feet) EXPECT_FALSE(says(foot, "crossed"));
+    }
+  }
 }
 
 /// A box of 100 x 60 x 40 mm: as long as what may be a foot, but none.

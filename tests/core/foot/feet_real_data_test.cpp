@@ -16,6 +16,7 @@
 #include "core/foot/measures.h"
 #include "core/foot/shoe_last.h"
 #include "core/foot/shoe_sizes.h"
+#include "core/geometry/place_hash.h"
 #include "core/some_of.h"
 #include "tests/support/cases/point_patterns.h"
 #include "tests/support/foot_body.h"
@@ -324,6 +325,33 @@ TEST_F(RealFeet, WithoutTheTipOfTheFirstToeMayBeLonger) {
       EXPECT_FALSE(left->warnings.empty()) << name << " " << cut_mm;
     }
   }
+}
+
+/// A ball that bulges puts all toes further from its border, by which they are named: the big toe
+/// passed for the second one in three of six clouds, and turned the axis by 5 degrees.
+TEST_F(RealFeet, WithABunionHaveTheirBigToeBesideTheSecond) {
+  const auto whole = measured(cloud("lab_left.ply", 1.0));
+  const Eigen::Vector3d second = whole.foot.landmarks.at("toe2_tip").position_mm;
+  PointCloud bulging = whole.foot.cloud;
+  bulging.drop_normals();
+  bulging.origins.clear();
+  for (auto& point : bulging.positions) {
+    const double along = (point.x() - 0.72 * whole.foot.length_mm()) / 12.0;
+    const double medial = std::clamp((-point.y() - 5.0) / 30.0, 0.0, 1.0);
+    point.y() -= 13.0 * std::exp(-0.5 * along * along) * medial * medial * (3.0 - 2.0 * medial);
+  }
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const auto some = bulging.subset(some_by_place(bulging.positions, 20000));
+    const auto foot = align_foot(noisy(some, 0.5, seed));
+    ASSERT_TRUE(foot) << foot.error().line();
+    if (!foot->has_seen_toes()) continue;
+    const Eigen::Vector3d tip =
+        foot->foot_from_input.inverse() * foot->landmarks.at("toe2_tip").position_mm;
+    EXPECT_LT((tip - second).head<2>().norm(), 6.0) << seed;
+    ++told;
+  }
+  EXPECT_GT(told, 0);
 }
 
 /// The toes over the cut were taken for a floor round the foot, which was 90 mm too short in 10.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -45,6 +46,8 @@ FootScan walls(double cut_mm, double length_mm) {
   return foot;
 }
 
+/// Cut off higher than 7 mm this edge, in a circular arc, is too upright over what an end is told
+/// by.
 TEST(FloorBelow, IsToldByHowFarTheEdgeHasBent) {
   for (const double cut : {1.0, 3.0, 6.0, 7.0}) {
     const auto floor = floor_below(walls(cut, 260.0));
@@ -68,8 +71,10 @@ TEST(FloorBelow, LiesInProportionUnderASmallFoot) {
 TEST(FloorBelow, IsNoneWhereTheFloorIsKnown) {
   FootScan foot = walls(4.0, 260.0);
   foot.is_floor_known = true;
-  EXPECT_EQ(floor_below(foot)->depth_mm, 0.0);
-  EXPECT_EQ(floor_below(foot)->u95_mm, 0.0);
+  const auto floor = floor_below(foot);
+  ASSERT_TRUE(floor);
+  EXPECT_EQ(floor->depth_mm, 0.0);
+  EXPECT_EQ(floor->u95_mm, 0.0);
   EXPECT_TRUE(if_deeper(foot).empty());
 }
 

@@ -98,6 +98,12 @@ TEST(HiddenWall, IsTheSameWhereverTheSectionBeginsAndWhicheverWayItRuns) {
   EXPECT_NEAR(section.doubt(), doubt, 1e-9);
 }
 
+/// As a side of which no camera saw more than the ridge above it: it had no doubt at all.
+TEST(HiddenWall, LeavesMostOpenWhereItWasLostAtItsTop) {
+  EXPECT_GT(Section(kTopMm).doubt(), Section(40.0).doubt());
+  EXPECT_GT(Section(40.0).doubt(), Section(20.0).doubt());
+}
+
 /// Points so far apart leave holes in a narrow band.
 TEST(HiddenWall, TakesSparsePointsForASeenWall) {
   Section section(1.0);

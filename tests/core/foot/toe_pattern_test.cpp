@@ -31,8 +31,10 @@ TEST(ToePattern, KnowsASplayedFoot) {
 TEST(ToePattern, HeedsWhatIsKnownNotToBeTheSecond) {
   const std::vector<double> shares{0.44, 0.59, 0.74, 0.87};
   EXPECT_EQ(second(shares), 0.44);
-  const auto found = second_of_toes(shares, {false, true, true, true});
-  EXPECT_TRUE(!found || shares[*found] == 0.59);
+  EXPECT_FALSE(second_of_toes(shares, {false, true, true, true})) << "0.59 may be the third";
+  const std::vector<double> splayed{0.409, 0.578, 0.700, 0.821, 0.926};
+  EXPECT_EQ(second_of_toes(splayed, {false, true, true, true, true}), 1U);
+  EXPECT_FALSE(second_of_toes(splayed, std::vector<bool>(5, false)));
 }
 
 TEST(ToePattern, PassesOverATipThatIsNone) {
