@@ -52,8 +52,6 @@ double by_shape(const FootScan& foot, Side side) {
 double by_place_too(double left, double right) {
   const double uncrossed = (1.0 - kCrossed) * left * right;
   const double crossed = kCrossed * (1.0 - left) * (1.0 - right);
-  // Nothing of both only of two that surely are of one side: of them shapes tell nothing.
-  if (!(uncrossed + crossed > 0.0)) return 1.0 - kCrossed;
   return std::max(0.5, uncrossed / (uncrossed + crossed));
 }
 

@@ -19,9 +19,8 @@ namespace instep {
 /// people are taken to stand with crossed feet. Where a shape clearly says otherwise that is a
 /// warning, and where both do the side is as good as a coin. Other two keep what their shapes say;
 /// if that is one side, with a warning: one of them is wrong, and each is as sure as its shape is
-/// against the other's. A forced
-/// side applies to a single foot only. Fails as align_foot() does, if it fails for one of them; of
-/// two the message says which.
+/// against the other's. A forced side applies to a single foot only. Fails as align_foot() does, if
+/// it fails for one of them; of two the message says which.
 Result<std::vector<FootScan>> align_feet(const std::vector<PointCloud>& clouds,
                                          const AlignmentOptions& options = {},
                                          const GoOn& go_on = always);

@@ -41,10 +41,10 @@ bool has_gap(const SkinBorder& border, double from, double to);
 /// variances). The furthest of what is guessed below the rim lies in front of or behind it, where
 /// the guess begins.
 ///
-/// `told`: the samples that are on skin that was seen; `guessed`: these and, where points
-/// were put below walls that were lost, all others, of which the furthest says how far out the
-/// border is, to 3 mm, where no other does. Nothing where there are no samples near the usual
-/// place, or the curve has no crest.
+/// `told`: the samples that are on skin that was seen; `guessed`: these and, where points were put
+/// below walls that were lost, all others, of which the furthest says how far out the border is, to
+/// 3 mm, where no other does. Nothing where there are no samples near the usual place, or the curve
+/// has no crest.
 std::optional<HiddenCrest> hidden_crest(const SkinBorder& told, const SkinBorder& guessed,
                                         const UsualBorder& usual);
 

@@ -8,7 +8,7 @@
 
 #include "core/foot/full_size.h"
 #include "core/fusion/wall_foot.h"
-#include "core/geometry/moments.h"
+#include "core/geometry/moments_round.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 
@@ -28,10 +28,8 @@ std::optional<SpreadAxes> spread_of_skin(const Vector3d& point, const PointIndex
   constexpr double kLine = 0.05;  // squared: the breadth of what runs on in lines, over its length
   constexpr double kFarthestMm = 15.0;
   for (std::size_t count = kNeighbours; count <= kMostNeighbours; count *= 4) {
-    Moments moments;
     const auto near = index.nearest(point, count);
-    for (const auto& one : near) moments.add(index.points()[one.index] - point);
-    const SpreadAxes axes = moments.axes();
+    const SpreadAxes axes = moments_round(index, point, near).axes();
     if (!are_on_a_line(axes, kLine)) return axes;
     if (near.size() < count || std::sqrt(near.back().squared_distance) > kFarthestMm) break;
   }

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "daemon/build_facts.h"
 #include "daemon/page/numbers_block.h"
 #include "daemon/page/paper.h"
 #include "daemon/page/sections_block.h"
 #include "daemon/page/views_block.h"
+#include "daemon/report/number_text.h"
 #include "daemon/report/svg_text.h"
 
 namespace instep {
@@ -82,8 +82,7 @@ std::string origin_text(const ScanRecord& record, const std::string& origin) {
   }
   if (record.simulated) add("simulated");
   if (record.foot.side_confidence < 1.0) {
-    add(fmt::format("side as the scan tells, {:.0f} % sure",
-                    std::floor(100.0 * record.foot.side_confidence)));
+    add("side as the scan tells, " + at_least_percent(record.foot.side_confidence) + " sure");
   }
   return text;
 }

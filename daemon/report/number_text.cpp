@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "daemon/report/json_number.h"
 
@@ -18,6 +19,10 @@ std::string interval_text(double value, const std::optional<double>& u95) {
 
 std::string measure_text(const Measure& measure) {
   return interval_text(measure.value(), measure.u95()) + (measure.value_deg ? "°" : " mm");
+}
+
+std::string at_least_percent(double share) {
+  return fmt::format("{:.0f} %", std::floor(100.0 * share + 1e-9));
 }
 
 std::string as_words(std::string id) {

@@ -17,6 +17,9 @@ std::string interval_text(double value, const std::optional<double>& u95);
 /// A measure with its interval and unit: "251.3 ± 0.2 mm", "9.5 ± 0.6°".
 std::string measure_text(const Measure& measure);
 
+/// "97 %": whole ones of a share, rounded down, so that only all of it is 100.
+std::string at_least_percent(double share);
+
 /// An identifier as words: "ball_girth" becomes "ball girth".
 std::string as_words(std::string id);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include "daemon/report/number_text.h"
@@ -37,8 +36,7 @@ void add_warnings(std::string& text, const FootScan& foot, const MeasureSet& mea
 std::string foot_text(const FootScan& foot, const MeasureSet& measures, const ShoeSizes& sizes) {
   std::string text = fmt::format("{} foot", foot.side == Side::kLeft ? "Left" : "Right");
   if (foot.side_confidence < 1.0) {
-    text += fmt::format(" (as the scan tells, {:.0f} % sure)",
-                        std::floor(100.0 * foot.side_confidence));
+    text += fmt::format(" (as the scan tells, {} sure)", at_least_percent(foot.side_confidence));
   }
   text += "\n\n";
   const std::size_t width = widest_name(measures);
