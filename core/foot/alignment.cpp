@@ -242,6 +242,13 @@ Error said_of_lines(Error refusal, const ScannerLines& lines) {
   return refusal;
 }
 
+/// A refusal of points among strays, of which some may have been left for skin.
+Error said_of_strays(Error refusal, const FootAlone& alone) {
+  refusal.advice += "; " + in_percent(alone.stray_share) +
+                    " of the points are strays off the skin: see to what shines or moves first";
+  return refusal;
+}
+
 }  // namespace
 
 Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& told) {
@@ -274,6 +281,9 @@ Result<FootScan> align_foot(const PointCloud& cloud, const AlignmentOptions& tol
   const bool may_be_last = !found || (!found->has_seen_toes() && !stands_flat(*found));
   if (may_be_last && !options.standing_plane && !options.up)
     found = as_last(foot, options, std::move(found));
+  if (!found && alone->had_many_strays()) {
+    return tl::unexpected(said_of_strays(found.error(), *alone));
+  }
   if (!found && foot.lines) return tl::unexpected(said_of_lines(found.error(), *foot.lines));
   if (!found) return found;
   found->warnings.insert(found->warnings.end(), alone->warnings.begin(), alone->warnings.end());

@@ -47,7 +47,8 @@ void leave_out_strays(FootAlone& foot) {
         "a small clump of points that no skin reaches is left out: if it is the end of a toe or of "
         "the heel, turn a camera to what lies between");
   }
-  if (left_out.share < kManyStrays) return;
+  foot.stray_share = left_out.share;
+  if (!foot.had_many_strays()) return;
   foot.warnings.push_back(in_percent(left_out.share) +
                           " of the points are strays off the skin and are left out: see to what "
                           "shines or moves, and to the cameras' poses");
@@ -119,6 +120,10 @@ Result<void> leave_out_others(bool is_one_foot, FootAlone& foot) {
 }
 
 }  // namespace
+
+bool FootAlone::had_many_strays() const {
+  return stray_share > kManyStrays;
+}
 
 Result<FootAlone> foot_alone(const PointCloud& cloud, bool is_told, bool is_one_foot) {
   FootAlone foot;

@@ -15,7 +15,11 @@ struct FootAlone {
   PointCloud cloud;
   std::optional<StandingPlane> floor;          ///< that it was seen to stand on
   std::optional<Result<StandingPlane>> plane;  ///< under it, where looking for a floor told that
+  double stray_share = 0.0;                    ///< of the points, left out
   std::vector<std::string> warnings;           ///< of what was left out
+
+  /// Whether strays are more than a word is worth; some of them may have passed for skin.
+  bool had_many_strays() const;
 };
 
 /// Leaves out repeated points, strays, most of a leg that stands upright on the foot (across one

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/foot/scanner_lines.h"
+#include "core/geometry/haze_points.h"
 #include "core/geometry/loose_clumps.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
@@ -53,9 +54,18 @@ LeftOutStrays take_out(PointCloud& cloud, const Finder& strays_in) {
   return left_out;
 }
 
+/// Haze first: in it no stray stands alone.
 LeftOutStrays take_out_all(PointCloud& cloud) {
-  return take_out(
-      cloud, [](const PointIndex& index, double spacing) { return strays_among(index, spacing); });
+  if (cloud.positions.empty()) return {};
+  const auto all = static_cast<double>(cloud.size());
+  const auto share_out = [&] { return 1.0 - static_cast<double>(cloud.size()) / all; };
+  take_out(haze_points(PointIndex(cloud.positions)), cloud);
+  LeftOutStrays left_out =
+      take_out(cloud, [&, haze = share_out()](const PointIndex& index, double spacing) {
+        return strays_among(index, spacing, {haze});
+      });
+  left_out.share = share_out();
+  return left_out;
 }
 
 }  // namespace

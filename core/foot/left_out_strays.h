@@ -12,8 +12,9 @@ struct LeftOutStrays {
 
 /// Takes strays (strays_among()) out of a cloud before anything is read off it: one under a foot
 /// would be its floor, one before it its toe, and the skin of an open sole would be laid out to one
-/// beside it. So it is with clumps of them that no skin reaches (loose_clumps()), but in a cloud
-/// that stands in a scanner's lines (scanner_lines()), whose last ones are as far from all others.
+/// beside it. So it is with haze (haze_points()), as light makes that is scattered in glass under
+/// the foot, and with clumps that no skin reaches (loose_clumps()), but in a cloud that stands in a
+/// scanner's lines (scanner_lines()), whose last ones are as far from all others.
 /// A thin line of strays that starts at the skin, and a larger or nearer clump, pass for skin.
 ///
 /// Of more than 60,000 points just those that stand alone are strays; but where there are many
