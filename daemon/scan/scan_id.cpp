@@ -68,7 +68,7 @@ std::optional<std::chrono::system_clock::time_point> time_of_scan_id(std::string
                             day(static_cast<unsigned>(number(id, 6, 2)))};
   if (!date.ok()) return std::nullopt;
   return sys_days(date) + hours(number(id, 9, 2)) + minutes(number(id, 11, 2)) +
-         seconds(number(id, 13, 2));
+         seconds(number(id, 13, 2)) + milliseconds(number(id, 15, 3));
 }
 
 }  // namespace instep

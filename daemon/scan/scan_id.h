@@ -25,7 +25,7 @@ std::filesystem::path day_folder(std::string_view id);
 /// Whether two ids were made together.
 bool are_of_one_scan(std::string_view one, std::string_view other);
 
-/// The time in an id, to the second; nothing if there is no such date.
+/// The time in an id, to the millisecond; nothing if there is no such date.
 std::optional<std::chrono::system_clock::time_point> time_of_scan_id(std::string_view id);
 
 }  // namespace instep

@@ -76,8 +76,12 @@ std::map<std::string, double> truth_of(const Capture& capture, const FootScan& f
   return own;
 }
 
-/// Whoever stands there gives no points and no millimetres.
+/// Whoever stands there gives no points and no millimetres. What is no matter of the foot, such as
+/// a scan that was cancelled, keeps its own advice.
 Error of_scan(Error failure) {
+  if (failure.code != ErrorCode::kInsufficientData && failure.code != ErrorCode::kInvalidInput) {
+    return failure;
+  }
   failure.advice =
       "stand with the whole foot flat on the platform, two feet a hand's breadth apart and nothing "
       "else on it, then scan again; where that does not help, scan one foot alone, see that no "
@@ -115,8 +119,9 @@ Result<ScanRecord> measure_one(FootScan aligned, const Capture& capture,
   return record_of(capture, settings, std::move(*foot), std::move(*measures));
 }
 
-void name(std::vector<ScanRecord>& records, std::chrono::system_clock::time_point time) {
-  const auto ids = new_scan_ids(time, records.size());
+void name(std::vector<ScanRecord>& records, const PipelineSettings& settings) {
+  const auto time = std::chrono::system_clock::now();
+  const auto ids = new_scan_ids(std::max(time, settings.ids_from.value_or(time)), records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     records[i].id = ids[i];
     records[i].time = time;
@@ -202,7 +207,7 @@ Result<std::vector<ScanRecord>> measure_capture(const Capture& capture,
   }
   clock.end();
 
-  name(records, std::chrono::system_clock::now());
+  name(records, settings);
   pair_up(records, settings.sizes);
   for (auto& record : records) {
     record.quality = quality;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -43,6 +44,9 @@ struct PipelineSettings {
   std::optional<Side> side;  ///< forced side; nothing = told from the shape
   MeasuringRules measures;
   SizeRules sizes;
+  /// Ids are of this time at the earliest, so that they sort behind those that are there; nothing =
+  /// of the time at which it is measured.
+  std::optional<std::chrono::system_clock::time_point> ids_from;
 };
 
 /// The way of a scan, one step a line: deproject -> fuse -> align -> landmarks -> girths. Takes no

@@ -153,7 +153,9 @@ void StationService::sweep_part(std::size_t removed_before) {
     if (said_.is_news("clock", "set")) {
       log_warning(
           "the clock was set by more than a week while the daemon runs: nothing is removed for its "
-          "age until it is started again; see that the clock is right (timedatectl)");
+          "age until it is started again. What was scanned before counts from then on as old as "
+          "its "
+          "id says: see that the clock is right (timedatectl), and export what would be too old");
     }
   }
   archive_->post([this, retention, removed_before, store = store_, leaving = leaving_,
@@ -192,6 +194,14 @@ void StationService::tell_of(const Swept& swept) {
         fmt::format("{} results are dated later than now: the clock was wrong when they were made, "
                     "or is (timedatectl); they are kept until their time has come",
                     swept.made_later));
+  }
+  if (said_.is_news("before all", std::to_string(swept.made_before_all)) &&
+      swept.made_before_all > 0) {
+    log_warning(fmt::format(
+        "{} results are dated before there was this program: the clock was wrong when they were "
+        "made. How old they are nobody can tell, so that they are kept until you delete them "
+        "(instep list, instep delete)",
+        swept.made_before_all));
   }
 }
 

@@ -66,12 +66,13 @@ class ScanSession {
 
   Result<std::vector<ScanRecord>> measure(const Capture& capture) {
     const auto remarks = tools_.remarks->all();
-    auto records =
-        tools_.measure(capture, tools_.pipeline, [this](std::string_view stage, double done) {
-          progress_.step();
-          tell(stage, kCaptureShare + kMeasureShare * done);
-          return !cancelled_;
-        });
+    auto pipeline = tools_.pipeline;
+    pipeline.ids_from = tools_.store->time_of_next(std::chrono::system_clock::now());
+    auto records = tools_.measure(capture, pipeline, [this](std::string_view stage, double done) {
+      progress_.step();
+      tell(stage, kCaptureShare + kMeasureShare * done);
+      return !cancelled_;
+    });
     if (!records) return records;
     for (auto& record : *records) {
       record.warnings.insert(record.warnings.begin(), remarks.begin(), remarks.end());

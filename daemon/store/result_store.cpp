@@ -14,6 +14,8 @@ constexpr const char* kTrial = ".trying-out";
 /// As large as a result with its cloud, so that a disk which takes it takes the next scan too.
 constexpr std::size_t kTrialSize = 2 * 1024 * 1024;
 constexpr std::size_t kLargestResultJson = 16 * 1024 * 1024;
+/// Results that were stored last. It takes as many deletions to make an earlier one the latest.
+constexpr std::size_t kRemembered = 100;
 
 bool is_leftover(const std::string& name) {
   return name.rfind(kWriting, 0) == 0 || name.rfind(kDeleting, 0) == 0;
@@ -97,6 +99,7 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
     (void)(is_named ? move_away(id) : remove_whole(writing));
     return tl::make_unexpected(stored.error());
   }
+  note_stored(id);
   return day / id;
 }
 
@@ -174,15 +177,22 @@ Result<std::vector<std::string>> ResultStore::list() const {
   if (!all_days) return tl::make_unexpected(all_days.error());
   std::vector<std::string> ids;
   for (const auto& day : *all_days) {
-    const auto entries = storage_->list(day);
-    if (!entries) continue;
-    for (const auto& entry : *entries) {
-      const bool is_result =
-          entry.is_folder && is_scan_id(entry.name) && root_ / day_folder(entry.name) == day;
-      if (is_result) ids.push_back(entry.name);
-    }
+    const auto of_day = ids_of(day);
+    ids.insert(ids.end(), of_day.begin(), of_day.end());
   }
-  std::sort(ids.rbegin(), ids.rend());
+  std::reverse(ids.begin(), ids.end());
+  return ids;
+}
+
+std::vector<std::string> ResultStore::ids_of(const std::filesystem::path& day) const {
+  std::vector<std::string> ids;
+  const auto entries = storage_->list(day);
+  if (!entries) return ids;
+  for (const auto& entry : *entries) {
+    const bool is_result =
+        entry.is_folder && is_scan_id(entry.name) && root_ / day_folder(entry.name) == day;
+    if (is_result) ids.push_back(entry.name);
+  }
   return ids;
 }
 
@@ -205,14 +215,55 @@ Result<std::string> ResultStore::find(const std::string& id,
 }
 
 Result<std::string> ResultStore::find_latest(std::chrono::system_clock::time_point now) const {
-  const auto ids = list();
-  if (!ids) return tl::make_unexpected(ids.error());
-  if (ids->empty()) {
+  if (auto last = last_stored(); !last.empty()) return last;
+  auto latest = newest(now);
+  if (latest && latest->empty()) {
     return fail(ErrorCode::kNotFound, "there is no scan yet", "make one: instep scan");
   }
-  const auto latest = std::find_if(ids->begin(), ids->end(),
-                                   [&](const std::string& id) { return !is_made_later(id, now); });
-  return latest == ids->end() ? ids->front() : *latest;
+  return latest;
+}
+
+Result<std::string> ResultStore::newest(std::chrono::system_clock::time_point now) const {
+  const auto all_days = days();
+  if (!all_days) return tl::make_unexpected(all_days.error());
+  std::string dated_later;
+  for (auto day = all_days->rbegin(); day != all_days->rend(); ++day) {
+    const auto ids = ids_of(*day);
+    for (auto id = ids.rbegin(); id != ids.rend(); ++id) {
+      if (!is_made_later(*id, now)) return *id;
+      if (dated_later.empty()) dated_later = *id;
+    }
+  }
+  return dated_later;
+}
+
+std::chrono::system_clock::time_point ResultStore::time_of_next(
+    std::chrono::system_clock::time_point now) const {
+  const auto before = newest(now);
+  if (!before || is_made_later(*before, now)) return now;
+  const auto time = time_of_scan_id(*before);
+  return time ? std::max(now, *time + std::chrono::milliseconds(1)) : now;
+}
+
+std::string ResultStore::last_stored() const {
+  std::unique_lock lock(mutex_);
+  const auto stored = stored_;
+  lock.unlock();
+  // Another program may have removed it.
+  const auto last = std::find_if(stored.rbegin(), stored.rend(),
+                                 [&](const std::string& id) { return find(id).has_value(); });
+  return last == stored.rend() ? "" : *last;
+}
+
+void ResultStore::note_stored(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  stored_.push_back(id);
+  if (stored_.size() > kRemembered) stored_.pop_front();
+}
+
+void ResultStore::forget_stored(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  std::erase(stored_, id);
 }
 
 std::filesystem::path ResultStore::folder_of(const std::string& id) const {
@@ -233,7 +284,10 @@ Result<void> ResultStore::move_away(const std::string& id) {
   const auto day = root_ / day_folder(id);
   const auto deleting = day / (kDeleting + id);
   return storage_->rename(day / id, deleting)
-      .and_then([&] { return storage_->sync_folder(day); })
+      .and_then([&] {
+        forget_stored(id);
+        return storage_->sync_folder(day);
+      })
       .and_then([&] { return remove_whole(deleting); });
 }
 
@@ -246,8 +300,9 @@ Swept ResultStore::sweep(const Retention& retention, std::chrono::system_clock::
     swept.trouble = ids.error();
     return swept;
   }
-  const auto gone = expired(*ids, retention, now);
+  const auto gone = expired(*ids, retention, now, last_stored());
   swept.made_later = gone.made_later;
+  swept.made_before_all = gone.made_before_all;
   for (const auto& id : gone.ids) {
     if (!go_on()) {
       swept.is_interrupted = true;

@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,7 +30,8 @@ struct Prepared {
 /// What a sweep did.
 struct Swept {
   std::size_t removed = 0;
-  std::size_t made_later = 0;    ///< see Expired
+  std::size_t made_later = 0;  ///< see Expired
+  std::size_t made_before_all = 0;
   bool is_interrupted = false;   ///< by its `go_on`: more may have to go
   std::optional<Error> trouble;  ///< the first, of a result that cannot be removed
 };
@@ -41,7 +44,8 @@ struct Swept {
 /// then it is renamed, and the folder above is flushed. A result that put() has reported is
 /// durable.
 ///
-/// Holds no state but the disk's. Safe from many threads.
+/// Of what is not on the disk it knows but what it has stored itself, in that order: a clock that
+/// was set back makes no earlier scan the latest. Safe from many threads.
 class ResultStore {
  public:
   ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root);
@@ -53,8 +57,8 @@ class ResultStore {
   /// left half-done. Once, before anything else.
   Result<Prepared> prepare();
 
-  /// Whether a result could be stored now: writes, flushes and removes a file as large as one, which
-  /// lies beside the results and is none. For one thread at a time.
+  /// Whether a result could be stored now: writes, flushes and removes a file as large as one,
+  /// which lies beside the results and is none. For one thread at a time.
   Result<void> try_out();
 
   /// Stores a result and returns its folder. On failure nothing is left but, if the cleaning up
@@ -65,11 +69,17 @@ class ResultStore {
   /// all days: 0.3 s for 20,000 results.
   Result<std::vector<std::string>> list() const;
 
-  /// `id`, or the newest by `now` if it is "latest": one that a wrong clock dated later only if
-  /// there is no other. Fails with kNotFound if there is none, and with kInvalidInput if `id`
-  /// cannot be one. Looks at the folder of its day alone, and at all for the latest.
+  /// `id`, or if it is "latest" what was stored last; where this has stored none that is still
+  /// there, the newest by `now`: one that a wrong clock dated later only if there is no other.
+  /// Fails with kNotFound if there is none, and with kInvalidInput if `id` cannot be one. Looks at
+  /// the folder of its day alone, and for the latest at the names of all days.
   Result<std::string> find(const std::string& id, std::chrono::system_clock::time_point now =
                                                       std::chrono::system_clock::now()) const;
+
+  /// From when on ids sort behind all that are there: `now`, or where the clock was set back a
+  /// little, just after the newest.
+  std::chrono::system_clock::time_point time_of_next(
+      std::chrono::system_clock::time_point now) const;
 
   std::filesystem::path folder_of(const std::string& id) const;
   Result<std::string> read_result_json(const std::string& id) const;
@@ -89,11 +99,22 @@ class ResultStore {
   Result<void> remove_whole(const std::filesystem::path& folder);
   Result<void> move_away(const std::string& id);
   Result<std::string> find_latest(std::chrono::system_clock::time_point now) const;
+  /// The newest by its id that is not dated later than `now`; else the newest; empty if there is
+  /// none.
+  Result<std::string> newest(std::chrono::system_clock::time_point now) const;
+  /// Of what this has stored; empty if nothing is there any more.
+  std::string last_stored() const;
+  void note_stored(const std::string& id);
+  void forget_stored(const std::string& id);
   /// The folders of all days, oldest first, that can be read.
   Result<std::vector<std::filesystem::path>> days() const;
+  /// Oldest first; nothing of a day that cannot be read.
+  std::vector<std::string> ids_of(const std::filesystem::path& day) const;
 
   std::shared_ptr<Storage> storage_;
   std::filesystem::path root_;
+  mutable std::mutex mutex_;        ///< of stored_
+  std::deque<std::string> stored_;  ///< by this, and not removed by it since: the last ones
 };
 
 }  // namespace instep

@@ -1,11 +1,16 @@
 #include "daemon/store/retention.h"
 
+#include <algorithm>
+
 #include "daemon/scan/scan_id.h"
 
 namespace instep {
 namespace {
 
 constexpr std::chrono::minutes kClocksDiffer{5};
+/// No result is older than this program.
+constexpr std::chrono::system_clock::time_point kFirstResults =
+    std::chrono::sys_days(std::chrono::year(2026) / 1 / 1);
 
 }  // namespace
 
@@ -14,10 +19,12 @@ bool is_made_later(const std::string& id, std::chrono::system_clock::time_point 
   return time && *time > now + kClocksDiffer;
 }
 
-Expired expired(const std::vector<std::string>& ids, const Retention& retention,
-                std::chrono::system_clock::time_point now) {
+Expired expired(std::vector<std::string> ids, const Retention& retention,
+                std::chrono::system_clock::time_point now, const std::string& last_stored) {
   Expired expired;
   const auto oldest = now - std::chrono::hours(24) * retention.keep_days;
+  std::stable_partition(ids.begin(), ids.end(),
+                        [&](const std::string& id) { return are_of_one_scan(id, last_stored); });
   int counted = 0;
   std::string_view last_kept;
   for (const auto& id : ids) {
@@ -26,7 +33,12 @@ Expired expired(const std::vector<std::string>& ids, const Retention& retention,
       continue;
     }
     const auto time = time_of_scan_id(id);
-    const bool is_too_old = retention.keep_days > 0 && time && *time < oldest;
+    const bool is_before_all = time && *time < kFirstResults;
+    if (is_before_all && now >= kFirstResults) {
+      ++expired.made_before_all;
+      continue;
+    }
+    const bool is_too_old = retention.keep_days > 0 && time && *time < oldest && !is_before_all;
     const bool is_too_many = retention.keep_count > 0 && counted >= retention.keep_count &&
                              !are_of_one_scan(id, last_kept);
     if (is_too_old || is_too_many) {

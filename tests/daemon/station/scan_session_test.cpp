@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/go_on.h"
+#include "daemon/scan/scan_id.h"
 #include "daemon/store/posix_storage.h"
 #include "sim/simulated_station.h"
 #include "tests/support/scripted_camera.h"
@@ -133,6 +134,22 @@ TEST(ScanSession, TellsInTheResultHowTheFramesWereTaken) {
   EXPECT_EQ(std::count(warnings.begin(), warnings.end(), "the projector was off"), 1);
 }
 
+/// Its id sorted before that of the customer before, where the clock had been set back meanwhile.
+TEST(ScanSession, GivesIdsThatSortBehindThoseThatAreThere) {
+  const test::TemporaryFolder folder;
+  const ScanTools tools = [&] {
+    ScanTools small = small_tools(folder.path() / "scans");
+    small.measure = measure_capture;
+    return small;
+  }();
+  using namespace std::chrono;
+  const auto before = new_scan_ids(system_clock::now() + minutes(3), 1).front();
+  ASSERT_TRUE(tools.store->put(before, {"{}", "ply", "<svg/>", "<svg/>"}));
+  const auto outcome = scan_with(tools);
+  ASSERT_FALSE(outcome.error) << outcome.error->line();
+  EXPECT_EQ(time_of_scan_id(outcome.stored.at(0).id), *time_of_scan_id(before) + milliseconds(1));
+}
+
 /// Those that the cameras' own threads leave out never come to the fusion, which counts others.
 TEST(ScanSession, CountsTheFaultyFramesOfItsCapture) {
   using Step = test::ScriptedCamera::Step;
@@ -195,7 +212,7 @@ TEST_F(CancelledScan, EndsAtOnceAndLeavesNothingAtEveryStep) {
   for (std::size_t k = 1; k <= whole.steps; ++k) {
     const auto cut = run(k);
     ASSERT_TRUE(cut.outcome.error) << k;
-    EXPECT_EQ(cut.outcome.error->code, ErrorCode::kCancelled) << cut.outcome.error->line();
+    EXPECT_EQ(cut.outcome.error->line(), cancelled().value().line()) << k;
     EXPECT_FALSE(cut.outcome.store_failed);
     EXPECT_TRUE(cut.outcome.stored.empty());
     EXPECT_EQ(cut.steps, k) << "it went on after the cancel";

@@ -26,6 +26,10 @@ class ResultStoreOnDisk : public testing::Test {
     EXPECT_TRUE(store.prepare());
   }
   void put(const std::string& id) { ASSERT_TRUE(store.put(id, {"{}", "ply", "<svg/>", "<svg/>"})); }
+  /// After a restart, by the ids alone.
+  std::string newest(std::chrono::system_clock::time_point now) const {
+    return ResultStore(std::make_shared<PosixStorage>(), store.root()).find("latest", now).value();
+  }
 
   test::TemporaryFolder folder;
   ResultStore store;
@@ -54,7 +58,7 @@ TEST_F(ResultStoreOnDisk, ListsNewestFirstAndFindsTheLatest) {
   put("20261121T091502416Z-zzzz");
   EXPECT_THAT(*store.list(), ElementsAre("20261121T091502417Z-k3f9", "20261121T091502416Z-zzzz",
                                          "20251231T235959999Z-aaaa"));
-  EXPECT_EQ(*store.find("latest"), "20261121T091502417Z-k3f9");
+  EXPECT_EQ(newest(*time_of_scan_id("20261121T100000000Z-aaaa")), "20261121T091502417Z-k3f9");
   EXPECT_EQ(store.find("20261121T091502417Z-aaaa").error().code, ErrorCode::kNotFound);
 }
 
@@ -124,10 +128,64 @@ TEST_F(ResultStoreOnDisk, LosesNothingToResultsThatAWrongClockDatedLater) {
   const auto swept = store.sweep({.keep_days = 0, .keep_count = 2}, now);
   EXPECT_EQ(swept.removed, 0U);
   EXPECT_EQ(swept.made_later, 2U);
-  EXPECT_EQ(*store.find("latest", now), "20261102T000000000Z-aaaa");
-  EXPECT_EQ(*store.find("latest", *time_of_scan_id("20100101T000000000Z-aaaa")),
-            "20900102T000000000Z-aaaa")
+  EXPECT_EQ(newest(now), "20261102T000000000Z-aaaa");
+  EXPECT_EQ(newest(*time_of_scan_id("20100101T000000000Z-aaaa")), "20900102T000000000Z-aaaa")
       << "of none that is of its time, the newest";
+}
+
+/// A clock that was set back by some minutes: the customer before was the latest, and what was
+/// stored was removed at once.
+TEST_F(ResultStoreOnDisk, KeepsAndFindsWhatItStoredLastWhateverItsDate) {
+  const auto now = *time_of_scan_id("20261121T090000000Z-aaaa");
+  put("20261121T090320000Z-aaaa");
+  put("20261121T090000000Z-aaaa");
+  put("20261121T090000000Z-bbbb");
+  EXPECT_EQ(*store.find("latest", now), "20261121T090000000Z-bbbb");
+  EXPECT_EQ(store.sweep({.keep_days = 0, .keep_count = 1}, now).removed, 1U);
+  EXPECT_THAT(*store.list(), ElementsAre("20261121T090000000Z-bbbb", "20261121T090000000Z-aaaa"));
+}
+
+TEST_F(ResultStoreOnDisk, FindsTheOneBeforeWhereTheLatestWasDeleted) {
+  put("20261121T090320000Z-aaaa");
+  put("20261121T090000000Z-aaaa");
+  put("20261121T085500000Z-aaaa");
+  ASSERT_TRUE(store.remove("20261121T085500000Z-aaaa"));
+  std::filesystem::remove_all(store.folder_of("20261121T090320000Z-aaaa"));
+  EXPECT_EQ(*store.find("latest", *time_of_scan_id("20261121T090500000Z-aaaa")),
+            "20261121T090000000Z-aaaa");
+}
+
+/// After a restart nothing but the ids tells which one is the latest.
+TEST_F(ResultStoreOnDisk, DatesWhatComesNextJustAfterTheNewest) {
+  const auto now = *time_of_scan_id("20261121T090000000Z-aaaa");
+  EXPECT_EQ(store.time_of_next(now), now) << "nothing is there";
+  put("20261121T085959999Z-aaaa");
+  EXPECT_EQ(store.time_of_next(now), now);
+  put("20261121T090320417Z-aaaa");
+  EXPECT_EQ(store.time_of_next(now), *time_of_scan_id("20261121T090320418Z-aaaa"));
+  put("20900101T000000000Z-aaaa");
+  EXPECT_EQ(store.time_of_next(now), *time_of_scan_id("20261121T090320418Z-aaaa"))
+      << "what a wrong clock dated much later does not count";
+}
+
+/// They were removed for their age at the next start, minutes after they were made.
+TEST_F(ResultStoreOnDisk, KeepsWhatAClockWithoutTimeDatedBeforeThisProgram) {
+  for (const auto* id : {"19730501T000000000Z-aaaa", "19730501T000100000Z-aaaa",
+                         "20261101T000000000Z-aaaa", "20261102T000000000Z-aaaa"}) {
+    put(id);
+  }
+  const auto now = *time_of_scan_id("20261104T000000000Z-aaaa");
+  const auto swept = store.sweep({.keep_days = 30, .keep_count = 1}, now);
+  EXPECT_EQ(swept.removed, 1U) << "of those whose age is known";
+  EXPECT_EQ(swept.made_before_all, 2U);
+  EXPECT_EQ(store.list()->size(), 3U);
+}
+
+TEST_F(ResultStoreOnDisk, LimitsTheNumberWhereTheClockNeverKnowsTheTime) {
+  for (const auto* id : {"19700101T000100000Z-aaaa", "19700101T000200000Z-aaaa"}) put(id);
+  const auto now = *time_of_scan_id("19700301T000000000Z-aaaa");
+  EXPECT_EQ(store.sweep({.keep_days = 30, .keep_count = 1}, now).removed, 1U);
+  EXPECT_THAT(*store.list(), ElementsAre("19700101T000200000Z-aaaa"));
 }
 
 TEST_F(ResultStoreOnDisk, SweepsPastWhatCannotBeRemoved) {
@@ -250,7 +308,7 @@ TEST(ScanIds, AreSortableByTimeAndUnlikeAnyOther) {
   const auto id = new_scan_ids(time, 1).front();
   EXPECT_EQ(id.substr(0, 20), "20261121T091502417Z-");
   EXPECT_TRUE(is_scan_id(id));
-  EXPECT_EQ(*time_of_scan_id(id), time - 417ms);
+  EXPECT_EQ(*time_of_scan_id(id), time);
   EXPECT_LT(id.substr(0, 19), new_scan_ids(time + 1ms, 1).front().substr(0, 19));
   EXPECT_FALSE(time_of_scan_id("20261321T091502417Z-aaaa"));
 }
