@@ -29,9 +29,12 @@ static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
 /// Who asks for a result waits about so long for old ones to be removed, and for their list.
 constexpr std::chrono::seconds kLongestSweep{1};
-/// Between two looks at the store: results grow old without a scan, and a disk gets room again.
-constexpr std::chrono::seconds kStoreLook{3600};
+/// Between two looks whether the store is where it was, which cost next to nothing.
+constexpr std::chrono::seconds kStoreLook{10};
+/// Then it is tried out: a disk gets room again.
 constexpr std::chrono::seconds kStoreLookInTrouble{60};
+/// Results grow old without a scan.
+constexpr std::chrono::seconds kSweep{3600};
 
 }  // namespace
 
@@ -74,7 +77,8 @@ Result<void> StationService::open(MeasureCapture measure) {
   listener.on_left = [this] { loop_->leave(); };
   station_ = std::make_unique<Station>(*loop_, settings_, std::move(measure), store_, listener);
 
-  store_timer_ = loop_->timer([this] { look_after_store(); });
+  store_timer_ = loop_->timer([this] { look_at_store(); });
+  sweep_timer_ = loop_->timer([this] { sweep_store(); });
   watchdog_timer_ = loop_->timer([this] { feed_watchdog(); });
   shutdown_timer_ = loop_->timer([this] { loop_->leave(); });
   return loop_->on_signal(SIGTERM, [this] { shut_down(); })
@@ -106,6 +110,7 @@ bool StationService::end_threads() {
 
 void StationService::prepare_store() {
   store_timer_.set(kStoreLook);
+  sweep_timer_.set(kSweep);
   const auto prepared = store_->prepare();
   if (!prepared) return station_->store_failed(prepared.error());
   if (prepared->is_shared) {
@@ -120,26 +125,25 @@ void StationService::prepare_store() {
   sweep_store();
 }
 
-void StationService::look_after_store() {
-  sweep_store();
-  try_out_store();
-  store_timer_.set(station_->store_trouble() ? kStoreLookInTrouble : kStoreLook);
-}
-
-void StationService::try_out_store() {
+void StationService::look_at_store() {
   const auto trouble = station_->store_trouble();
-  if (!trouble || is_trying_out_) return;
-  is_trying_out_ = true;
-  archive_->post([this, trouble = *trouble, store = store_, post = loop_->poster()](TaskProgress&) {
-    const auto outcome = caught("trying out the store", [&] { return store->try_out(); });
+  store_timer_.set(trouble ? kStoreLookInTrouble : kStoreLook);
+  if (trouble) sweep_store();  // it may make room
+  if (is_looking_at_store_) return;
+  is_looking_at_store_ = true;
+  archive_->post([this, trouble, store = store_, post = loop_->poster()](TaskProgress&) {
+    const auto outcome = caught("a look at the store",
+                                [&] { return trouble ? store->try_out() : store->check_root(); });
     post([this, trouble, outcome] {
-      is_trying_out_ = false;
-      station_->store_tried_out(trouble, outcome);
+      is_looking_at_store_ = false;
+      if (trouble) return station_->store_tried_out(*trouble, outcome);
+      if (!outcome) station_->store_failed(outcome.error());
     });
   });
 }
 
 void StationService::sweep_store() {
+  sweep_timer_.set(kSweep);
   sweeps_again_ = is_sweeping_;
   if (is_sweeping_) return;
   is_sweeping_ = true;
@@ -313,7 +317,8 @@ void StationService::reload() {
         "read the settings again; cameras and their calibration, the pedal's kind and place, "
         "lamps, projector, "
         "simulation, store and socket change with a restart");
-    look_after_store();
+    look_at_store();
+    sweep_store();
   }
   station_changed();
   manager_.ready(status_text());
@@ -331,7 +336,7 @@ void StationService::feed_watchdog() {
   const auto limit = ServiceManager::watchdog_limit().value_or(kWatchdogTick * 4);
   station_->note_progress(progress_);
   // An ailing disk is what it tries out, and to be started again mends none.
-  progress_.note("archive", archive_->is_busy() && !is_trying_out_, archive_->progress());
+  progress_.note("archive", archive_->is_busy() && !is_looking_at_store_, archive_->progress());
   if (progress_.all_moved()) manager_.feed_watchdog();
   if (const auto hung = progress_.newly_hung(); !hung.empty()) {
     log_warning(hung + " has made no step for a while");

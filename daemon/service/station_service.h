@@ -51,10 +51,9 @@ class StationService {
   void serve(ControlServer::Client client, const Request& request);
   void begin_to_watch(ControlServer::Client client);
   void serve_from_store(ControlServer::Client client, const Request& request);
-  /// Removes old results, and if none could be stored tries whether that has passed. Every minute
-  /// then, else every hour.
-  void look_after_store();
-  void try_out_store();
+  /// Sees whether results can be stored, again and again.
+  void look_at_store();
+  /// Removes old results: every hour, when there is a new one, and when none can be stored.
   void sweep_store();
   /// In short parts, between which the archive answers those who ask.
   void sweep_part(std::size_t removed_before);
@@ -82,11 +81,12 @@ class StationService {
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
   bool store_in_trouble_ = false;  ///< as station_changed() knows
-  bool is_trying_out_ = false;
+  bool is_looking_at_store_ = false;
   bool is_sweeping_ = false;
   bool sweeps_again_ = false;  ///< asked for while it was sweeping
   ClockWatch clock_{ClockWatch::read()};
   EventLoop::Timer store_timer_;
+  EventLoop::Timer sweep_timer_;
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;
   std::shared_ptr<std::atomic<bool>> leaving_ = std::make_shared<std::atomic<bool>>(false);

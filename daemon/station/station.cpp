@@ -50,6 +50,10 @@ void Station::begin() {
 }
 
 void Station::store_failed(const Error& error) {
+  if (machine_.state() != StationState::kStoring) note_store_failure(error);
+}
+
+void Station::note_store_failure(const Error& error) {
   ++store_failures_;
   store_trouble_ = error;
   handle(StationEvent::kStoreFailed);
@@ -376,7 +380,7 @@ void Station::scan_ended(const ScanOutcome& outcome) {
     store_trouble_.reset();
     return handle(StationEvent::kStored);
   }
-  if (outcome.store_failed) return store_failed(*outcome.error);
+  if (outcome.store_failed) return note_store_failure(*outcome.error);
   handle(outcome.error->code == ErrorCode::kCancelled ? StationEvent::kScanCancelled
                                                       : StationEvent::kScanFailed);
 }

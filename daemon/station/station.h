@@ -70,7 +70,8 @@ class Station {
 
   /// Opens the devices; on_change tells how that goes.
   void begin();
-  /// Results cannot be written.
+  /// Results cannot be written, as was found beside the scans: what one meets that is being stored
+  /// it tells itself.
   void store_failed(const Error& error);
   /// Which trouble of the store lasts, for store_tried_out(); nothing if there is none.
   std::optional<std::uint64_t> store_trouble() const;
@@ -114,6 +115,7 @@ class Station {
   void remark_poses();
   std::vector<std::string> pose_warnings() const;
   void scan_ended(const ScanOutcome& outcome);
+  void note_store_failure(const Error& error);
   ScanTools tools() const;
   std::optional<Error> first_trouble() const;
   /// Why a scan cannot begin now.

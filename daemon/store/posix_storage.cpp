@@ -12,6 +12,7 @@
 
 #include "daemon/machine/folder_rights.h"
 #include "drivers/files/file_bytes.h"
+#include "drivers/files/file_identity.h"
 
 namespace instep {
 namespace {
@@ -33,6 +34,16 @@ tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::pa
 
 tl::unexpected<Error> folder_failed(const std::string& doing, const std::filesystem::path& path) {
   return tl::make_unexpected(storage_error(errno, doing, path, path));
+}
+
+/// If not, errno tells why.
+bool is_locked(const Descriptor& folder, int how) {
+  return uninterrupted([&] { return ::flock(folder.number(), how | LOCK_NB); }) == 0;
+}
+
+bool leads_to_folder(const std::filesystem::path& path) {
+  struct stat there {};
+  return ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode);
 }
 
 }  // namespace
@@ -99,9 +110,11 @@ Result<void> PosixStorage::make_folder(const std::filesystem::path& path) {
     if (::chmod(path.c_str(), kFolderMode) != 0) return failed("give rights to", path);
     return {};
   }
-  struct stat there {};
-  if (errno == EEXIST && ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) return {};
-  return failed("make", path);
+  if (errno != EEXIST) return failed("make", path);
+  if (leads_to_folder(path)) return {};
+  return fail(ErrorCode::kNotFound, Remedy::kOperator,
+              path.string() + " is there and is no folder, or a link to one that is not there",
+              "mount the disk that it leads to, or put it away");
 }
 
 Result<void> PosixStorage::rename(const std::filesystem::path& from,
@@ -133,13 +146,51 @@ Result<void> PosixStorage::check_writing(const std::filesystem::path& path) {
   return {};
 }
 
+Result<void> PosixStorage::open_hold(const std::filesystem::path& path) {
+  held_ = Descriptor();  // else what it locked itself would look like another's
+  held_ = Descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  is_shared_ = false;
+  if (!held_.is_open()) return folder_failed("open", path);
+  was_held_ = true;
+  return {};
+}
+
 Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
-  held_.reset();
-  held_.emplace(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (!held_->is_open()) return folder_failed("open", path);
-  const int locked = uninterrupted([&] { return ::flock(held_->number(), LOCK_EX | LOCK_NB); });
+  const std::lock_guard lock(mutex_);
+  if (const auto opened = open_hold(path); !opened) return tl::make_unexpected(opened.error());
   // Where the file system knows no locks, nothing tells of others.
-  return locked == 0 || errno != EWOULDBLOCK;
+  if (is_locked(held_, LOCK_EX) || errno != EWOULDBLOCK) return true;
+  is_shared_ = is_locked(held_, LOCK_SH);
+  return false;
+}
+
+void PosixStorage::share_hold() {
+  const std::lock_guard lock(mutex_);
+  if (held_.is_open()) is_shared_ = is_locked(held_, LOCK_SH);
+}
+
+Result<void> PosixStorage::keep_hold(const std::filesystem::path& path) {
+  const std::lock_guard lock(mutex_);
+  if (!was_held_) return {};
+  const Descriptor there(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (!there.is_open() && (errno == ENOENT || errno == ENOTDIR)) {
+    held_ = Descriptor();
+    return fail(ErrorCode::kNotFound, "the results' folder " + path.string() + " is gone",
+                "mount its disk again; or if it was deleted, make it anew");
+  }
+  if (!there.is_open()) return folder_failed("open", path);
+  if (!held_.is_open()) {
+    if (const auto opened = open_hold(path); !opened) return opened;
+  }
+  if (FileIdentity::of(there.number()) != FileIdentity::of(held_.number())) {
+    return fail(ErrorCode::kDeviceGone, Remedy::kOperator,
+                path.string() + " is another folder than the one the results were kept in",
+                "mount its disk again; or if they are to be kept in this one from now on, start it "
+                "again: sudo systemctl restart instepd");
+  }
+  // Who had it alone may have been about to share it.
+  if (!is_shared_) is_shared_ = is_locked(held_, LOCK_SH);
+  return {};
 }
 
 Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::path& path) {
@@ -151,11 +202,14 @@ Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::pa
     const std::string name = entry->d_name;
     if (name == "." || name == "..") continue;
     bool is_folder = entry->d_type == DT_DIR;
+    bool is_link = entry->d_type == DT_LNK;
     if (entry->d_type == DT_UNKNOWN) {
       struct stat there {};
-      is_folder = ::lstat((path / name).c_str(), &there) == 0 && S_ISDIR(there.st_mode);
+      const bool is_known = ::lstat((path / name).c_str(), &there) == 0;
+      is_folder = is_known && S_ISDIR(there.st_mode);
+      is_link = is_known && S_ISLNK(there.st_mode);
     }
-    entries.push_back({name, is_folder});
+    entries.push_back({name, is_folder, is_link && leads_to_folder(path / name)});
     errno = 0;
   }
   if (errno != 0) return folder_failed("list", path);

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <optional>
+#include <mutex>
 
 #include "daemon/store/storage.h"
 #include "drivers/files/descriptor.h"
 
 namespace instep {
 
-/// The file system of this machine. Interrupted calls are repeated. Safe from many threads, but for
-/// take_hold().
+/// The file system of this machine. Interrupted calls are repeated. Safe from many threads.
 class PosixStorage : public Storage {
  public:
   Result<File> create_file(const std::filesystem::path& path) override;
@@ -22,11 +21,18 @@ class PosixStorage : public Storage {
   Result<void> sync_folder(const std::filesystem::path& path) override;
   Result<void> check_writing(const std::filesystem::path& path) override;
   Result<bool> take_hold(const std::filesystem::path& path) override;
+  void share_hold() override;
+  Result<void> keep_hold(const std::filesystem::path& path) override;
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override;
   Result<std::string> read(const std::filesystem::path& path, std::size_t most) override;
 
  private:
-  std::optional<Descriptor> held_;
+  Result<void> open_hold(const std::filesystem::path& path);
+
+  std::mutex mutex_;  ///< of what follows
+  Descriptor held_;
+  bool was_held_ = false;   ///< once; by now the folder may be gone
+  bool is_shared_ = false;  ///< the lock that others see is there
 };
 
 /// file_error() of drivers/files/file_bytes.h, with the advice that fits the results' disk; `doing`

@@ -9,6 +9,9 @@ Result<std::vector<std::filesystem::path>> put_together(ResultStore& store,
                                                         const std::vector<NamedContent>& results,
                                                         const std::function<void()>& step) {
   std::vector<std::filesystem::path> folders;
+  std::size_t bytes = 0;
+  for (const auto& result : results) bytes += result.content.bytes();
+  store.expect(bytes);
   for (const auto& [id, content] : results) {
     step();
     auto folder = store.put(id, content);

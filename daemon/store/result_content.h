@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "core/result.h"
@@ -13,6 +14,10 @@ struct ResultContent {
   std::string cloud_ply;
   std::string sections_svg;
   std::string report_svg;
+
+  std::size_t bytes() const {
+    return result_json.size() + cloud_ply.size() + sections_svg.size() + report_svg.size();
+  }
 };
 
 /// Serialises a record. Pure; some milliseconds for a usual cloud. Fails with kInvalidInput on a

@@ -12,7 +12,9 @@ constexpr const char* kWriting = ".writing-";
 constexpr const char* kDeleting = ".deleting-";
 constexpr const char* kTrial = ".trying-out";
 /// As large as a result with its cloud, so that a disk which takes it takes the next scan too.
-constexpr std::size_t kTrialSize = 2 * 1024 * 1024;
+constexpr std::size_t kSmallestTrial = 2 * 1024 * 1024;
+/// No two scans are of one size, and their folders take room as well.
+constexpr std::size_t kMoreByShare = 8;
 constexpr std::size_t kLargestResultJson = 16 * 1024 * 1024;
 /// Results that were stored last. It takes as many deletions to make an earlier one the latest.
 constexpr std::size_t kRemembered = 100;
@@ -35,18 +37,29 @@ ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path
     : storage_(std::move(storage)), root_(std::move(root)) {}
 
 Result<Prepared> ResultStore::prepare() {
-  if (const auto made = storage_->make_folder(root_); !made) {
-    return tl::make_unexpected(made.error());
-  }
-  // Else the first result would be measured in vain.
-  if (const auto writable = storage_->check_writing(root_); !writable) {
-    return tl::make_unexpected(writable.error());
-  }
-  const auto is_ours = storage_->take_hold(root_);
+  const auto is_ours = take_root();
   if (!is_ours) return tl::make_unexpected(is_ours.error());
+  if (!*is_ours) {
+    Prepared shared;
+    shared.is_shared = true;
+    return shared;
+  }
+  auto prepared = clear_leftovers();
+  storage_->share_hold();
+  return prepared;
+}
+
+Result<bool> ResultStore::take_root() {
+  // Else the first result would be measured in vain.
+  auto is_ours = storage_->make_folder(root_)
+                     .and_then([&] { return storage_->check_writing(root_); })
+                     .and_then([&] { return storage_->take_hold(root_); });
+  has_root_ = is_ours.has_value();
+  return is_ours;
+}
+
+Result<Prepared> ResultStore::clear_leftovers() {
   Prepared prepared;
-  prepared.is_shared = !*is_ours;
-  if (prepared.is_shared) return prepared;
   const auto all_days = days();
   if (!all_days) return tl::make_unexpected(all_days.error());
   for (const auto& day : *all_days) {
@@ -67,14 +80,30 @@ Result<Prepared> ResultStore::prepare() {
   return prepared;
 }
 
+Result<void> ResultStore::check_root() {
+  return storage_->keep_hold(root_);
+}
+
 Result<void> ResultStore::try_out() {
+  if (!has_root_) {
+    const auto is_ours = take_root();
+    if (!is_ours) return tl::make_unexpected(is_ours.error());
+    storage_->share_hold();
+  }
+  if (auto there = check_root(); !there) return there;
   const auto trial = root_ / kTrial;
   // One that a sudden end has left; mostly there is none.
   (void)storage_->remove_file(trial);
-  const auto tried = storage_->make_folder(root_).and_then(
-      [&] { return write_file(trial, std::string(kTrialSize, 'x')); });
+  const std::size_t size = largest_scan_ + largest_scan_ / kMoreByShare;
+  const auto tried = write_file(trial, std::string(std::max(kSmallestTrial, size), 'x'));
   const auto gone = storage_->remove_file(trial);
   return tried ? gone : tried;
+}
+
+void ResultStore::expect(std::size_t bytes) {
+  auto largest = largest_scan_.load();
+  while (bytes > largest && !largest_scan_.compare_exchange_weak(largest, bytes)) {
+  }
 }
 
 Result<std::filesystem::path> ResultStore::put(const std::string& id,
@@ -85,7 +114,8 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
   const auto day = root_ / day_folder(id);
   const auto writing = day / (kWriting + id);
   bool is_named = false;
-  const auto stored = make_day_folder(id)
+  const auto stored = check_root()
+                          .and_then([&] { return make_day_folder(id); })
                           .and_then([&] { return storage_->make_folder(writing); })
                           .and_then([&] { return write_files(writing, content); })
                           .and_then([&] { return storage_->sync_folder(writing); })
@@ -104,7 +134,6 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
 }
 
 Result<void> ResultStore::make_day_folder(const std::string& id) {
-  if (const auto made = storage_->make_folder(root_); !made) return made;
   std::filesystem::path folder = root_;
   for (const auto& part : day_folder(id)) {
     const auto parent = folder;
@@ -164,7 +193,8 @@ Result<std::vector<std::filesystem::path>> ResultStore::days() const {
       if (!entries && folder == root_) return tl::make_unexpected(entries.error());
       if (!entries) continue;
       for (const auto& entry : *entries) {
-        if (entry.is_folder && is_number(entry.name, digits)) below.push_back(folder / entry.name);
+        const bool leads_on = entry.is_folder || entry.is_link_to_folder;
+        if (leads_on && is_number(entry.name, digits)) below.push_back(folder / entry.name);
       }
     }
     level = std::move(below);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <deque>
@@ -52,14 +53,23 @@ class ResultStore {
 
   const std::filesystem::path& root() const { return root_; }
 
-  /// Makes the root (its parent must be there), sees that it can be written in,
-  /// takes hold of it and clears what an earlier run
-  /// left half-done. Once, before anything else.
+  /// Makes the root (its parent must be there), sees that it can be written in, takes hold of it
+  /// and clears what an earlier run left half-done, unless another program works on the same
+  /// results. Once, before anything else.
   Result<Prepared> prepare();
 
-  /// Whether a result could be stored now: writes, flushes and removes a file as large as one,
-  /// which lies beside the results and is none. For one thread at a time.
+  /// Whether the root is the one that prepare() took hold of. Fails, as put() does then, where its
+  /// disk was taken away or it was deleted: nothing is put on the disk beneath in its stead. Where
+  /// it is back it is taken hold of again. Cheap.
+  Result<void> check_root();
+
+  /// Whether a result could be stored now: writes, flushes and removes a file as large as the
+  /// largest scan so far, which lies beside the results and is none. Makes up for a prepare() that
+  /// failed, but for the clearing. For one thread at a time.
   Result<void> try_out();
+
+  /// Tells how large all results of a scan are together, before they are put: for try_out().
+  void expect(std::size_t bytes);
 
   /// Stores a result and returns its folder. On failure nothing is left but, if the cleaning up
   /// fails too, a leftover that prepare() clears.
@@ -93,6 +103,9 @@ class ResultStore {
               const GoOn& go_on = always);
 
  private:
+  /// Makes the root and takes hold of it. False if another program has it.
+  Result<bool> take_root();
+  Result<Prepared> clear_leftovers();
   Result<void> make_day_folder(const std::string& id);
   Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
   Result<void> write_files(const std::filesystem::path& folder, const ResultContent& content);
@@ -113,7 +126,9 @@ class ResultStore {
 
   std::shared_ptr<Storage> storage_;
   std::filesystem::path root_;
-  mutable std::mutex mutex_;        ///< of stored_
+  std::atomic<bool> has_root_ = false;         ///< take_root() went well
+  std::atomic<std::size_t> largest_scan_ = 0;  ///< in bytes; see expect()
+  mutable std::mutex mutex_;                   ///< of stored_
   std::deque<std::string> stored_;  ///< by this, and not removed by it since: the last ones
 };
 

@@ -18,7 +18,8 @@ class Storage {
   using File = int;
   struct Entry {
     std::string name;
-    bool is_folder = false;
+    bool is_folder = false;          ///< itself
+    bool is_link_to_folder = false;  ///< such as to an archive on another disk
   };
 
   virtual ~Storage() = default;
@@ -44,9 +45,15 @@ class Storage {
   /// Fails if nothing can be made in a folder that is there.
   virtual Result<void> check_writing(const std::filesystem::path& path) = 0;
 
-  /// Keeps others from being given the same folder by this, until the Storage ends or its program
-  /// does. False if somebody else has it.
+  /// Takes hold of a folder, until the Storage ends or its program does: alone, so that nobody else
+  /// takes hold of it before share_hold(), or beside others who have it. False if there are others.
   virtual Result<bool> take_hold(const std::filesystem::path& path) = 0;
+  /// From now on others may take hold of it too.
+  virtual void share_hold() = 0;
+  /// Sees that a folder of which this took hold is there under its name, and takes hold of it again
+  /// if it is back after it was gone. Fails with kNotFound if it is gone, and with kDeviceGone if
+  /// another has taken its place. Fine where nothing was taken hold of.
+  virtual Result<void> keep_hold(const std::filesystem::path& path) = 0;
 
   /// In the order of the names.
   virtual Result<std::vector<Entry>> list(const std::filesystem::path& path) = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +19,9 @@ class SimulatedDisk : public Storage {
  public:
   SimulatedDisk() : root_(std::make_shared<Node>()) { root_->is_folder = true; }
 
+  /// For the bytes of all files together.
+  void set_room(std::size_t bytes) { room_ = bytes; }
+
   void cut_power(std::mt19937_64& random) {
     open_.clear();
     forget(*root_, random);
@@ -32,6 +36,7 @@ class SimulatedDisk : public Storage {
     return static_cast<File>(open_.size() - 1);
   }
   Result<std::size_t> write(File file, std::string_view bytes) override {
+    if (used(*root_) + bytes.size() > room_) return fail(ErrorCode::kNoSpace, "it is full", "");
     open_.at(static_cast<std::size_t>(file))->bytes += bytes;
     return bytes.size();
   }
@@ -74,11 +79,14 @@ class SimulatedDisk : public Storage {
   }
   Result<void> check_writing(const std::filesystem::path&) override { return {}; }
   Result<bool> take_hold(const std::filesystem::path&) override { return true; }
+  void share_hold() override {}
+  Result<void> keep_hold(const std::filesystem::path&) override { return {}; }
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override {
     const auto folder = find(path);
     if (!folder || !folder->is_folder) return failed();
     std::vector<Entry> entries;
-    for (const auto& [name, node] : folder->names) entries.push_back({name, node->is_folder});
+    for (const auto& [name, node] : folder->names)
+      entries.push_back({name, node->is_folder, false});
     return entries;
   }
   Result<std::string> read(const std::filesystem::path& path, std::size_t) override {
@@ -99,6 +107,12 @@ class SimulatedDisk : public Storage {
   };
 
   static tl::unexpected<Error> failed() { return fail(ErrorCode::kIo, "no such thing", ""); }
+
+  static std::size_t used(const Node& node) {
+    std::size_t bytes = node.bytes.size();
+    for (const auto& [name, child] : node.names) bytes += used(*child);
+    return bytes;
+  }
 
   static Names& change(Node& folder) {
     folder.history.push_back(folder.names);
@@ -139,6 +153,7 @@ class SimulatedDisk : public Storage {
     for (auto& [name, child] : node.names) forget(*child, random);
   }
 
+  std::size_t room_ = std::numeric_limits<std::size_t>::max();
   std::shared_ptr<Node> root_;
   std::vector<std::shared_ptr<Node>> open_;
 };
@@ -185,6 +200,10 @@ class FaultyStorage : public Storage {
   }
   Result<bool> take_hold(const std::filesystem::path& path) override {
     return pass<bool>([&] { return behind_->take_hold(path); });
+  }
+  void share_hold() override { behind_->share_hold(); }
+  Result<void> keep_hold(const std::filesystem::path& path) override {
+    return pass<void>([&] { return behind_->keep_hold(path); });
   }
   Result<std::vector<Entry>> list(const std::filesystem::path& path) override {
     return pass<std::vector<Entry>>([&] { return behind_->list(path); });
