@@ -54,9 +54,17 @@ Result<std::filesystem::path> find_settings(const SettingsPlaces& places,
 }
 
 void override_paths(Settings& settings, const Environment& environment) {
-  if (const auto root = environment("INSTEP_STORE")) settings.store.root = *root;
-  if (const auto socket = environment("INSTEP_SOCKET")) settings.control.socket = *socket;
-  if (const auto fifo = environment("INSTEP_PEDAL")) settings.pedal.fifo = *fifo;
+  const auto put_over = [&](const char* name, std::filesystem::path& path) {
+    const auto named = environment(name);
+    if (!named) return;
+    // Who asks the daemon may do so from another folder.
+    std::error_code failed;
+    path = std::filesystem::absolute(*named, failed);
+    if (failed) path = *named;
+  };
+  put_over("INSTEP_STORE", settings.store.root);
+  put_over("INSTEP_SOCKET", settings.control.socket);
+  put_over("INSTEP_PEDAL", settings.pedal.fifo);
 }
 
 std::optional<std::string> process_environment(const char* name) {

@@ -49,7 +49,8 @@ std::vector<std::filesystem::path> settings_candidates(const SettingsPlaces& pla
 Result<std::filesystem::path> find_settings(const SettingsPlaces& places,
                                             const Environment& environment);
 
-/// Puts the paths that the environment names over those of the settings.
+/// Puts the paths that the environment names over those of the settings; what does not begin at the
+/// root begins at the working folder.
 void override_paths(Settings& settings, const Environment& environment);
 
 /// getenv() as an Environment.

@@ -91,7 +91,8 @@ Result<void> SimulatedPedal::open_fifo() {
   if (fifo_descriptor_ < 0) return system_failure("cannot open the FIFO " + name, advice);
   struct stat status {};
   if (fstat(fifo_descriptor_, &status) != 0 || !S_ISFIFO(status.st_mode)) {
-    return fail(ErrorCode::kInvalidInput, name + " is there, but is no FIFO", advice);
+    return fail(ErrorCode::kInvalidInput, name + " is there, but is no FIFO",
+                "delete it, and it is made anew as one; or " + advice);
   }
   if (!made) return {};
   made_fifo_ = FileIdentity::of(fifo_descriptor_);

@@ -104,19 +104,6 @@ std::optional<DoctorCheck> check_free_space(const std::filesystem::path& root) {
                          : bad("disk", finding, "make room, or set store.keep_days");
 }
 
-DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
-  if (!status) {
-    const bool denied = status.error().code == ErrorCode::kPermissionDenied;
-    return bad(
-        "daemon", status.error().message,
-        denied ? "sudo usermod -aG instep $USER" : "sudo systemctl start instepd (or run instepd)");
-  }
-  const auto trouble = string_at(*status, "trouble");
-  if (!trouble.empty())
-    return bad("daemon", string_at(*status, "state") + ": " + trouble, "instep status");
-  return good("daemon", string_at(*status, "state") + ", answers on " + socket.string());
-}
-
 bool has_cameras(const Result<json>& status) {
   return status && status->contains("cameras") && (*status)["cameras"].is_array();
 }
@@ -188,10 +175,15 @@ void check_usb_memory(std::vector<DoctorCheck>& checks) {
   }
 }
 
-/// Opens a pedal that is a device, unless a daemon has it.
-void check_pedal(bool daemon_runs, const Settings& settings, std::vector<DoctorCheck>& checks) {
+/// Asks the daemon, who has the pedal, or opens one that is a device.
+void check_pedal(const Result<json>& status, const Settings& settings,
+                 std::vector<DoctorCheck>& checks) {
+  if (status) {
+    if (auto check = check_pedal_of(*status)) checks.push_back(std::move(*check));
+    return;
+  }
   const auto kind = settings.pedal.kind;
-  if (daemon_runs || (kind != PedalKind::kGpio && kind != PedalKind::kEvdev)) return;
+  if (kind != PedalKind::kGpio && kind != PedalKind::kEvdev) return;
   const auto pedal = open_pedal(settings);
   checks.push_back(pedal ? good("pedal", "can be opened")
                          : bad("pedal", pedal.error().message, pedal.error().advice));
@@ -255,6 +247,41 @@ Result<json> ask_status(const std::filesystem::path& socket, std::optional<uid_t
 
 }  // namespace
 
+DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
+  if (!status) {
+    const bool hangs = status.error().code == ErrorCode::kTimeout;
+    return bad("daemon", status.error().message,
+               hangs ? "sudo systemctl restart instepd" : status.error().advice);
+  }
+  const auto trouble = string_at(*status, "trouble");
+  if (!trouble.empty())
+    return bad("daemon", string_at(*status, "state") + ": " + trouble, "instep status");
+  return good("daemon", string_at(*status, "state") + ", answers on " + socket.string());
+}
+
+DoctorCheck check_store_of(const json& status, const std::filesystem::path& root,
+                           std::optional<uid_t> daemon) {
+  const json store = status.value("store", json());
+  const std::string its_root = string_at(store, "root");
+  if (!its_root.empty() && its_root != root) {
+    return bad("store",
+               "the daemon keeps results in " + its_root +
+                   " until it is started again, and the settings say " + root.string(),
+               "sudo systemctl restart instepd");
+  }
+  const std::string trouble = string_at(store, "trouble");
+  if (!trouble.empty()) return bad("store", trouble, "mend that, then: instep status");
+  return check_store(root, daemon);
+}
+
+std::optional<DoctorCheck> check_pedal_of(const json& status) {
+  const json pedal = status.value("pedal", json());
+  if (!pedal.is_object()) return std::nullopt;
+  const std::string trouble = string_at(pedal, "trouble");
+  return trouble.empty() ? good("pedal", "is there")
+                         : bad("pedal", trouble, "mend that, then: instep status");
+}
+
 DoctorCheck check_store(const std::filesystem::path& root, std::optional<uid_t> daemon) {
   std::error_code failed;
   const bool there = std::filesystem::exists(root, failed);
@@ -301,7 +328,7 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(library_versions());
   checks.push_back(check_settings(found));
   const auto store = std::filesystem::absolute(settings.store.root);
-  checks.push_back(check_store(store, daemon));
+  checks.push_back(status ? check_store_of(*status, store, daemon) : check_store(store, daemon));
   if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
   ToldSerials told;
@@ -311,7 +338,7 @@ std::vector<DoctorCheck> examine_machine() {
   auto calibration = found ? check_calibration(settings, told) : std::nullopt;
   if (calibration) checks.push_back(std::move(*calibration));
   check_usb_memory(checks);
-  check_pedal(status.has_value(), settings, checks);
+  check_pedal(status, settings, checks);
   check_outputs(status, settings, checks);
   return checks;
 }

@@ -3,12 +3,14 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "config/settings.h"
 #include "config/warnings_of_poses.h"
+#include "core/result.h"
 
 namespace instep {
 
@@ -30,6 +32,17 @@ std::optional<DoctorCheck> check_calibration(const Settings& settings, const Tol
 /// Whether the user that `daemon` runs as can keep results there; without one, by whose the folder
 /// is.
 DoctorCheck check_store(const std::filesystem::path& root, std::optional<uid_t> daemon);
+
+/// What the daemon that gave this status tells of its store, which need not be the one that the
+/// settings name by now; else as check_store() finds `root`.
+DoctorCheck check_store_of(const nlohmann::json& status, const std::filesystem::path& root,
+                           std::optional<uid_t> daemon);
+
+/// What the daemon that gave this status tells of its pedal; nothing if it tells of none.
+std::optional<DoctorCheck> check_pedal_of(const nlohmann::json& status);
+
+/// Whether a daemon answers and all is well with it.
+DoctorCheck check_daemon(const Result<nlohmann::json>& status, const std::filesystem::path& socket);
 
 /// Looks at this machine: settings, results' folder, daemon, cameras, pedal, libraries. Changes
 /// nothing. Takes up to some seconds: if no daemon runs, the cameras are opened.

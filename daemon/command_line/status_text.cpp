@@ -98,6 +98,11 @@ std::string status_text(const json& status) {
   for (const auto& camera : list_at(status, "cameras")) {
     lines += fmt::format("  camera {:<12} {}\n", string_at(camera, "id"), camera_text(camera));
   }
+  for (const auto& [part, name] : {std::pair{"store", "results"}, {"pedal", "pedal"}}) {
+    const json told = status.is_object() ? status.value(part, json()) : json();
+    const std::string trouble = string_at(told, "trouble");
+    if (!trouble.empty()) lines += fmt::format("  {:<19} {}\n", name, trouble);
+  }
   lines += outputs_text(list_at(status, "outputs"));
   return lines + fmt::format("  scans {}, ignored presses {}\n", count_at(status, "scans"),
                              count_at(status, "ignored_presses"));

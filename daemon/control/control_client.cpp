@@ -36,8 +36,7 @@ Result<void> wait_until(steady_clock::time_point deadline, int descriptor, short
         ::poll(&waiting, 1, static_cast<int>(std::clamp<std::int64_t>(left, 0, 1 << 30)));
     if (ready > 0) return {};
     if (ready == 0) {
-      return fail(ErrorCode::kTimeout, "the daemon did not answer in time",
-                  "see what it does: systemctl status instepd");
+      return fail(ErrorCode::kTimeout, "the daemon did not answer in time", kIfItHangs);
     }
     if (errno == EINTR) continue;
     return fail(ErrorCode::kIo,
@@ -65,9 +64,15 @@ Result<void> send_all(int descriptor, std::string_view text, steady_clock::time_
 Result<ControlClient> ControlClient::connect(const std::filesystem::path& socket) {
   const auto descriptor = connect_unix_socket(socket);
   if (descriptor) return ControlClient(*descriptor);
-  if (descriptor.error().code == ErrorCode::kNotFound) {
+  const bool is_not_found = descriptor.error().code == ErrorCode::kNotFound;
+  if (is_not_found && has_lost_listener(socket)) {
+    return fail(ErrorCode::kDeviceGone, Remedy::kOperator,
+                "the daemon runs, but its socket " + socket.string() + " was removed",
+                "start it again: sudo systemctl restart instepd");
+  }
+  if (is_not_found) {
     return fail(ErrorCode::kNotFound, "no daemon answers on " + socket.string(),
-                "start it with: systemctl start instepd (or run instepd)");
+                "start it with: sudo systemctl start instepd (or run instepd)");
   }
   if (descriptor.error().code == ErrorCode::kPermissionDenied) {
     return fail(ErrorCode::kPermissionDenied,

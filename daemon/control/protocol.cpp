@@ -98,31 +98,36 @@ json to_json(const Error& error) {
 }
 
 json to_json(const StationStatus& status) {
+  // Of what is well or in trouble.
+  const auto with_trouble = [](json part, const std::optional<Error>& trouble) {
+    part["ok"] = !trouble.has_value();
+    part["trouble"] = trouble ? trouble->line() : "";
+    return part;
+  };
   json cameras = json::array();
   for (const auto& camera : status.cameras) {
-    cameras.push_back({{"id", camera.id},
-                       {"model", camera.model},
-                       {"serial", camera.serial},
-                       {"ok", !camera.trouble.has_value()},
-                       {"trouble", camera.trouble ? camera.trouble->line() : ""},
-                       {"recovery", camera.health.recovery},
-                       {"link_mbps", camera.health.link_mbps},
-                       {"warning", camera.health.warning},
-                       {"frames", to_json(camera.frames)}});
+    cameras.push_back(with_trouble({{"id", camera.id},
+                                    {"model", camera.model},
+                                    {"serial", camera.serial},
+                                    {"recovery", camera.health.recovery},
+                                    {"link_mbps", camera.health.link_mbps},
+                                    {"warning", camera.health.warning},
+                                    {"frames", to_json(camera.frames)}},
+                                   camera.trouble));
   }
   json outputs = json::array();
   for (const auto& [name, on, trouble] : status.outputs) {
-    outputs.push_back({{"name", name},
-                       {"on", on},
-                       {"ok", !trouble.has_value()},
-                       {"trouble", trouble ? trouble->line() : ""}});
+    outputs.push_back(with_trouble({{"name", name}, {"on", on}}, trouble));
   }
   return {{"state", to_string(status.state)},
-          {"trouble", status.trouble},
+          {"trouble", status.trouble()},
+          {"troubles", status.troubles},
           {"warnings", status.warnings},
           {"stage", status.stage},
           {"done", json(json_number(status.done))},
           {"cameras", cameras},
+          {"pedal", status.pedal ? with_trouble(json::object(), status.pedal->trouble) : json()},
+          {"store", with_trouble({{"root", status.store.root.string()}}, status.store.trouble)},
           {"outputs", outputs},
           {"scans", status.scans},
           {"ignored_presses", status.ignored_presses},

@@ -22,7 +22,7 @@ namespace instep {
 /// |----------|------|-------------------------------------------------------------------------|
 /// | scan     |      | nothing; the scan has begun. Its end comes as an event to watchers       |
 /// | cancel   |      | nothing; the scan will end                                               |
-/// | status   |      | state, trouble, stage, done, cameras, scans, ignored_presses, ...        |
+/// | status   |      | state, trouble (the first), troubles, stage, done, cameras, pedal, ...   |
 /// | watch    |      | as status; events follow on this connection until it is closed           |
 /// | list     |      | scans: [{id}, ...], newest first                                         |
 /// | show     | id   | id, folder, result: what result.json holds                               |

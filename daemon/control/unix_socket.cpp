@@ -11,6 +11,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 namespace instep {
@@ -71,12 +73,31 @@ Result<int> connect_unix_socket(const std::filesystem::path& path,
   ::close(descriptor);
   if (reason == EAGAIN) {
     return fail(ErrorCode::kTimeout, "what listens on " + path.string() + " takes no connection",
-                "see what it does: systemctl status instepd");
+                kIfItHangs);
   }
   struct stat there {};
   if (::stat(path.c_str(), &there) == 0 && !S_ISSOCK(there.st_mode)) return no_socket(path);
   errno = reason == ECONNREFUSED ? ENOENT : reason;
   return failed("reaching", path);
+}
+
+bool has_lost_listener(const std::filesystem::path& path) {
+  if (FileIdentity::of(path)) return false;
+  // Num RefCount Protocol Flags Type St Inode Path
+  std::ifstream sockets("/proc/net/unix");
+  for (std::string line; std::getline(sockets, line);) {
+    std::istringstream fields(line);
+    std::string skipped;
+    std::string flags;
+    std::string name;
+    for (int i = 0; i < 3; ++i) fields >> skipped;
+    fields >> flags;
+    for (int i = 0; i < 3; ++i) fields >> skipped;
+    std::getline(fields >> std::ws, name);
+    constexpr const char* kListens = "00010000";
+    if (flags == kListens && name == path) return true;
+  }
+  return false;
 }
 
 Result<ListeningSocket> ListeningSocket::open(const std::filesystem::path& path) {

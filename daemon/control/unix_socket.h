@@ -18,6 +18,13 @@ namespace instep {
 Result<int> connect_unix_socket(const std::filesystem::path& path,
                                 std::chrono::microseconds limit = std::chrono::seconds(10));
 
+/// What helps against a daemon that does not answer: to start one that runs does nothing.
+inline constexpr const char* kIfItHangs =
+    "see what it does: systemctl status instepd; where it hangs: sudo systemctl restart instepd";
+
+/// Whether somebody listens on a socket that had this name and lost it: nobody can reach them.
+bool has_lost_listener(const std::filesystem::path& path);
+
 /// One that listens, non-blocking, mode 0660, and is removed at its end if it is still the one that
 /// has the name. A locked file beside it, PATH.lock, keeps two daemons that start at once from
 /// taking it from each other.

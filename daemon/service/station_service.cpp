@@ -36,6 +36,11 @@ constexpr std::chrono::seconds kStoreLookInTrouble{60};
 /// Results grow old without a scan.
 constexpr std::chrono::seconds kSweep{3600};
 
+bool is_missing(const ResultStore& store, const std::string& id) {
+  const auto found = store.find(id);
+  return !found && found.error().code == ErrorCode::kNotFound;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<StationService>> StationService::create(Settings settings,
@@ -162,7 +167,8 @@ void StationService::sweep_part(std::size_t removed_before) {
           "id says: see that the clock is right (timedatectl), and export what would be too old");
     }
   }
-  archive_->post([this, retention, removed_before, store = store_, leaving = leaving_,
+  archive_->post([this, retention, removed_before, last = station_->status().last_result,
+                  store = store_, leaving = leaving_,
                   post = loop_->poster()](TaskProgress& progress) {
     std::optional<std::chrono::nanoseconds> end;  // told once they are listed, which takes long too
     const auto go_on = [&] {
@@ -178,7 +184,9 @@ void StationService::sweep_part(std::size_t removed_before) {
     if (!outcome) swept.trouble = outcome.error();
     const bool goes_on = swept.is_interrupted && swept.removed > 0;
     swept.removed += removed_before;
-    post([this, swept, goes_on] {
+    const bool is_last_gone = !last.empty() && is_missing(*store, last);
+    post([this, swept, goes_on, last, is_last_gone] {
+      if (is_last_gone) forget_result(last);
       if (goes_on && !*leaving_) return sweep_part(swept.removed);
       tell_of(swept);
       is_sweeping_ = false;
@@ -219,7 +227,7 @@ std::string StationService::status_text() const {
   const auto now = station_->status();
   std::string text = to_string(now.state);
   if (!now.stage.empty()) text += ": " + now.stage;
-  if (!now.trouble.empty()) text += ": " + now.trouble;
+  if (!now.troubles.empty()) text += ": " + now.trouble();
   if (!settings_fault_.empty()) text += " (by the old settings: the new ones are faulty)";
   return text;
 }
@@ -229,9 +237,7 @@ void StationService::station_changed() {
   const auto now = status();
   const std::string state = to_string(now.state);
   if (said_.is_news("state", state)) log_info("station is " + state);
-  if (said_.is_news("trouble", now.trouble)) {
-    now.trouble.empty() ? log_info("all is well again") : log_warning(now.trouble);
-  }
+  tell_of_troubles(now.troubles);
   for (const auto& warning : now.warnings) {
     if (said_.is_news(warning, "said")) log_warning(warning);
   }
@@ -250,6 +256,15 @@ void StationService::station_changed() {
   if (server_ && server_->has_watchers()) {
     server_->broadcast(event_line("status", to_json(now)));
   }
+}
+
+void StationService::tell_of_troubles(const std::vector<std::string>& troubles) {
+  for (const auto& trouble : troubles) {
+    const auto told = std::find(told_troubles_.begin(), told_troubles_.end(), trouble);
+    if (told == told_troubles_.end()) log_warning(trouble);
+  }
+  if (troubles.empty() && !told_troubles_.empty()) log_info("all is well again");
+  told_troubles_ = troubles;
 }
 
 void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
@@ -287,11 +302,19 @@ void StationService::begin_to_watch(ControlServer::Client client) {
   if (recent && !last_result_event_.empty()) server_->send_event(client, last_result_event_);
 }
 
+void StationService::forget_result(const std::string& id) {
+  if (last_result_event_.find(id) != std::string::npos) last_result_event_.clear();
+  station_->forget_result(id);
+}
+
 void StationService::serve_from_store(ControlServer::Client client, const Request& request) {
   archive_->post([this, client, request, store = store_, post = loop_->poster()](TaskProgress&) {
     const auto answer = caught(
         "the answer", [&]() -> Result<std::string> { return answer_from_store(*store, request); });
-    post([this, client, line = answer ? *answer : error_answer(answer.error())] {
+    const bool is_gone = request.verb == "delete" && is_missing(*store, request.id);
+    post([this, client, id = request.id, is_gone,
+          line = answer ? *answer : error_answer(answer.error())] {
+      if (is_gone) forget_result(id);
       if (server_) server_->answer(client, line);
     });
   });

@@ -58,6 +58,8 @@ class StationService {
   /// In short parts, between which the archive answers those who ask.
   void sweep_part(std::size_t removed_before);
   void tell_of(const Swept& swept);
+  void tell_of_troubles(const std::vector<std::string>& troubles);
+  void forget_result(const std::string& id);
   void reload();
   void shut_down();
   void feed_watchdog();
@@ -77,6 +79,7 @@ class StationService {
   std::unique_ptr<TaskThread> archive_;
   std::unique_ptr<ControlServer> server_;
   std::unique_ptr<Station> station_;
+  std::vector<std::string> told_troubles_;
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;

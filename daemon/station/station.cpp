@@ -4,7 +4,8 @@
 #include <utility>
 
 #include "config/warnings_of_poses.h"
-#include "daemon/loop/caught.h"
+#include "daemon/station/pipeline_settings.h"
+#include "daemon/station/truth_of_simulation.h"
 
 namespace instep {
 namespace {
@@ -122,7 +123,7 @@ std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point d
 StationStatus Station::status() const {
   StationStatus status;
   status.state = machine_.state();
-  if (const auto trouble = first_trouble()) status.trouble = trouble->line();
+  for (const auto& trouble : troubles()) status.troubles.push_back(trouble.line());
   status.warnings = pose_warnings();
   status.stage = stage_;
   status.done = done_;
@@ -131,11 +132,19 @@ StationStatus Station::status() const {
     status.cameras[i].health = care_->health(i);
     status.cameras[i].frames = cameras_->frame_counts(i);
   }
+  if (settings_.pedal.kind != PedalKind::kNone) status.pedal = {pedal_trouble_};
+  status.store = {store_->root(), store_trouble_};
   if (signals_) status.outputs = signals_->status();
   status.scans = scans_;
   status.ignored_presses = machine_.ignored_presses();
   status.last_result = last_result_;
   return status;
+}
+
+void Station::forget_result(const std::string& id) {
+  if (last_result_ != id) return;
+  last_result_.clear();
+  listener_.on_change();
 }
 
 void Station::note_progress(ProgressWatch& watch) const {
@@ -199,20 +208,8 @@ void Station::take_devices(Result<Devices> devices) {
     camera_status_.push_back({camera.geometry.id, camera.model, camera.serial});
   }
   begin_care();
-  work_out_truth();
+  truth_ = truth_of_simulation(truth_thread_, devices_.work_out_truth);
   check_cameras();
-}
-
-/// On a thread of its own: it takes seconds, and the station is ready without it.
-void Station::work_out_truth() {
-  truth_ = {};
-  if (!devices_.work_out_truth) return;
-  const auto promise = std::make_shared<std::promise<std::map<std::string, double>>>();
-  truth_ = promise->get_future().share();
-  truth_thread_.post([promise, work = devices_.work_out_truth](TaskProgress&) {
-    // A subject whose truth cannot be told is measured all the same.
-    promise->set_value(caught("the truth", work).value_or(std::map<std::string, double>()));
-  });
 }
 
 void Station::check_cameras() {
@@ -305,12 +302,7 @@ ScanTools Station::tools() const {
   ScanTools tools;
   tools.cameras = cameras_;
   tools.capture = settings_.capture;
-  tools.pipeline.station = settings_.station.name;
-  tools.pipeline.point_spacing_mm = settings_.station.point_spacing_mm;
-  tools.pipeline.refine_views = settings_.station.refine_views;
-  tools.pipeline.side = settings_.station.side;
-  tools.pipeline.sizes = settings_.sizes;
-  tools.pipeline.measures = settings_.measures;
+  tools.pipeline = pipeline_settings(settings_);
   tools.platform_height_mm = platform_height_mm(settings_, devices_);
   tools.calibration = devices_.calibration;
   tools.simulated = devices_.simulated;
@@ -389,15 +381,20 @@ Error Station::refusal() const {
   if (machine_.is_leaving()) return stopping();
   const Error starting{ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
                        "wait a moment and scan again"};
-  return first_trouble().value_or(starting);
+  const auto all = troubles();
+  return all.empty() ? starting : all.front();
 }
 
-std::optional<Error> Station::first_trouble() const {
-  if (open_trouble_) return open_trouble_;
-  for (const auto& camera : camera_status_) {
-    if (camera.trouble) return camera.trouble;
-  }
-  return store_trouble_ ? store_trouble_ : pedal_trouble_;
+std::vector<Error> Station::troubles() const {
+  std::vector<Error> all;
+  const auto add = [&](const std::optional<Error>& trouble) {
+    if (trouble) all.push_back(*trouble);
+  };
+  add(open_trouble_);
+  for (const auto& camera : camera_status_) add(camera.trouble);
+  add(store_trouble_);
+  add(pedal_trouble_);
+  return all;
 }
 
 }  // namespace instep

@@ -24,31 +24,9 @@
 #include "daemon/station/scan_session.h"
 #include "daemon/station/station_machine.h"
 #include "daemon/station/station_signals.h"
+#include "daemon/station/station_status.h"
 
 namespace instep {
-
-struct CameraStatus {
-  std::string id;
-  std::string model;
-  std::string serial{};            ///< as the camera itself tells it; empty if it does not
-  std::optional<Error> trouble{};  ///< nothing = it answers
-  CameraHealth health{};
-  FrameCounts frames{};
-};
-
-/// All that is told of a station from outside.
-struct StationStatus {
-  StationState state = StationState::kStarting;
-  std::string trouble;  ///< what is wrong and what to do, one line; empty if nothing is
-  std::vector<std::string> warnings;  ///< what makes measures wrong and stops no scan
-  std::string stage;                  ///< of the scan that runs; empty if none does
-  double done = 0.0;                  ///< of that scan, 0 to 1
-  std::vector<CameraStatus> cameras;
-  std::vector<OutputStatus> outputs;  ///< lamps and the projector
-  std::uint64_t scans = 0;            ///< that ended with a result, since the daemon started
-  std::uint64_t ignored_presses = 0;
-  std::string last_result;  ///< id; empty if there was none since the daemon started
-};
 
 /// Told of what happens, on the loop's thread.
 struct StationListener {
@@ -92,6 +70,9 @@ class Station {
   /// destructor may follow.
   std::vector<std::string> end_by(std::chrono::steady_clock::time_point deadline);
 
+  /// That result was removed: it is not the last one any more.
+  void forget_result(const std::string& id);
+
   StationStatus status() const;
   void note_progress(ProgressWatch& watch) const;
 
@@ -100,7 +81,6 @@ class Station {
   void act(StationAction action);
   void open_devices_again();
   void take_devices(Result<Devices> devices);
-  void work_out_truth();
   void check_cameras();
   void camera_answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome);
   void end_check();
@@ -117,7 +97,7 @@ class Station {
   void scan_ended(const ScanOutcome& outcome);
   void note_store_failure(const Error& error);
   ScanTools tools() const;
-  std::optional<Error> first_trouble() const;
+  std::vector<Error> troubles() const;
   /// Why a scan cannot begin now.
   Error refusal() const;
 

@@ -41,6 +41,19 @@ bool is_locked(const Descriptor& folder, int how) {
   return uninterrupted([&] { return ::flock(folder.number(), how | LOCK_NB); }) == 0;
 }
 
+/// What it may not look into hides whether the folder is there, which may well not be.
+std::string advice_on_rights(const std::filesystem::path& folder) {
+  const std::string user = user_name(::geteuid());
+  struct stat there {};
+  if (::stat(folder.c_str(), &there) == 0) {
+    return "it runs as the user " + user + ": " + advice_to_give(folder, ::geteuid());
+  }
+  auto seen = folder;
+  while (seen.has_relative_path() && ::stat(seen.c_str(), &there) != 0) seen = seen.parent_path();
+  return "it runs as the user " + user + ", who may not look into " + seen.string() +
+         ": choose another store.root (INSTEP_STORE names another place), or let it in";
+}
+
 bool leads_to_folder(const std::filesystem::path& path) {
   struct stat there {};
   return ::stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode);
@@ -62,8 +75,7 @@ Error storage_error(int error_number, const std::string& doing, const std::files
           "make room on the disk of the results, or let store.keep_days do it; then scan again";
       break;
     case ErrorCode::kPermissionDenied:
-      error.advice = "it runs as the user " + user_name(::geteuid()) + ": " +
-                     advice_to_give(folder, ::geteuid());
+      error.advice = advice_on_rights(folder);
       break;
     case ErrorCode::kNotFound:
       error.advice =

@@ -19,6 +19,20 @@ Result<std::filesystem::path> asked_for(const std::filesystem::path& file) {
   return find_settings({file, "/none", "/none"}, nothing);
 }
 
+// The daemon's results were looked for in the folder of whoever asked.
+TEST(SettingsSearch, TakesPathsOfTheEnvironmentFromTheWorkingFolder) {
+  Settings settings;
+  const auto before = settings.control.socket;
+  override_paths(settings, [](const char* name) -> std::optional<std::string> {
+    if (std::string(name) == "INSTEP_STORE") return "scans";
+    if (std::string(name) == "INSTEP_PEDAL") return "/run/pedal";
+    return std::nullopt;
+  });
+  EXPECT_EQ(settings.store.root, std::filesystem::current_path() / "scans");
+  EXPECT_EQ(settings.pedal.fifo, "/run/pedal");
+  EXPECT_EQ(settings.control.socket, before);
+}
+
 TEST(SettingsSearch, SaysWhatIsThereInsteadOfAFile) {
   const test::TemporaryFolder folder;
   const auto folder_asked = asked_for(folder.path());

@@ -7,12 +7,14 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "daemon/control/control_client.h"
 #include "daemon/machine/folder_rights.h"
 #include "tests/support/temporary_folder.h"
 
@@ -102,6 +104,47 @@ TEST(CalibrationCheck, SaysWhenAllWereCalibrated) {
   ASSERT_TRUE(check);
   EXPECT_TRUE(check->good);
   EXPECT_THAT(check->finding, HasSubstr("2026-11-28T02:11:12Z"));
+}
+
+/// It vouched for the folder of the settings, while scans went to the old one.
+TEST(StoreCheck, LooksAtTheStoreThatTheDaemonUses) {
+  const test::TemporaryFolder folder;
+  const auto told = [](const std::filesystem::path& root, const std::string& trouble) {
+    return nlohmann::json{{"store", {{"root", root.string()}, {"trouble", trouble}}}};
+  };
+  const auto root = folder.path() / "scans";
+  EXPECT_TRUE(check_store_of(told(root, ""), root, ::geteuid()).good);
+  EXPECT_TRUE(check_store_of(nlohmann::json::object(), root, ::geteuid()).good)
+      << "a daemon of an earlier version tells nothing";
+  const auto old = check_store_of(told("/old", ""), root, ::geteuid());
+  EXPECT_FALSE(old.good);
+  EXPECT_THAT(old.finding, AllOf(HasSubstr("/old"), HasSubstr(root.string())));
+  EXPECT_EQ(old.remedy, "sudo systemctl restart instepd");
+  const auto gone = check_store_of(told(root, "it is gone"), root, ::geteuid());
+  EXPECT_FALSE(gone.good);
+  EXPECT_EQ(gone.finding, "it is gone");
+}
+
+TEST(PedalCheck, AsksTheDaemonThatHasThePedal) {
+  using nlohmann::json;
+  EXPECT_FALSE(check_pedal_of(json::object()));
+  EXPECT_FALSE(check_pedal_of({{"pedal", nullptr}})) << "there is to be none";
+  EXPECT_TRUE(check_pedal_of({{"pedal", {{"ok", true}, {"trouble", ""}}}})->good);
+  const auto stuck = check_pedal_of({{"pedal", {{"ok", false}, {"trouble", "it is stuck"}}}});
+  ASSERT_TRUE(stuck);
+  EXPECT_FALSE(stuck->good);
+  EXPECT_EQ(stuck->finding, "it is stuck");
+}
+
+// systemctl start does nothing for a unit that runs.
+TEST(DaemonCheck, RestartsADaemonThatHangsAndStartsOneThatIsNotThere) {
+  EXPECT_THAT(check_daemon(fail(ErrorCode::kTimeout, "it did not answer", "look"), "/run/s").remedy,
+              HasSubstr("systemctl restart"));
+  const test::TemporaryFolder folder;
+  const auto none = ControlClient::connect(folder.path() / "control.sock");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(check_daemon(tl::make_unexpected(none.error()), "/run/s").remedy,
+              HasSubstr("sudo systemctl start instepd"));
 }
 
 /// As somebody finds it who owns nothing: that thread alone is another user's.

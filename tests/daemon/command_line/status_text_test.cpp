@@ -34,6 +34,21 @@ TEST(StatusText, SaysWhatRunsAndHowEachDeviceIs) {
             "  scans 3, ignored presses 1\n");
 }
 
+// A camera's hid what was wrong with the pedal.
+TEST(StatusText, NamesTheTroubleOfEachPart) {
+  const json status = {{"state", "fault"},
+                       {"trouble", "the camera left"},
+                       {"cameras", {{{"id", "back"}, {"ok", false}, {"trouble", "it left"}}}},
+                       {"store", {{"root", "/scans"}, {"ok", false}, {"trouble", "it is full"}}},
+                       {"pedal", {{"ok", false}, {"trouble", "it is stuck"}}}};
+  EXPECT_EQ(status_text(status),
+            "fault: the camera left\n"
+            "  camera back         it left\n"
+            "  results             it is full\n"
+            "  pedal               it is stuck\n"
+            "  scans 0, ignored presses 0\n");
+}
+
 TEST(StatusText, WarnsOfWhatStopsNoScan) {
   EXPECT_EQ(status_text({{"state", "ready"}, {"warnings", {"a camera was swapped", 3}}}),
             "ready\n"
@@ -73,6 +88,7 @@ TEST(StatusText, LeavesOutWhatIsOfTheWrongShape) {
   for (const char* odd :
        {"3", "[]", "{}",
         R"({"cameras": [3, {"frames": 3, "ok": "x"}], "outputs": [[], {"on": 1}]})",
+        R"({"store": 3, "pedal": [{"trouble": "x"}]})",
         R"({"done": "x", "stage": "capture", "scans": -1, "outputs": 7})"}) {
     EXPECT_NO_THROW(static_cast<void>(status_text(json::parse(odd)))) << odd;
     EXPECT_NO_THROW(static_cast<void>(live_line(json::parse(odd)))) << odd;

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "daemon/control/control_client.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -150,6 +151,20 @@ TEST_F(UnixSocket, DoesNotWaitForEverForOneThatTakesNoConnection) {
   ASSERT_FALSE(socket) << "the name of one that listens is not taken";
   EXPECT_EQ(socket.error().code, ErrorCode::kBusy);
   EXPECT_TRUE(fs::exists(path_));
+}
+
+// To start the daemon, as was advised, does nothing while it runs.
+TEST_F(UnixSocket, IsKnownToBeLostWhereItsFileWasRemoved) {
+  EXPECT_FALSE(has_lost_listener(path_));
+  const auto socket = ListeningSocket::open(path_);
+  ASSERT_TRUE(socket) << socket.error().line();
+  EXPECT_FALSE(has_lost_listener(path_));
+  fs::remove(path_);
+  EXPECT_TRUE(has_lost_listener(path_));
+  EXPECT_FALSE(has_lost_listener(path_.string() + "2"));
+  const auto client = ControlClient::connect(path_);
+  ASSERT_FALSE(client);
+  EXPECT_THAT(client.error().line(), HasSubstr("sudo systemctl restart instepd"));
 }
 
 TEST_F(UnixSocket, SaysThatWhatIsThereIsNoSocketToReach) {

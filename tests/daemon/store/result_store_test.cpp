@@ -302,6 +302,26 @@ TEST(ResultStoreOfAnotherUser, IsNotReady) {
                                                           (folder.path() / "scans").string()));
 }
 
+/// It was to be given a folder that was not there.
+TEST(ResultStoreOfAnotherUser, IsToldWhichFolderHidesThePlace) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs the right to be another user";
+  const test::TemporaryFolder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+  const auto closed = folder.path() / "closed";
+  std::filesystem::create_directory(closed);
+  std::filesystem::permissions(closed, std::filesystem::perms(0700));
+  ResultStore store(std::make_shared<PosixStorage>(), closed / "missing/scans");
+  Result<Prepared> prepared;
+  std::thread([&] {
+    constexpr int kNobody = 65534;  // that thread alone
+    ::syscall(SYS_setresuid, kNobody, kNobody, kNobody);
+    prepared = store.prepare();
+  }).join();
+  ASSERT_FALSE(prepared);
+  EXPECT_THAT(prepared.error().advice, testing::HasSubstr("may not look into " + closed.string()));
+  EXPECT_THAT(prepared.error().advice, testing::Not(testing::HasSubstr("chown")));
+}
+
 TEST(ScanIds, AreSortableByTimeAndUnlikeAnyOther) {
   using namespace std::chrono;
   const auto time = sys_days(2026y / 11 / 21) + 9h + 15min + 2s + 417ms;
