@@ -45,7 +45,7 @@ bool is_locked(const Descriptor& folder, int how) {
 std::string advice_on_rights(const std::filesystem::path& folder) {
   const std::string user = user_name(::geteuid());
   struct stat there {};
-  if (::stat(folder.c_str(), &there) == 0) {
+  if (::stat(folder.c_str(), &there) == 0 || errno != EACCES) {
     return "it runs as the user " + user + ": " + advice_to_give(folder, ::geteuid());
   }
   auto seen = folder;
