@@ -17,11 +17,15 @@ StopRequest::StopRequest() {
   action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
   sigaction(SIGINT, &action, &interrupted_before_);
   sigaction(SIGTERM, &action, &terminated_before_);
+  sigaction(SIGHUP, &action, &hung_up_before_);
+  // Who started it by nohup wants it to go on.
+  if (hung_up_before_.sa_handler == SIG_IGN) sigaction(SIGHUP, &hung_up_before_, nullptr);
 }
 
 StopRequest::~StopRequest() {
   sigaction(SIGINT, &interrupted_before_, nullptr);
   sigaction(SIGTERM, &terminated_before_, nullptr);
+  sigaction(SIGHUP, &hung_up_before_, nullptr);
 }
 
 bool StopRequest::is_made() const {

@@ -4,9 +4,10 @@
 
 namespace instep {
 
-/// While one is there, the first SIGINT (Ctrl-C) or SIGTERM ends nothing by itself: the command
-/// looks at is_made() and returns, so that its destructors leave all as it should be. The
-/// second signal ends the program as ever. One at a time in a process.
+/// While one is there, the first SIGINT (Ctrl-C), SIGTERM or SIGHUP (the terminal is gone) ends
+/// nothing by itself: the command looks at is_made() and returns, so that its destructors leave all
+/// as it should be. The second signal ends the program as ever. A SIGHUP that was ignored before
+/// stays so. One at a time in a process.
 class StopRequest {
  public:
   StopRequest();
@@ -20,6 +21,7 @@ class StopRequest {
  private:
   struct sigaction interrupted_before_ {};
   struct sigaction terminated_before_ {};
+  struct sigaction hung_up_before_ {};
 };
 
 }  // namespace instep

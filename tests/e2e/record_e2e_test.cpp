@@ -31,7 +31,7 @@ bool holds_a_frame(const fs::path& folder) {
 }
 
 TEST(Record, EndsByItselfAtASignalInOneLineAndKeepsNothing) {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const test::TemporaryFolder folder;
     const auto settings = folder.path() / "s.toml";
     std::ofstream(settings) << test::StationProcess::tiny_settings();

@@ -32,7 +32,7 @@ SimulatedStation small_station() {
 // As `instep record` does it: the signal arrives in the midst of the frames.
 TEST(CaptureRecording, EndsAtASignalWithTheLightOffAndNothingKept) {
   const auto station = small_station();
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const test::TemporaryFolder folder;
     test::ModelBoard board;
     int rounds = 0;
@@ -322,7 +322,16 @@ TEST(StopRequest, LeavesSignalsAsTheyWere) {
     }
     EXPECT_EQ(handler_of(SIGINT), SIG_DFL);
     EXPECT_EQ(handler_of(SIGTERM), SIG_DFL);
+    EXPECT_EQ(handler_of(SIGHUP), SIG_DFL);
   }
+}
+
+TEST(StopRequest, GoesOnWithoutItsTerminalWhereThatIsWanted) {
+  ::signal(SIGHUP, SIG_IGN);  // as nohup does
+  const StopRequest stop;
+  raise(SIGHUP);
+  EXPECT_FALSE(stop.is_made());
+  ::signal(SIGHUP, SIG_DFL);
 }
 
 }  // namespace
