@@ -1,5 +1,7 @@
 #include "config/settings.h"
 
+#include <algorithm>
+
 namespace instep {
 namespace {
 
@@ -26,6 +28,12 @@ const CameraPlacement* CameraSettings::placement() const {
 
 CameraPlacement* CameraSettings::placement() {
   return placement_of(*this);
+}
+
+bool Settings::has_simulated_parts() const {
+  return pedal.kind == PedalKind::kSimulated ||
+         std::any_of(cameras.begin(), cameras.end(),
+                     [](const auto& camera) { return camera.kind == CameraKind::kSimulated; });
 }
 
 }  // namespace instep

@@ -119,6 +119,9 @@ struct Settings {
   LogSettings log;
   /// Where real cameras' poses come from that are not the file's own.
   std::optional<AppliedCalibration> calibration;
+
+  /// Whether a camera or the pedal is simulated: only these have faults on command.
+  bool has_simulated_parts() const;
 };
 
 }  // namespace instep

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 
 #include "config/warnings_of_poses.h"
@@ -133,12 +132,8 @@ std::string describe_pedal(const PedalSettings& pedal) {
 
 /// Only what is simulated has faults on command.
 std::string describe_faults(const Settings& settings) {
-  const bool is_simulated =
-      settings.pedal.kind == PedalKind::kSimulated ||
-      std::any_of(settings.cameras.begin(), settings.cameras.end(),
-                  [](const auto& camera) { return camera.kind == CameraKind::kSimulated; });
   const auto& script = settings.simulation.fault_script;
-  if (!is_simulated || script.empty()) return "";
+  if (!settings.has_simulated_parts() || script.empty()) return "";
   return "faults   on command of " + script.string() + "\n";
 }
 

@@ -18,12 +18,14 @@
 #include "config/settings_description.h"
 #include "config/settings_file.h"
 #include "config/settings_search.h"
+#include "config/shared_paths.h"
 #include "daemon/build_facts.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/loop/caught.h"
 #include "daemon/scan/scan_pipeline.h"
 #include "daemon/service/log.h"
 #include "daemon/service/station_service.h"
+#include "daemon/station/devices.h"
 #include "drivers/recording/recording_reader.h"
 
 namespace instep {
@@ -68,6 +70,9 @@ std::string doubts(const Settings& settings) {
     if (!doubt.empty()) lines += "but " + doubt + "\n";
   };
   add(warning_of_short_deadline(settings));
+  add(warning_of_shared_paths(settings));
+  const auto faults = check_fault_script(settings);
+  if (!faults) add(faults.error().line());
   for (const auto& camera : settings.cameras) {
     if (camera.kind != CameraKind::kRecording) continue;
     const auto recording = read_recording(camera.path);

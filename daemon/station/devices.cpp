@@ -214,10 +214,12 @@ OpenedPedal open_gpio_pedal(const GpioPedalSettings& chosen) {
   return as_pedal(GpioPedal::open(settings));
 }
 
+Result<FaultScript> fault_script_of(const Settings& settings) {
+  return read_fault_script(settings.simulation.fault_script).and_then(parse_fault_script);
+}
+
 OpenedPedal open_simulated_pedal(const Settings& settings) {
-  const auto text = read_fault_script(settings.simulation.fault_script);
-  if (!text) return tl::make_unexpected(text.error());
-  const auto script = parse_fault_script(*text);
+  const auto script = fault_script_of(settings);
   if (!script) return tl::make_unexpected(script.error());
   return as_pedal(SimulatedPedal::open({.faults = script->pedal, .fifo = settings.pedal.fifo}));
 }
@@ -279,6 +281,11 @@ Result<Devices> open_devices(const Settings& settings) {
     return tl::make_unexpected(distinct.error());
   }
   return devices;
+}
+
+Result<void> check_fault_script(const Settings& settings) {
+  if (!settings.has_simulated_parts()) return {};
+  return fault_script_of(settings).map([](const FaultScript&) {});
 }
 
 std::optional<double> platform_height_mm(const Settings& settings, const Devices& devices) {

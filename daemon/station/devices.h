@@ -50,6 +50,9 @@ std::optional<double> platform_height_mm(const Settings& settings, const Devices
 std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
                                          const DeviceFolders& folders);
 
+/// Whether the faults on command, if something simulated is to have some, can be read.
+Result<void> check_fault_script(const Settings& settings);
+
 /// The pedal, or nullptr if the settings say that there is none.
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings);
 

@@ -263,6 +263,13 @@ TEST_F(BadInput, InstepdRunsWithNoOtherSettingsThanThoseThatAreNamed) {
   EXPECT_EQ(checked.exit_code, 0) << "it may come";
   EXPECT_NE(checked.output.find("but "), std::string::npos) << checked.output;
   EXPECT_NE(checked.output.find("none/there"), std::string::npos) << checked.output;
+  const auto simulated = file("simulated.toml",
+                              "[[camera]]\nkind = \"simulated\"\n"
+                              "[simulation]\nfault_script = \"missing.txt\"\n"
+                              "[store]\nroot = \"one\"\n[control]\nsocket = \"one\"\n");
+  const auto doubted = test::run_program("instepd", {"--check", "--config", simulated});
+  EXPECT_NE(doubted.output.find("but the fault script"), std::string::npos) << doubted.output;
+  EXPECT_NE(doubted.output.find("but store.root, control.socket are all"), std::string::npos);
   const auto nameless = test::run_program("instepd", {"--check", "--config", ""});
   EXPECT_EQ(nameless.exit_code, 2) << nameless.output;
   EXPECT_NE(nameless.errors.find("--config needs the name of a file"), std::string::npos);
