@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "config/nearest_word.h"
+#include "config/printable_text.h"
 
 namespace instep {
 namespace {
@@ -53,10 +54,7 @@ void SettingsTable::read(const std::string& key, std::string& value, std::size_t
   std::string found;
   const toml::node* node = text(key, found);
   if (node == nullptr) return;
-  const bool printable = std::none_of(found.begin(), found.end(), [](char letter) {
-    return static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f;
-  });
-  if (found.empty() || letters_in(found) > longest || !printable) {
+  if (found.empty() || letters_in(found) > longest || !is_printable(found)) {
     return fault(*node,
                  fmt::format("{} must have 1 to {} printable characters", full(key), longest));
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "daemon/report/mended_text.h"
 
@@ -9,17 +10,22 @@ namespace instep::paper {
 namespace {
 
 /// Of the letter that begins with a byte, in hundredths of the letters' size; bytes of UTF-8 that
-/// continue a letter have none. Of two bytes are umlauts and Cyrillic letters, capitals too; from
-/// U+3000 on letters are as wide as they are tall, and more.
+/// continue a letter have none. Beyond the umlauts there are letters of any script, many of them as
+/// wide as they are tall, and more.
 std::size_t hundredths(char byte) {
   constexpr std::size_t kSmall = 58;
   constexpr std::size_t kFigure = 64;
-  constexpr std::size_t kCapital = 87;
+  constexpr std::size_t kCapital = 88;
+  constexpr std::size_t kWide = 103;
   constexpr std::size_t kSquare = 116;
+  constexpr std::string_view kWideLetters = "MW@m%";
+  constexpr std::string_view kAsWideAsCapitals = "w&#+<=>^~\xC2\xC3";
   const auto code = static_cast<unsigned char>(byte);
   if ((code & 0xC0U) == 0x80U) return 0;
-  if (code >= 0xE3U) return kSquare;
-  if ((code >= 0xC3U && code < 0xE0U) || (code >= 'A' && code <= 'Z')) return kCapital;
+  if (code > 0xC3U) return kSquare;
+  if (kWideLetters.find(byte) != std::string_view::npos) return kWide;
+  const bool is_capital = code >= 'A' && code <= 'Z';
+  if (is_capital || kAsWideAsCapitals.find(byte) != std::string_view::npos) return kCapital;
   return code >= '0' && code <= '9' ? kFigure : kSmall;
 }
 

@@ -2,7 +2,18 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/printable_text.h"
+
 namespace instep {
+namespace {
+
+void replace_all(std::string& text, std::string_view what) {
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at)) {
+    text.replace(at, what.size(), "\xEF\xBF\xBD");
+  }
+}
+
+}  // namespace
 
 std::string mended_text(std::string_view text) {
   using nlohmann::json;
@@ -10,11 +21,9 @@ std::string mended_text(std::string_view text) {
   const std::string written = json(text).dump(-1, ' ', false, json::error_handler_t::replace);
   std::string mended = json::parse(written).get<std::string>();
   for (const std::string_view no_character : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
-    for (auto at = mended.find(no_character); at != std::string::npos;
-         at = mended.find(no_character, at)) {
-      mended.replace(at, no_character.size(), "\xEF\xBF\xBD");
-    }
+    replace_all(mended, no_character);
   }
+  for (const auto mark : kDirectionMarks) replace_all(mended, mark);
   return mended;
 }
 

@@ -133,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[zzzzzz]\n", "there is no setting zzzzzz: known here are"},
         Fault{"[station]\nname = \"\"", "station.name must have 1 to 64 printable characters"},
         Fault{"[station]\nname = \"a\\nb\"", "printable"},
+        Fault{"[station]\nname = \"a\\u202Eb\"", "printable"},
         Fault{"[station]\nname = \"of sixty-five letters, which are one too many for the name of "
               "one\"",
               "1 to 64 printable"},

@@ -17,6 +17,26 @@ TEST(TextWidth, IsNoLessThanThatOfAWideType) {
   EXPECT_GE(paper::text_width("ÄÖÜ", 1.0), 2.38);
 }
 
+// 64 of them in a station's name pushed the time off the page.
+TEST(TextWidth, IsNoLessForTheWidestLettersThatANameMayHave) {
+  const auto check = [](const std::string& letter, double width) {
+    std::string name;
+    for (int i = 0; i < 64; ++i) name += letter;
+    EXPECT_GE(paper::text_width(name, 1.0), 64 * width) << letter;
+  };
+  // As the font file of DejaVu Serif states them.
+  check("W", 1.028);
+  check("M", 1.024);
+  check("m", 0.948);
+  check("w", 0.856);
+  check("@", 1.0);
+  check("%", 0.95);
+  check("+", 0.838);
+  check("Ж", 1.12);
+  check("Œ", 1.14);
+  check("—", 1.0);
+}
+
 TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
   const std::string text = "no camera saw the sole; it is closed by the platform";
   const auto lines = paper::wrapped(text, 300.0, 20.0);

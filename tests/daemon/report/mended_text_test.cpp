@@ -17,6 +17,11 @@ TEST(MendedText, LeavesTextAsItIs) {
   EXPECT_EQ(mended_text(with_zero), with_zero);
 }
 
+// As the name of a station in a result of an earlier version.
+TEST(MendedText, ReplacesWhatTurnsALineAbout) {
+  EXPECT_EQ(mended_text("a\u202Eb"), std::string("a") + kInItsPlace + "b");
+}
+
 TEST(MendedText, ReplacesBytesThatAreNoUtf8) {
   EXPECT_EQ(mended_text("M\xFCller"), std::string("M") + kInItsPlace + "ller");
   EXPECT_EQ(mended_text("M\xC3"), std::string("M") + kInItsPlace);
