@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 namespace instep {
 namespace {
@@ -51,7 +52,31 @@ tl::unexpected<Error> no_socket(const std::filesystem::path& path) {
               "choose another control.socket (INSTEP_SOCKET names another place)");
 }
 
+bool listens_without_file(const std::filesystem::path& path) {
+  if (FileIdentity::of(path)) return false;
+  // Num RefCount Protocol Flags Type St Inode Path
+  std::ifstream sockets("/proc/net/unix");
+  for (std::string line; std::getline(sockets, line);) {
+    std::istringstream fields(line);
+    std::string skipped;
+    std::string flags;
+    std::string name;
+    for (int i = 0; i < 3; ++i) fields >> skipped;
+    fields >> flags;
+    for (int i = 0; i < 3; ++i) fields >> skipped;
+    std::getline(fields >> std::ws, name);
+    constexpr const char* kListens = "00010000";
+    if (flags == kListens && name == path) return true;
+  }
+  return false;
+}
+
 tl::unexpected<Error> taken(const std::filesystem::path& path) {
+  if (has_lost_listener(path)) {
+    return fail(ErrorCode::kBusy, Remedy::kOperator,
+                "another instepd runs whose socket " + path.string() + " was removed",
+                "start that one again: sudo systemctl restart instepd");
+  }
   return fail(ErrorCode::kBusy, Remedy::kOperator,
               "another instepd answers on " + path.string() + ", or is about to",
               "stop it, or give this one its own control.socket");
@@ -82,22 +107,11 @@ Result<int> connect_unix_socket(const std::filesystem::path& path,
 }
 
 bool has_lost_listener(const std::filesystem::path& path) {
-  if (FileIdentity::of(path)) return false;
-  // Num RefCount Protocol Flags Type St Inode Path
-  std::ifstream sockets("/proc/net/unix");
-  for (std::string line; std::getline(sockets, line);) {
-    std::istringstream fields(line);
-    std::string skipped;
-    std::string flags;
-    std::string name;
-    for (int i = 0; i < 3; ++i) fields >> skipped;
-    fields >> flags;
-    for (int i = 0; i < 3; ++i) fields >> skipped;
-    std::getline(fields >> std::ws, name);
-    constexpr const char* kListens = "00010000";
-    if (flags == kListens && name == path) return true;
-  }
-  return false;
+  // One that ends removes the file and closes the socket a moment later.
+  constexpr std::chrono::milliseconds kMoment{50};
+  if (!listens_without_file(path)) return false;
+  std::this_thread::sleep_for(kMoment);
+  return listens_without_file(path);
 }
 
 Result<ListeningSocket> ListeningSocket::open(const std::filesystem::path& path) {

@@ -23,6 +23,7 @@ inline constexpr const char* kIfItHangs =
     "see what it does: systemctl status instepd; where it hangs: sudo systemctl restart instepd";
 
 /// Whether somebody listens on a socket that had this name and lost it: nobody can reach them.
+/// Looks twice, 50 ms apart, where it seems so.
 bool has_lost_listener(const std::filesystem::path& path);
 
 /// One that listens, non-blocking, mode 0660, and is removed at its end if it is still the one that

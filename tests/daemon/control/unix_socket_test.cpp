@@ -165,6 +165,9 @@ TEST_F(UnixSocket, IsKnownToBeLostWhereItsFileWasRemoved) {
   const auto client = ControlClient::connect(path_);
   ASSERT_FALSE(client);
   EXPECT_THAT(client.error().line(), HasSubstr("sudo systemctl restart instepd"));
+  const auto second = ListeningSocket::open(path_);
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().line(), HasSubstr("sudo systemctl restart instepd"));
 }
 
 TEST_F(UnixSocket, SaysThatWhatIsThereIsNoSocketToReach) {
