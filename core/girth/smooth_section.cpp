@@ -27,7 +27,8 @@ constexpr double kKnotsApart = 0.06;
 constexpr double kReach = 0.03;
 constexpr double kReachInSigmas = 3.0;
 constexpr double kLean = 0.8;
-/// A denser ribbon is narrower: what noise leaves depends on their number alone.
+/// A denser ribbon is narrower: what noise leaves depends on their number alone. But over a hole
+/// skin is told by what lies to both sides of it along the body: there no ribbon is.
 constexpr double kMostPoints = 20000.0;
 /// Even skin: what it bends from knot to knot, its scatter against that of the band, and by how
 /// much (radians) it turns more between two knots than beside them. Over drawn shapes, feet and
@@ -49,9 +50,10 @@ double half_width_of(const PlaneBand& band) {
   return std::min(kHalfWidth, reach * kMostPoints / static_cast<double>(band.points.size()));
 }
 
-std::vector<RibbonPoint> ribbon_of(SlabSource& slabs, const PlaneBand& band, const FairLine& line) {
+std::vector<RibbonPoint> ribbon_of(SlabSource& slabs, const PlaneBand& band, const FairLine& line,
+                                   bool is_bridged) {
   const PointCloud& cloud = slabs.cloud();
-  const double half_width = half_width_of(band);
+  const double half_width = is_bridged ? kHalfWidth : half_width_of(band);
   PlaneSlab slab = slabs.slab(half_width * band.unit_mm);
   if (band.copies_within > 0.0) {
     slab = without(near_copies(slab.places, band.copies_within * band.unit_mm), slab);
@@ -144,7 +146,7 @@ double u95_of(const RibbonSpline& ribbon, const std::vector<double>& ways,
 }  // namespace
 
 std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand& band,
-                                              const Contour& contour) {
+                                              const Contour& contour, bool is_bridged) {
   if (!(band.sigma > kLeastNoise)) return std::nullopt;
   const auto line = FairLine::through(contour, kFairKnotsApart);
   if (!line) return std::nullopt;
@@ -152,7 +154,7 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
       ways_along(*line, static_cast<std::size_t>(std::lround(line->length() / kKnotsApart)));
   const bool asks_line = band.points.size() >= kManyPoints;
   if (asks_line && sharpest_turn(*line, knots) > kSharpestTurn) return std::nullopt;
-  const auto points = ribbon_of(slabs, band, *line);
+  const auto points = ribbon_of(slabs, band, *line, is_bridged);
   const auto ribbon = RibbonSpline::through(points, line->length(), static_cast<int>(knots.size()));
   if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;
 

@@ -21,7 +21,8 @@ struct MeasuredSection {
 };
 
 /// The section of noisy points where the skin is even: read off one surface through all points
-/// within a fifth of the section of the plane, or the nearest 20,000, not off patches of some tens.
+/// within a fifth of the section of the plane, or the nearest 20,000 where no hole is bridged, not
+/// off patches of some tens.
 /// Noise leaves of a girth what it leaves of a mean, and only points further along the body make
 /// more of them: to first order it matters nothing how much is smoothed round the section. RMS
 /// errors are 1.2 times what white noise leaves of any local fit, and half of those of the patches
@@ -33,9 +34,9 @@ struct MeasuredSection {
 /// it), scatters more round the spline than the noise, or if there is no noise to speak of. Where
 /// the points show waves finer than the spline can follow, it says what these add.
 ///
-/// `contour` as traced in the band of these slabs; the points need no normals. O(points of the
-/// cloud).
+/// `contour` as traced in the band of these slabs; `is_bridged`: over a stretch without seen
+/// points. The points need no normals. O(points of the cloud).
 std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand& band,
-                                              const Contour& contour);
+                                              const Contour& contour, bool is_bridged);
 
 }  // namespace instep

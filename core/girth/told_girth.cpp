@@ -84,14 +84,15 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
                           doubt.stretched_u95,
                           {}};
   if (loops.size() > 1) return patches;
-  auto smooth = smooth_section(slabs, band, contour);
+  const bool is_bridged = has_notable_gap(band, evidence);
+  auto smooth = smooth_section(slabs, band, contour, is_bridged);
   if (!smooth) return patches;
   if (smooth->missed.stretched > kMuchMissed * smooth->stretched_u95) {
     patches.missed = left_missed(*smooth, patches);
     return patches;
   }
   if (contradict(*smooth, patches)) return patches;
-  if (has_notable_gap(band, evidence)) {
+  if (is_bridged) {
     smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
     smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
   }

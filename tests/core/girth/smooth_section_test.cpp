@@ -128,7 +128,7 @@ TEST(SmoothSection, IsForNoisyPoints) {
     SlabSource slabs(cloud, plane);
     const auto band = band_at(slabs);
     EXPECT_TRUE(band);
-    return smooth_section(slabs, *band, circle_in(*band));
+    return smooth_section(slabs, *band, circle_in(*band), false);
   };
   EXPECT_TRUE(section(0.3));
   EXPECT_FALSE(section(0.0));
