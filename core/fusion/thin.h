@@ -39,7 +39,8 @@ struct ThinnedCloud {
 /// separate.
 ///
 /// Sigma is what is left after averaging: within a view the independent part only, then the views
-/// by inverse variance, never less than the views disagree. Deterministic; some 1 us a point.
+/// by inverse variance; where they disagree by more than twice what their sigmas say, half of what
+/// their disagreement tells. Deterministic; some 1 us a point.
 ThinnedCloud thin(const ViewedCloud& points, std::size_t views, const ThinSettings& settings);
 
 }  // namespace instep

@@ -20,11 +20,12 @@ struct GirthOptions {
   ///
   /// girth_by_rbf() and girth_by_mesh() believe what is told, by this or by the cloud, unless the
   /// points plainly scatter more, all of them or those of a part of the section: then they raise it
-  /// to what these show, widen the interval, up to twice, and a warning says so. A third of the
-  /// true noise would make a girth millimetres too long. They do not lower it, for noise that
-  /// neighbours share does not show; too much of it at most widens the interval, but where points
-  /// are few for the body smooths away what is skin (twice the true 0.5 mm over 1,500 points of a
-  /// foot: three intervals in five hold), which a warning says from 1.2 % of the section on.
+  /// to what these show and widen the interval, up to twice; a warning says so, but of noise as
+  /// small as a scanner's rounding (3e-4 of the section's size). A third of the true noise would
+  /// make a girth millimetres too long. They do not lower it, for noise that neighbours share does
+  /// not show; too much of it at most widens the interval, but where points are few for the body
+  /// smooths away what is skin (twice the true 0.5 mm over 1,500 points of a foot: three intervals
+  /// in five hold), which a warning says from 1.2 % of the section on.
   std::optional<double> sigma_mm;
 };
 
@@ -148,7 +149,8 @@ Result<Girth> girth_by_paper(const PointCloud& cloud, const TapePlane& plane,
 /// has a longer hull, and where more than a tenth of the hull has no points, a warning says so.
 /// Refuses with kInvalidInput a plane that misses the cloud or only touches it, with
 /// kInsufficientData points that form no ring, that crowd in a part of it, or that leave more than
-/// a quarter of it open. O(n), and little memory beside the cloud.
+/// a quarter of it open. O(n), m log m of the m points near the plane, and little memory beside the
+/// cloud.
 Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 

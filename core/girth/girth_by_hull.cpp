@@ -1,11 +1,12 @@
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
+#include "core/girth/contour_index.h"
 #include "core/girth/girth.h"
 #include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
@@ -40,9 +41,7 @@ struct Neighbourhood {
 
 /// Widens the slab until it is wider than any band.
 Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane& plane) {
-  Eigen::AlignedBox3d box;
-  for (const auto& position : cloud.positions) box.extend(position);
-  const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  const double size = size_of(cloud, plane);
   for (double half_width = kThinnest * size; half_width < size; half_width *= 1.4) {
     PlaneSlab slab = slab_of(cloud, plane, half_width);
     if (slab.places.size() < kFewestBandPoints) continue;
@@ -64,15 +63,29 @@ double half_width_of_band(const Neighbourhood& about) {
   return half_width;
 }
 
-bool has_much_inside(const std::vector<Eigen::Vector2d>& hull, const PlaneSlab& band) {
-  const double deep = kDeep * perimeter(hull) / std::numbers::pi;
-  const auto inside = std::count_if(band.places.begin(), band.places.end(), [&](const auto& place) {
-    return depth_in(hull, place.template head<2>()) > deep;
-  });
-  return static_cast<double>(inside) > kManyDeep * static_cast<double>(band.places.size());
+/// With sides short enough to be looked up by: where a hull spans hollows they are long.
+ContourIndex index_of(const std::vector<Eigen::Vector2d>& hull) {
+  constexpr double kSides = 500.0;
+  const double longest = perimeter(hull) / kSides;
+  std::vector<Eigen::Vector2d> corners;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Eigen::Vector2d side = hull[(i + 1) % hull.size()] - hull[i];
+    const double pieces = std::max(1.0, std::ceil(side.norm() / longest));
+    for (double k = 0.0; k < pieces; k += 1.0) corners.emplace_back(hull[i] + k / pieces * side);
+  }
+  return ContourIndex(std::move(corners));
 }
 
-void warn(const PlaneSlab& band, double length_of_twice, double gap, Girth& girth) {
+/// Of the points that the hull was drawn round.
+bool has_many_inside(const ContourIndex& hull, const std::vector<Eigen::Vector2d>& points) {
+  const double deep = kDeep * hull.length() / std::numbers::pi;
+  const auto inside = std::count_if(points.begin(), points.end(), [&](const auto& point) {
+    return !hull.passes_within(deep, point);
+  });
+  return static_cast<double>(inside) > kManyDeep * static_cast<double>(points.size());
+}
+
+void warn(double length_of_twice, double gap, bool are_many_inside, Girth& girth) {
   girth.warnings.push_back("a hull of points knows no skin: contact is given as stretched");
   if (gap > kNotableGapOfHull * girth.stretched_mm) {
     girth.warnings.emplace_back(kHullBridgedWarning);
@@ -82,7 +95,7 @@ void warn(const PlaneSlab& band, double length_of_twice, double gap, Girth& girt
                              in_millimetres(length_of_twice - girth.stretched_mm) +
                              " longer: they are few, or the skin leans");
   }
-  if (has_much_inside(girth.contour, band)) {
+  if (are_many_inside) {
     girth.warnings.push_back(
         "points lie deep inside their hull, which bridges hollows or goes round stray points or "
         "more than one body");
@@ -112,7 +125,8 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
     points.emplace_back(band.places[i].head<2>());
     if (cloud.was_seen(band.indices[i])) seen.push_back(points.back());
   }
-  const double gap = largest_gap(girth.contour, points);
+  const ContourIndex hull = index_of(girth.contour);
+  const double gap = largest_gap(hull, points);
   if (gap > kWidestBridge * length) {
     return fail(ErrorCode::kInsufficientData,
                 "more than a quarter of the hull at the tape plane has no points",
@@ -121,8 +135,9 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
   girth.stretched_mm = girth.contact_mm = length;
   girth.points = cloud.size();
   girth.band_points = band.places.size();
-  girth.largest_gap_mm = largest_gap(girth.contour, seen);
-  warn(band, perimeter(hull_of(within(about->slab, 2.0 * half_width))), gap, girth);
+  girth.largest_gap_mm = largest_gap(hull, seen);
+  warn(perimeter(hull_of(within(about->slab, 2.0 * half_width))), gap,
+       has_many_inside(hull, points), girth);
   return girth;
 }
 

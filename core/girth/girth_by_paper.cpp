@@ -56,15 +56,9 @@ struct PartialCloud {
   double tape_about_mm = 0.0;
 };
 
-double diagonal_of(const PointCloud& cloud) {
-  Eigen::AlignedBox3d box;
-  for (const auto& position : cloud.positions) box.extend(position);
-  return box.diagonal().norm();
-}
-
 /// Widens the band until it is as many spacings wide as it has to be.
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = diagonal_of(cloud);
+  const double size = size_of(cloud, plane);
   const double thinnest = kUsualSlab * std::pow(kSlabGrowth, -kThinnerSlabs);
   for (double half_width = thinnest * size; half_width < 0.5 * size; half_width *= kSlabGrowth) {
     const PlaneSlab slab = slab_of(cloud, plane, half_width);

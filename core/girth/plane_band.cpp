@@ -51,6 +51,8 @@ constexpr std::size_t kFewestNormalPoints = 16;
 /// Noise in places, against what was told, that whoever reads the girth should know of: what shows
 /// less is measured with what it shows.
 constexpr double kNotableInPlaces = 1.5;
+/// What is told to be less is none, but has a square.
+constexpr double kLeastToldMm = 1e-9;
 /// Of what was told, from which on nobody asks how many.
 constexpr double kManyTimes = 100.0;
 /// Noise of more than this part of the spacing rounds an edge in any case: patches of the points
@@ -151,7 +153,7 @@ std::vector<double> told_sigmas(const SlabSource& slabs, const PlaneBand& band) 
   std::vector<double> told;
   for (std::size_t i = 0; i < band.sources.size(); ++i) {
     const double of_point = sigma_mm ? *sigma_mm : cloud.sigma_mm[band.sources[i]];
-    told.push_back(band.share_of(i) * of_point / band.unit_mm);
+    told.push_back(band.share_of(i) * std::max(of_point, kLeastToldMm) / band.unit_mm);
   }
   return told;
 }
@@ -317,7 +319,8 @@ double PlaneBand::sigma_of(const PointCloud& cloud, std::size_t source, double s
   if (!own_sigma) {
     return std::max(times * sigma * share / usual_share, scatter_at(scattered, place));
   }
-  const double told = (cloud.was_seen(source) ? told_scale * times : 1.0) * cloud.sigma_mm[source];
+  const double told = (cloud.was_seen(source) ? told_scale * times : 1.0) *
+                      std::max(cloud.sigma_mm[source], kLeastToldMm);
   return std::max(share * told / unit_mm, error);
 }
 

@@ -43,6 +43,10 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab);
 /// or beyond it.
 bool is_cut(const std::vector<Eigen::Vector3d>& places);
 
+/// Size of the cloud as the plane sees it, so that it turns with the two: the diagonal of its box
+/// there, 0 without points. O(n).
+double size_of(const PointCloud& cloud, const TapePlane& plane);
+
 /// Length of the shortest tape round all points at most `half_width` from the plane, by the mean of
 /// its widths (Cauchy), to a hundredth. O(n), no memory.
 double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_width);

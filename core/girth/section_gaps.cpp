@@ -25,4 +25,12 @@ double largest_gap(const std::vector<Eigen::Vector2d>& contour,
   return largest_gap_between(ways, perimeter(contour));
 }
 
+double largest_gap(const ContourIndex& contour, const std::vector<Eigen::Vector2d>& points) {
+  std::vector<double> ways;
+  ways.reserve(points.size());
+  for (const auto& point : points) ways.push_back(contour.foot_of(point).way);
+  std::sort(ways.begin(), ways.end());
+  return largest_gap_between(ways, contour.length());
+}
+
 }  // namespace instep

@@ -4,6 +4,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/girth/contour_index.h"
+
 namespace instep {
 
 /// The widest hole that a girth bridges, against the length of its section.
@@ -27,5 +29,8 @@ double largest_gap_between(const std::vector<double>& ways, double length);
 double largest_gap(const std::vector<Eigen::Vector2d>& contour,
                    const std::vector<Eigen::Vector2d>& points,
                    double reach = std::numeric_limits<double>::infinity());
+
+/// The same of all points, by an index of the contour: O(points) of points near it.
+double largest_gap(const ContourIndex& contour, const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace instep

@@ -1,9 +1,6 @@
 #include "core/girth/slab_source.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
 #include <utility>
 
 #include "core/geometry/piled_points.h"
@@ -16,46 +13,11 @@ namespace {
 constexpr double kWiderThanFirst = 6.0;
 constexpr double kWiderThanOthers = 1.2;
 
-/// From the least to the most of what a cloud measures along a direction; taken of two points at a
-/// time, which costs no more than of one.
-class Reach {
- public:
-  explicit Reach(const Eigen::Vector3d& along) : along_(along) {}
-
-  void add(const Eigen::Array2d& x, const Eigen::Array2d& y, const Eigen::Array2d& z) {
-    const Eigen::Array2d measures = along_.x() * x + along_.y() * y + along_.z() * z;
-    least_ = measures.min(least_);
-    most_ = measures.max(most_);
-  }
-  double length() const { return most_.maxCoeff() - least_.minCoeff(); }
-
- private:
-  Eigen::Vector3d along_;
-  Eigen::Array2d least_ = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array2d most_ = Eigen::Array2d::Constant(-std::numeric_limits<double>::infinity());
-};
-
 }  // namespace
 
 SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane,
                        std::optional<double> sigma_mm)
-    : cloud_(cloud), plane_(plane), sigma_mm_(sigma_mm) {
-  Reach along(plane.u());
-  Reach across(plane.v());
-  Reach above(plane.normal());
-  const std::span<const Eigen::Vector3d> points(cloud.positions);
-  for (std::size_t i = 0; i < points.size(); i += 2) {
-    const Eigen::Vector3d& one = points[i];
-    const Eigen::Vector3d& other = points[std::min(i + 1, points.size() - 1)];
-    const Eigen::Array2d x(one.x(), other.x());
-    const Eigen::Array2d y(one.y(), other.y());
-    const Eigen::Array2d z(one.z(), other.z());
-    along.add(x, y, z);
-    across.add(x, y, z);
-    above.add(x, y, z);
-  }
-  size_ = std::hypot(along.length(), across.length(), above.length());
-}
+    : cloud_(cloud), plane_(plane), sigma_mm_(sigma_mm), size_(size_of(cloud, plane)) {}
 
 PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {

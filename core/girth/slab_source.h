@@ -24,8 +24,7 @@ class SlabSource {
   const TapePlane& plane() const { return plane_; }
   std::optional<double> sigma_mm() const { return sigma_mm_; }
 
-  /// Size of the cloud as the plane sees it, so that it turns with the two: the diagonal of its box
-  /// there. Of at least one point.
+  /// size_of() the cloud.
   double size() const { return size_; }
 
   /// As slab_of() gives it, or thinned.

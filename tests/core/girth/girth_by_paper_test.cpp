@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,7 +70,8 @@ TEST(GirthByPaper, StretchesOverHollowsAndTouchesThem) {
 TEST(GirthByPaper, GivesTheSameInAnotherFrame) {
   const auto cloud = cloud_of(test::elliptic_cylinder(45, 28), 3000);
   RigidTransform moved = RigidTransform::Identity();
-  moved.translation() << 700, -80, 3000;
+  moved.rotate(Eigen::AngleAxisd(0.8, Eigen::Vector3d(2, 1, -0.5).normalized()));
+  moved.pretranslate(Eigen::Vector3d(700, -80, 3000));
   const auto here = girth_by_paper(cloud, oblique_plane());
   const auto there = girth_by_paper(transformed(moved, cloud), oblique_plane().transformed(moved));
   ASSERT_TRUE(here && there);

@@ -26,8 +26,8 @@ TEST(GirthByRbf, DoesNotDependOnWhereTheBodyStands) {
   const auto there = girth_by_rbf(transformed(moved_from_here, cloud),
                                   oblique_plane().transformed(moved_from_here));
   ASSERT_TRUE(here && there);
-  EXPECT_NEAR(there->contact_mm, here->contact_mm, 1e-3);
-  EXPECT_NEAR(there->stretched_mm, here->stretched_mm, 1e-3);
+  EXPECT_NEAR(there->contact_mm, here->contact_mm, 1e-9);
+  EXPECT_NEAR(there->stretched_mm, here->stretched_mm, 1e-9);
 }
 
 TEST(GirthByRbf, ScalesWithTheUnit) {
@@ -41,10 +41,21 @@ TEST(GirthByRbf, ScalesWithTheUnit) {
     const auto& c = plane.control_points();
     const auto other = girth_by_rbf(scaled, plane_at(scale * c[0], scale * c[1], scale * c[2]));
     ASSERT_TRUE(other) << other.error().line();
-    EXPECT_NEAR(other->contact_mm / scale, girth->contact_mm, 1e-6);
-    EXPECT_NEAR(other->stretched_mm / scale, girth->stretched_mm, 1e-6);
-    EXPECT_NEAR(other->sigma_mm / scale, girth->sigma_mm, 1e-6);
+    EXPECT_NEAR(other->contact_mm / scale, girth->contact_mm, 1e-9);
+    EXPECT_NEAR(other->stretched_mm / scale, girth->stretched_mm, 1e-9);
+    EXPECT_NEAR(other->sigma_mm / scale, girth->sigma_mm, 1e-9);
   }
+}
+
+/// So little noise that its square is none.
+TEST(GirthByRbf, DoesNotDependOnHowMuchTooLittleNoiseIsTold) {
+  const auto cloud = cylinder(3000, 0.2);
+  const auto girth = girth_by_rbf(cloud, oblique_plane(), {1e-9});
+  const auto of_none = girth_by_rbf(cloud, oblique_plane(), {1e-200});
+  ASSERT_TRUE(girth) << girth.error().line();
+  ASSERT_TRUE(of_none) << of_none.error().line();
+  EXPECT_NEAR(of_none->contact_mm, girth->contact_mm, 1e-4);
+  EXPECT_NEAR(of_none->sigma_mm, 0.2, 0.02);
 }
 
 TEST(GirthByRbf, DoesNotDependOnTheOrderOfThePoints) {
