@@ -13,6 +13,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostExtreme = 5;
+constexpr std::size_t kFurthest = 6;
+constexpr double kGapOfStray =
+    4.0;  ///< against the next ones: of one in a hundred ends without one
 constexpr double kWidestMm = 6.0;
 constexpr double kNarrowestMm = 3.0;
 /// The patch reaches so far, as a share of the skin's radius there: on a toe's tip a wider one is
@@ -25,18 +28,32 @@ constexpr double kWider = 1.25;
 constexpr double kDeepestMm = 4.0;
 constexpr std::size_t kFewestForSummit = 12;
 constexpr double kLargestCorrectionMm = 2.5;
+constexpr double kLargestOfFewMm = 6.0;
 constexpr int kRounds = 4;
 /// The start is one of the points, and after a move of half of the widest patch lies just on the
 /// rim of the narrowest: rounding must not tell whether it counts.
 constexpr double kOnRim = 1.0 + 1e-9;
 
-Vector3d median_of_furthest(const std::vector<Vector3d>& points, const Vector3d& direction) {
-  const std::size_t count = std::min(kMostExtreme, points.size());
-  std::vector<Vector3d> furthest(count);
+/// The points that reach furthest, the furthest first.
+std::vector<Vector3d> furthest_of(const std::vector<Vector3d>& points, const Vector3d& direction) {
+  std::vector<Vector3d> furthest(std::min(kFurthest, points.size()));
   std::partial_sort_copy(
       points.begin(), points.end(), furthest.begin(), furthest.end(),
       [&](const Vector3d& a, const Vector3d& b) { return direction.dot(a) > direction.dot(b); });
-  return furthest[count / 2];
+  return furthest;
+}
+
+/// How far a round end reaches of which few points are known: they are spread evenly over how far
+/// they lie behind it (Archimedes), so that it is as far before the first as each is before the
+/// next one on average. A first one that is far before the others is a stray.
+double reach_of_few(const std::vector<Vector3d>& furthest, const Vector3d& direction) {
+  const auto reach = [&](std::size_t i) { return direction.dot(furthest[i]); };
+  constexpr std::size_t kGaps = kFurthest - 2;
+  const auto usual_gap = [&](std::size_t first) {
+    return (reach(first) - reach(first + kGaps)) / static_cast<double>(kGaps);
+  };
+  const std::size_t first = reach(0) - reach(1) > kGapOfStray * usual_gap(1) ? 1 : 0;
+  return reach(first) + usual_gap(first);
 }
 
 SkinPatch within(const SkinPatch& patch, const Vector2d& middle, double radius) {
@@ -79,7 +96,8 @@ std::optional<Dome> dome_of(const QuadraticSkin& skin) {
 }  // namespace
 
 Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& direction) {
-  const Vector3d start = median_of_furthest(points, direction);
+  const auto furthest = furthest_of(points, direction);
+  const Vector3d start = furthest[std::min(kMostExtreme, furthest.size()) / 2];
   const Vector3d across = direction.unitOrthogonal();
   const Vector3d upright = direction.cross(across);
   SkinPatch patch;
@@ -109,7 +127,11 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
     middle += move;
     radius = std::clamp(kShareOfRadius * dome->least_radius, kNarrowestMm, kWidestMm);
   }
-  if (!reach || !(std::abs(*reach) < kLargestCorrectionMm)) return start;
+  if (!reach || !(std::abs(*reach) < kLargestCorrectionMm)) {
+    if (furthest.size() < kFurthest) return start;
+    const double further = reach_of_few(furthest, direction) - direction.dot(start);
+    return start + std::min(further, kLargestOfFewMm) * direction;
+  }
   return start + middle.x() * across + middle.y() * upright + *reach * direction;
 }
 
