@@ -16,6 +16,7 @@
 #include "core/fusion/working_view.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
+#include "core/mean.h"
 #include "core/normal_spread.h"
 #include "core/stride.h"
 
@@ -247,8 +248,7 @@ class PoseSearch {
     if (points.empty() || views_[view].errors.empty()) {
       return std::numeric_limits<double>::infinity();
     }
-    Vector3d middle = Vector3d::Zero();
-    for (const auto& point : points) middle += point / static_cast<double>(points.size());
+    const Vector3d middle = mean_of(points);
     const std::size_t stride = stride_to_at_most(kPlacedPoints, points.size());
     double known = 0.0;
     double stretched = 0.0;

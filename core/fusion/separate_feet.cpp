@@ -224,15 +224,6 @@ void split_piece(std::vector<Piece>& pieces, std::size_t at,
   pieces.push_back(std::move((*best)[1]));
 }
 
-bool inside_outline(const std::vector<Vector2d>& hull, const Vector2d& point) {
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vector2d edge = (hull[(i + 1) % hull.size()] - hull[i]).normalized();
-    const Vector2d offset = point - hull[i];
-    if (cross(edge, offset) < -kOutlineMarginMm) return false;
-  }
-  return true;
-}
-
 /// Gives the small pieces to the foot whose outline they lie in. What is left of them.
 std::vector<Piece> adopt(std::vector<Piece>& feet, std::vector<Piece> small) {
   std::vector<std::vector<Vector2d>> hulls;
@@ -241,7 +232,7 @@ std::vector<Piece> adopt(std::vector<Piece>& feet, std::vector<Piece> small) {
     const auto middle =
         mean_of(piece.cells, [](const Vector3d& cell) -> Vector2d { return cell.head<2>(); });
     for (std::size_t i = 0; i < feet.size(); ++i) {
-      if (!inside_outline(hulls[i], middle)) continue;
+      if (depth_in(hulls[i], middle) < -kOutlineMarginMm) continue;
       feet[i].points.insert(feet[i].points.end(), piece.points.begin(), piece.points.end());
       return true;
     }

@@ -1,4 +1,5 @@
 #include "core/fusion/shared_errors.h"
+#include "core/mean.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -116,8 +117,7 @@ ErrorField in_frame(const RigidTransform& target_from_source, const ErrorField& 
 std::vector<std::vector<double>> shared_errors_of(const PointCloud& cloud, const MatrixXd& shares,
                                                   const std::vector<ViewErrors>& views) {
   if (number_of_errors(views) == 0 || cloud.empty()) return {};
-  Vector3d centre = Vector3d::Zero();
-  for (const auto& point : cloud.positions) centre += point / static_cast<double>(cloud.size());
+  const Vector3d centre = mean_of(cloud.positions);
   auto own = without_common_motion(views, shares.rowwise().mean(), centre);
   const std::size_t stride = std::max<std::size_t>(1, cloud.size() / kPointsToMixBy);
   const MatrixXd mixtures = main_mixtures(moved_along_normals(cloud, shares, own, stride));

@@ -9,6 +9,7 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/contour_trace.h"
 #include "core/girth/section_gaps.h"
+#include "core/mean.h"
 
 namespace instep {
 namespace {
@@ -177,9 +178,7 @@ bool has_larger_beside(const PlaneBand& band, const std::vector<SectionLoop>& lo
   const double area = signed_area(outline);
   const double length = perimeter(outline);
   if (!(area > kLeastWide * length * length && area > signed_area(section))) return false;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto& corner : section) middle += corner / static_cast<double>(section.size());
-  outline.push_back(middle);
+  outline.push_back(mean_of(section));
   return signed_area(convex_hull(std::move(outline))) > area;
 }
 

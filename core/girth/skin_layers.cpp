@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/mean.h"
 #include "core/stride.h"
 
 namespace instep {
@@ -116,8 +117,7 @@ LayeredSectors layered_sectors(const std::vector<PlacedHeight>& heights,
 std::optional<SkinLayers> layers_in_sectors(const std::vector<PlacedHeight>& heights) {
   const std::size_t count = std::min(kMostSectors, heights.size() / kHeightsOfSector);
   if (count < 2) return std::nullopt;
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const auto& one : heights) middle += one.place / static_cast<double>(heights.size());
+  const Eigen::Vector2d middle = mean_of(heights, &PlacedHeight::place);
   const auto one = layered_sectors(heights, middle, count, 0.0);
   const auto other = layered_sectors(heights, middle, count, 0.5);
   auto [layered, furthest] = one.count >= other.count ? one : other;

@@ -36,12 +36,10 @@ Eigen::Matrix4d ClosedSplineBasis::polynomials() {
 ClosedSplineBasis::Spot ClosedSplineBasis::at(double way) const {
   const auto [knot, t] = place_of(way);
   const double rest = 1.0 - t;
-  Spot spot{terms_from(knot), {}, {}};
+  Spot spot{terms_from(knot), {}};
   spot.values << rest * rest * rest, (3.0 * t - 6.0) * t * t + 4.0,
       (3.0 * rest - 6.0) * rest * rest + 4.0, t * t * t;
   spot.values /= 6.0;
-  spot.slopes << -rest * rest, (3.0 * t - 4.0) * t, -(3.0 * rest - 4.0) * rest, t * t;
-  spot.slopes *= 0.5 / knots_apart();
   return spot;
 }
 

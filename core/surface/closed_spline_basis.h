@@ -30,7 +30,6 @@ class ClosedSplineBasis {
   struct Spot {
     std::array<Eigen::Index, 4> terms;  ///< their numbers
     Eigen::Vector4d values;
-    Eigen::Vector4d slopes;  ///< along the line
   };
   Spot at(double way) const;
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/geometry/moments.h"
+#include "core/mean.h"
 #include "core/stride.h"
 
 namespace instep {
@@ -52,9 +53,8 @@ std::optional<FittedPlane> wall_of(const Points& points, const Sides& sides, std
 /// Of heights over one plane.
 Sides sides_by_height(const Points& points, const Eigen::Vector3d& flattest) {
   std::vector<double> heights;
-  double mean = 0.0;
   for (const auto& point : points) heights.push_back(flattest.dot(point - points.front()));
-  for (const double height : heights) mean += height / static_cast<double>(heights.size());
+  const double mean = mean_of(heights);
   Sides sides;
   for (const double height : heights) sides.push_back(height > mean);
   return sides;

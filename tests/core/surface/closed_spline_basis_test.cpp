@@ -23,7 +23,6 @@ TEST(ClosedSplineBasis, SharesOutOneEverywhere) {
   for (double way = -10.0; way < 20.0; way += 0.37) {
     const auto spot = basis.at(way);
     EXPECT_NEAR(spot.values.sum(), 1.0, 1e-14);
-    EXPECT_NEAR(spot.slopes.sum(), 0.0, 1e-14);
     EXPECT_GE(spot.values.minCoeff(), 0.0);
     EXPECT_LT(*std::max_element(spot.terms.begin(), spot.terms.end()), 5);
   }
@@ -73,22 +72,6 @@ TEST(ClosedSplineBasis, HasTheSplinesOfTheRecursion) {
   for (const double part : {0.0, 0.2, 0.5, 0.9}) {
     const auto spot = basis.at(2.0 + part);
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(spot.values[i], b_spline(3, 3 - i + part), 1e-14);
-  }
-}
-
-TEST(ClosedSplineBasis, TellsItsSlope) {
-  const ClosedSplineBasis basis(3.0, 6);
-  Eigen::VectorXd terms(6);
-  terms << 0, 1, 5, 2, -3, 1;
-  for (double way = 0.05; way < 3.0; way += 0.31) {
-    const auto spot = basis.at(way);
-    double slope = 0.0;
-    for (int i = 0; i < 4; ++i) {
-      slope += spot.slopes[i] * terms[spot.terms[static_cast<std::size_t>(i)]];
-    }
-    const double h = 1e-6;
-    EXPECT_NEAR(slope, (sum_of(basis, terms, way + h) - sum_of(basis, terms, way - h)) / (2.0 * h),
-                1e-6);
   }
 }
 
