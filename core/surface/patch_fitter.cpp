@@ -10,6 +10,7 @@
 #include "core/picked.h"
 #include "core/stride.h"
 #include "core/surface/crease_rule.h"
+#include "core/surface/open_patch.h"
 #include "core/surface/point_lines.h"
 #include "core/surface/stray_free_sheet.h"
 
@@ -379,6 +380,13 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
       // Points on a line, such as one row of a scan, ask for more.
       width = kWidening * members.radius;
       if (attempt == kMostAttempts || width > PatchPoints::kWidestHole) return std::nullopt;
+      continue;
+    }
+    const double nearest = std::sqrt(here.nearest.front().squared_distance);
+    const double wider = kWidening * members.radius;
+    if (attempt < kMostAttempts && wider <= PatchPoints::kWidestHole &&
+        is_open(*patch, nearest, points_.at(patch->members))) {
+      width = wider;
       continue;
     }
     const auto& sheet = std::get<HeightPatch>(patch->field);
