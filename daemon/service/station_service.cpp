@@ -197,6 +197,8 @@ void StationService::sweep_part(std::size_t removed_before) {
 
 void StationService::tell_of(const Swept& swept) {
   if (swept.removed > 0) log_info(fmt::format("removed {} old results", swept.removed));
+  // The station tells it, and looks for its end.
+  if (swept.root_trouble && !station_->store_trouble()) station_->store_failed(*swept.root_trouble);
   const std::string trouble = swept.trouble ? swept.trouble->line() : "";
   if (said_.is_news("sweep", trouble) && swept.trouble) {
     log_warning("an old result cannot be removed: " + trouble);

@@ -158,18 +158,13 @@ Result<void> PosixStorage::check_writing(const std::filesystem::path& path) {
   return {};
 }
 
-Result<void> PosixStorage::open_hold(const std::filesystem::path& path) {
+Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
+  const std::lock_guard lock(mutex_);
   held_ = Descriptor();  // else what it locked itself would look like another's
   held_ = Descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   is_shared_ = false;
   if (!held_.is_open()) return folder_failed("open", path);
   was_held_ = true;
-  return {};
-}
-
-Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
-  const std::lock_guard lock(mutex_);
-  if (const auto opened = open_hold(path); !opened) return tl::make_unexpected(opened.error());
   // Where the file system knows no locks, nothing tells of others.
   if (is_locked(held_, LOCK_EX) || errno != EWOULDBLOCK) return true;
   is_shared_ = is_locked(held_, LOCK_SH);
@@ -185,24 +180,27 @@ Result<void> PosixStorage::keep_hold(const std::filesystem::path& path) {
   const std::lock_guard lock(mutex_);
   if (!was_held_) return {};
   const Descriptor there(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-  if (!there.is_open() && (errno == ENOENT || errno == ENOTDIR)) {
-    held_ = Descriptor();
-    return fail(ErrorCode::kNotFound, "the results' folder " + path.string() + " is gone",
-                "mount its disk again; or if it was deleted, make it anew");
+  const bool is_gone = !there.is_open() && (errno == ENOENT || errno == ENOTDIR);
+  if (!there.is_open() && !is_gone) return folder_failed("open", path);
+  if (is_gone || !held_.is_open() ||
+      FileIdentity::of(there.number()) != FileIdentity::of(held_.number())) {
+    held_ = Descriptor();  // a disk that is held cannot be let go of, nor mounted anew by some
+    const std::string advice =
+        "mount its disk again; or if results are to be kept in a new one from now on, start it "
+        "again: sudo systemctl restart instepd";
+    return is_gone
+               ? fail(ErrorCode::kNotFound, "the results' folder " + path.string() + " is gone",
+                      advice)
+               : fail(ErrorCode::kDeviceGone, Remedy::kOperator,
+                      path.string() + " is another folder than the one the results were kept in",
+                      advice);
   }
-  if (!there.is_open()) return folder_failed("open", path);
-  if (!held_.is_open()) {
-    if (const auto opened = open_hold(path); !opened) return opened;
+  if (is_shared_ || is_locked(held_, LOCK_SH) || errno != EWOULDBLOCK) {
+    is_shared_ = true;
+    return {};
   }
-  if (FileIdentity::of(there.number()) != FileIdentity::of(held_.number())) {
-    return fail(ErrorCode::kDeviceGone, Remedy::kOperator,
-                path.string() + " is another folder than the one the results were kept in",
-                "mount its disk again; or if they are to be kept in this one from now on, start it "
-                "again: sudo systemctl restart instepd");
-  }
-  // Who had it alone may have been about to share it.
-  if (!is_shared_) is_shared_ = is_locked(held_, LOCK_SH);
-  return {};
+  return fail(ErrorCode::kBusy, "another program clears the results' folder " + path.string(),
+              "wait until it has; and give each daemon its own store.root");
 }
 
 Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::path& path) {

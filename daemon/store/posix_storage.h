@@ -27,12 +27,10 @@ class PosixStorage : public Storage {
   Result<std::string> read(const std::filesystem::path& path, std::size_t most) override;
 
  private:
-  Result<void> open_hold(const std::filesystem::path& path);
-
   std::mutex mutex_;  ///< of what follows
   Descriptor held_;
   bool was_held_ = false;   ///< once; by now the folder may be gone
-  bool is_shared_ = false;  ///< the lock that others see is there
+  bool is_shared_ = false;  ///< the lock that others see is there, or none can be
 };
 
 /// file_error() of drivers/files/file_bytes.h, with the advice that fits the results' disk; `doing`

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include "daemon/scan/scan_id.h"
+#include "daemon/store/storage_steps.h"
 
 namespace instep {
 namespace {
 
 constexpr const char* kWriting = ".writing-";
 constexpr const char* kDeleting = ".deleting-";
-constexpr const char* kTrial = ".trying-out";
+constexpr const char* kTrial = ".trying-out-";
 /// As large as a result with its cloud, so that a disk which takes it takes the next scan too.
 constexpr std::size_t kSmallestTrial = 2 * 1024 * 1024;
 /// No two scans are of one size, and their folders take room as well.
@@ -34,28 +38,20 @@ bool is_number(const std::string& name, std::size_t digits) {
 }  // namespace
 
 ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root)
-    : storage_(std::move(storage)), root_(std::move(root)) {}
+    : storage_(storage), root_(std::move(storage), std::move(root)) {}
 
 Result<Prepared> ResultStore::prepare() {
-  const auto is_ours = take_root();
+  const auto is_ours = root_.take();
   if (!is_ours) return tl::make_unexpected(is_ours.error());
-  if (!*is_ours) {
-    Prepared shared;
-    shared.is_shared = true;
-    return shared;
+  Result<Prepared> prepared;
+  if (*is_ours) {
+    prepared = clear_leftovers();
+  } else {
+    prepared->is_shared = true;
   }
-  auto prepared = clear_leftovers();
-  storage_->share_hold();
+  root_.mark();
+  root_.share();
   return prepared;
-}
-
-Result<bool> ResultStore::take_root() {
-  // Else the first result would be measured in vain.
-  auto is_ours = storage_->make_folder(root_)
-                     .and_then([&] { return storage_->check_writing(root_); })
-                     .and_then([&] { return storage_->take_hold(root_); });
-  has_root_ = is_ours.has_value();
-  return is_ours;
 }
 
 Result<Prepared> ResultStore::clear_leftovers() {
@@ -70,7 +66,7 @@ Result<Prepared> ResultStore::clear_leftovers() {
     }
     for (const auto& entry : *entries) {
       if (!entry.is_folder || !is_leftover(entry.name)) continue;
-      if (const auto gone = remove_whole(day / entry.name); gone) {
+      if (const auto gone = remove_whole(*storage_, day / entry.name); gone) {
         ++prepared.cleared;
       } else {
         keep_first(gone.error(), prepared.trouble);
@@ -81,21 +77,22 @@ Result<Prepared> ResultStore::clear_leftovers() {
 }
 
 Result<void> ResultStore::check_root() {
-  return storage_->keep_hold(root_);
+  return root_.check();
 }
 
 Result<void> ResultStore::try_out() {
-  if (!has_root_) {
-    const auto is_ours = take_root();
+  if (!root_.is_taken()) {
+    const auto is_ours = root_.take();
     if (!is_ours) return tl::make_unexpected(is_ours.error());
-    storage_->share_hold();
+    root_.share();
   }
   if (auto there = check_root(); !there) return there;
-  const auto trial = root_ / kTrial;
+  root_.mark();
+  const auto trial = root() / kTrial;
   // One that a sudden end has left; mostly there is none.
   (void)storage_->remove_file(trial);
   const std::size_t size = largest_scan_ + largest_scan_ / kMoreByShare;
-  const auto tried = write_file(trial, std::string(std::max(kSmallestTrial, size), 'x'));
+  const auto tried = write_file(*storage_, trial, std::string(std::max(kSmallestTrial, size), 'x'));
   const auto gone = storage_->remove_file(trial);
   return tried ? gone : tried;
 }
@@ -111,11 +108,11 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
   if (!is_scan_id(id)) {
     return fail(ErrorCode::kInvalidInput, "\"" + id + "\" is not the id of a scan", "");
   }
-  const auto day = root_ / day_folder(id);
+  if (const auto there = check_root(); !there) return tl::make_unexpected(there.error());
+  const auto day = root() / day_folder(id);
   const auto writing = day / (kWriting + id);
   bool is_named = false;
-  const auto stored = check_root()
-                          .and_then([&] { return make_day_folder(id); })
+  const auto stored = make_day_folder(id)
                           .and_then([&] { return storage_->make_folder(writing); })
                           .and_then([&] { return write_files(writing, content); })
                           .and_then([&] { return storage_->sync_folder(writing); })
@@ -126,7 +123,7 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
                           });
   if (!stored) {
     // The failure to report is the first one, not that of clearing up after it.
-    (void)(is_named ? move_away(id) : remove_whole(writing));
+    (void)(is_named ? move_away(id) : remove_whole(*storage_, writing));
     return tl::make_unexpected(stored.error());
   }
   note_stored(id);
@@ -134,7 +131,7 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
 }
 
 Result<void> ResultStore::make_day_folder(const std::string& id) {
-  std::filesystem::path folder = root_;
+  std::filesystem::path folder = root();
   for (const auto& part : day_folder(id)) {
     const auto parent = folder;
     folder /= part;
@@ -148,49 +145,20 @@ Result<void> ResultStore::make_day_folder(const std::string& id) {
 
 Result<void> ResultStore::write_files(const std::filesystem::path& folder,
                                       const ResultContent& content) {
-  return write_file(folder / "result.json", content.result_json)
-      .and_then([&] { return write_file(folder / "cloud.ply", content.cloud_ply); })
-      .and_then([&] { return write_file(folder / "sections.svg", content.sections_svg); })
-      .and_then([&] { return write_file(folder / "report.svg", content.report_svg); });
-}
-
-Result<void> ResultStore::write_file(const std::filesystem::path& path, std::string_view bytes) {
-  const auto file = storage_->create_file(path);
-  if (!file) return tl::make_unexpected(file.error());
-  Result<void> outcome;
-  while (!bytes.empty() && outcome) {
-    const auto written = storage_->write(*file, bytes);
-    if (written && *written > 0) {
-      bytes.remove_prefix(std::min(*written, bytes.size()));
-    } else {
-      outcome = written ? fail(ErrorCode::kIo, "writing " + path.string() + " does not go on",
-                               "check the disk of the results")
-                        : tl::make_unexpected(written.error());
-    }
-  }
-  if (outcome) outcome = storage_->sync(*file);
-  storage_->close(*file);
-  return outcome;
-}
-
-Result<void> ResultStore::remove_whole(const std::filesystem::path& folder) {
-  const auto entries = storage_->list(folder);
-  if (!entries) return tl::make_unexpected(entries.error());
-  for (const auto& entry : *entries) {
-    const auto gone = entry.is_folder ? remove_whole(folder / entry.name)
-                                      : storage_->remove_file(folder / entry.name);
-    if (!gone) return gone;
-  }
-  return storage_->remove_folder(folder);
+  return write_file(*storage_, folder / "result.json", content.result_json)
+      .and_then([&] { return write_file(*storage_, folder / "cloud.ply", content.cloud_ply); })
+      .and_then(
+          [&] { return write_file(*storage_, folder / "sections.svg", content.sections_svg); })
+      .and_then([&] { return write_file(*storage_, folder / "report.svg", content.report_svg); });
 }
 
 Result<std::vector<std::filesystem::path>> ResultStore::days() const {
-  std::vector<std::filesystem::path> level = {root_};
+  std::vector<std::filesystem::path> level = {root()};
   for (const std::size_t digits : {4U, 2U, 2U}) {
     std::vector<std::filesystem::path> below;
     for (const auto& folder : level) {
       const auto entries = storage_->list(folder);
-      if (!entries && folder == root_) return tl::make_unexpected(entries.error());
+      if (!entries && folder == root()) return tl::make_unexpected(entries.error());
       if (!entries) continue;
       for (const auto& entry : *entries) {
         const bool leads_on = entry.is_folder || entry.is_link_to_folder;
@@ -220,7 +188,7 @@ std::vector<std::string> ResultStore::ids_of(const std::filesystem::path& day) c
   if (!entries) return ids;
   for (const auto& entry : *entries) {
     const bool is_result =
-        entry.is_folder && is_scan_id(entry.name) && root_ / day_folder(entry.name) == day;
+        entry.is_folder && is_scan_id(entry.name) && root() / day_folder(entry.name) == day;
     if (is_result) ids.push_back(entry.name);
   }
   return ids;
@@ -233,7 +201,7 @@ Result<std::string> ResultStore::find(const std::string& id,
     return fail(ErrorCode::kInvalidInput, "\"" + id + "\" is not the id of a scan",
                 "instep list shows them");
   }
-  const auto entries = storage_->list(root_ / day_folder(id));
+  const auto entries = storage_->list(root() / day_folder(id));
   if (!entries && entries.error().code != ErrorCode::kNotFound) {
     return tl::make_unexpected(entries.error());
   }
@@ -297,7 +265,7 @@ void ResultStore::forget_stored(const std::string& id) {
 }
 
 std::filesystem::path ResultStore::folder_of(const std::string& id) const {
-  return root_ / day_folder(id) / id;
+  return root() / day_folder(id) / id;
 }
 
 Result<std::string> ResultStore::read_result_json(const std::string& id) const {
@@ -305,29 +273,30 @@ Result<std::string> ResultStore::read_result_json(const std::string& id) const {
 }
 
 Result<void> ResultStore::remove(const std::string& id) {
-  const auto found = find(id);
-  if (!found) return tl::make_unexpected(found.error());
-  return move_away(*found);
+  return check_root().and_then([&] { return find(id); }).and_then([&](const std::string& found) {
+    return move_away(found);
+  });
 }
 
 Result<void> ResultStore::move_away(const std::string& id) {
-  const auto day = root_ / day_folder(id);
+  const auto day = root() / day_folder(id);
   const auto deleting = day / (kDeleting + id);
-  return storage_->rename(day / id, deleting)
+  return check_root()
+      .and_then([&] { return storage_->rename(day / id, deleting); })
       .and_then([&] {
         forget_stored(id);
         return storage_->sync_folder(day);
       })
-      .and_then([&] { return remove_whole(deleting); });
+      .and_then([&] { return remove_whole(*storage_, deleting); });
 }
 
 Swept ResultStore::sweep(const Retention& retention, std::chrono::system_clock::time_point now,
                          const GoOn& go_on) {
   Swept swept;
   if (retention.keep_days == 0 && retention.keep_count == 0) return swept;
-  const auto ids = list();
+  const auto ids = check_root().and_then([&] { return list(); });
   if (!ids) {
-    swept.trouble = ids.error();
+    swept.root_trouble = ids.error();
     return swept;
   }
   const auto gone = expired(*ids, retention, now, last_stored());

@@ -9,7 +9,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/go_on.h"
@@ -17,6 +16,7 @@
 #include "daemon/store/result_content.h"
 #include "daemon/store/retention.h"
 #include "daemon/store/storage.h"
+#include "daemon/store/store_root.h"
 
 namespace instep {
 
@@ -33,8 +33,9 @@ struct Swept {
   std::size_t removed = 0;
   std::size_t made_later = 0;  ///< see Expired
   std::size_t made_before_all = 0;
-  bool is_interrupted = false;   ///< by its `go_on`: more may have to go
-  std::optional<Error> trouble;  ///< the first, of a result that cannot be removed
+  bool is_interrupted = false;        ///< by its `go_on`: more may have to go
+  std::optional<Error> trouble;       ///< the first, of a result that cannot be removed
+  std::optional<Error> root_trouble;  ///< nothing was looked at
 };
 
 /// The results on disk: <root>/YYYY/MM/DD/<id>/ with result.json, cloud.ply, sections.svg and
@@ -51,16 +52,14 @@ class ResultStore {
  public:
   ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root);
 
-  const std::filesystem::path& root() const { return root_; }
+  const std::filesystem::path& root() const { return root_.path(); }
 
-  /// Makes the root (its parent must be there), sees that it can be written in, takes hold of it
-  /// and clears what an earlier run left half-done, unless another program works on the same
-  /// results. Once, before anything else.
+  /// Takes the root, see StoreRoot, and clears what an earlier run left half-done, unless another
+  /// program works on the same results. Once, before anything else.
   Result<Prepared> prepare();
 
-  /// Whether the root is the one that prepare() took hold of. Fails, as put() does then, where its
-  /// disk was taken away or it was deleted: nothing is put on the disk beneath in its stead. Where
-  /// it is back it is taken hold of again. Cheap.
+  /// Whether the root is the one that prepare() took: see StoreRoot. What puts or takes away
+  /// results fails if not, so that nothing is put on the disk beneath nor taken from a foreign one.
   Result<void> check_root();
 
   /// Whether a result could be stored now: writes, flushes and removes a file as large as the
@@ -103,13 +102,9 @@ class ResultStore {
               const GoOn& go_on = always);
 
  private:
-  /// Makes the root and takes hold of it. False if another program has it.
-  Result<bool> take_root();
   Result<Prepared> clear_leftovers();
   Result<void> make_day_folder(const std::string& id);
-  Result<void> write_file(const std::filesystem::path& path, std::string_view bytes);
   Result<void> write_files(const std::filesystem::path& folder, const ResultContent& content);
-  Result<void> remove_whole(const std::filesystem::path& folder);
   Result<void> move_away(const std::string& id);
   Result<std::string> find_latest(std::chrono::system_clock::time_point now) const;
   /// The newest by its id that is not dated later than `now`; else the newest; empty if there is
@@ -125,8 +120,7 @@ class ResultStore {
   std::vector<std::string> ids_of(const std::filesystem::path& day) const;
 
   std::shared_ptr<Storage> storage_;
-  std::filesystem::path root_;
-  std::atomic<bool> has_root_ = false;         ///< take_root() went well
+  StoreRoot root_;
   std::atomic<std::size_t> largest_scan_ = 0;  ///< in bytes; see expect()
   mutable std::mutex mutex_;                   ///< of stored_
   std::deque<std::string> stored_;  ///< by this, and not removed by it since: the last ones

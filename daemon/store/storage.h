@@ -45,14 +45,16 @@ class Storage {
   /// Fails if nothing can be made in a folder that is there.
   virtual Result<void> check_writing(const std::filesystem::path& path) = 0;
 
-  /// Takes hold of a folder, until the Storage ends or its program does: alone, so that nobody else
-  /// takes hold of it before share_hold(), or beside others who have it. False if there are others.
+  /// Takes hold of a folder, until the Storage ends or its program does, and lets go of the one it
+  /// held: alone, so that nobody else takes hold of it before share_hold(), or beside others who
+  /// have it. False if there are others.
   virtual Result<bool> take_hold(const std::filesystem::path& path) = 0;
   /// From now on others may take hold of it too.
   virtual void share_hold() = 0;
-  /// Sees that a folder of which this took hold is there under its name, and takes hold of it again
-  /// if it is back after it was gone. Fails with kNotFound if it is gone, and with kDeviceGone if
-  /// another has taken its place. Fine where nothing was taken hold of.
+  /// Sees that the folder of which this took hold is there under its name. Fails with kNotFound if
+  /// it is gone, and with kDeviceGone if another has taken its place, or it was missed before:
+  /// whether it is the same nobody can tell then, so that it is let go of until take_hold(). Fails
+  /// with kBusy while another program has it alone. Fine where nothing was taken hold of.
   virtual Result<void> keep_hold(const std::filesystem::path& path) = 0;
 
   /// In the order of the names.

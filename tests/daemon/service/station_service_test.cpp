@@ -153,7 +153,7 @@ class MeasuringService : public testing::Test {
   bool stored_anything() const {
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(folder_.path() / "scans")) {
-      if (!entry.is_directory()) return true;
+      if (entry.path().filename() == "result.json") return true;
     }
     return false;
   }
