@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "daemon/scan/scan_id.h"
@@ -14,7 +13,7 @@ namespace {
 
 constexpr const char* kWriting = ".writing-";
 constexpr const char* kDeleting = ".deleting-";
-constexpr const char* kTrial = ".trying-out-";
+constexpr const char* kTrial = ".trying-out-";  // and whose it is
 /// As large as a result with its cloud, so that a disk which takes it takes the next scan too.
 constexpr std::size_t kSmallestTrial = 2 * 1024 * 1024;
 /// No two scans are of one size, and their folders take room as well.
@@ -23,8 +22,9 @@ constexpr std::size_t kLargestResultJson = 16 * 1024 * 1024;
 /// Results that were stored last. It takes as many deletions to make an earlier one the latest.
 constexpr std::size_t kRemembered = 100;
 
-bool is_leftover(const std::string& name) {
-  return name.rfind(kWriting, 0) == 0 || name.rfind(kDeleting, 0) == 0;
+bool is_leftover(const Storage::Entry& entry) {
+  const auto is_some = [&](const char* kind) { return entry.name.rfind(kind, 0) == 0; };
+  return entry.is_folder ? is_some(kWriting) || is_some(kDeleting) : is_some(kTrial);
 }
 
 void keep_first(const Error& error, std::optional<Error>& first) {
@@ -49,6 +49,7 @@ Result<Prepared> ResultStore::prepare() {
   } else {
     prepared->is_shared = true;
   }
+  find_newest();
   root_.mark();
   root_.share();
   return prepared;
@@ -65,9 +66,12 @@ Result<Prepared> ResultStore::clear_leftovers() {
       continue;
     }
     for (const auto& entry : *entries) {
-      if (!entry.is_folder || !is_leftover(entry.name)) continue;
-      if (const auto gone = remove_whole(*storage_, day / entry.name); gone) {
-        ++prepared.cleared;
+      if (!is_leftover(entry)) continue;
+      const auto leftover = day / entry.name;
+      const auto gone =
+          entry.is_folder ? remove_whole(*storage_, leftover) : storage_->remove_file(leftover);
+      if (gone) {
+        prepared.cleared += entry.is_folder ? 1 : 0;
       } else {
         keep_first(gone.error(), prepared.trouble);
       }
@@ -80,15 +84,19 @@ Result<void> ResultStore::check_root() {
   return root_.check();
 }
 
-Result<void> ResultStore::try_out() {
+Result<void> ResultStore::try_out(std::chrono::system_clock::time_point now) {
   if (!root_.is_taken()) {
     const auto is_ours = root_.take();
     if (!is_ours) return tl::make_unexpected(is_ours.error());
+    find_newest();
     root_.share();
   }
   if (auto there = check_root(); !there) return there;
   root_.mark();
-  const auto trial = root() / kTrial;
+  // The next result goes to the folder of its day, which may be a link to another disk.
+  const auto id = new_scan_ids(now, 1).front();
+  if (auto made = make_day_folder(id); !made) return made;
+  const auto trial = root() / day_folder(id) / (kTrial + std::to_string(::getpid()));
   // One that a sudden end has left; mostly there is none.
   (void)storage_->remove_file(trial);
   const std::size_t size = largest_scan_ + largest_scan_ / kMoreByShare;
@@ -235,12 +243,24 @@ Result<std::string> ResultStore::newest(std::chrono::system_clock::time_point no
   return dated_later;
 }
 
+void ResultStore::find_newest() {
+  const auto found = newest(std::chrono::system_clock::now());
+  const std::lock_guard lock(mutex_);
+  newest_found_ = found.value_or("");
+}
+
 std::chrono::system_clock::time_point ResultStore::time_of_next(
     std::chrono::system_clock::time_point now) const {
-  const auto before = newest(now);
-  if (!before || is_made_later(*before, now)) return now;
-  const auto time = time_of_scan_id(*before);
-  return time ? std::max(now, *time + std::chrono::milliseconds(1)) : now;
+  const std::lock_guard lock(mutex_);
+  auto next = now;
+  const auto come_after = [&](const std::string& id) {
+    const auto time = time_of_scan_id(id);
+    if (time && !is_made_later(id, now))
+      next = std::max(next, *time + std::chrono::milliseconds(1));
+  };
+  come_after(newest_found_);
+  for (const auto& id : stored_) come_after(id);
+  return next;
 }
 
 std::string ResultStore::last_stored() const {

@@ -63,9 +63,10 @@ class ResultStore {
   Result<void> check_root();
 
   /// Whether a result could be stored now: writes, flushes and removes a file as large as the
-  /// largest scan so far, which lies beside the results and is none. Makes up for a prepare() that
-  /// failed, but for the clearing. For one thread at a time.
-  Result<void> try_out();
+  /// largest scan so far in the folder of today, where the next one will lie; it is none. Makes up
+  /// for a prepare() that failed, but for the clearing. For one thread at a time.
+  Result<void> try_out(
+      std::chrono::system_clock::time_point now = std::chrono::system_clock::now());
 
   /// Tells how large all results of a scan are together, before they are put: for try_out().
   void expect(std::size_t bytes);
@@ -85,8 +86,8 @@ class ResultStore {
   Result<std::string> find(const std::string& id, std::chrono::system_clock::time_point now =
                                                       std::chrono::system_clock::now()) const;
 
-  /// From when on ids sort behind all that are there: `now`, or where the clock was set back a
-  /// little, just after the newest.
+  /// From when on ids sort behind those that prepare() has found and this has stored: `now`, or
+  /// where the clock was set back a little, just after the newest. Looks at no disk.
   std::chrono::system_clock::time_point time_of_next(
       std::chrono::system_clock::time_point now) const;
 
@@ -110,6 +111,8 @@ class ResultStore {
   /// The newest by its id that is not dated later than `now`; else the newest; empty if there is
   /// none.
   Result<std::string> newest(std::chrono::system_clock::time_point now) const;
+  /// Reads the disk, for time_of_next().
+  void find_newest();
   /// Of what this has stored; empty if nothing is there any more.
   std::string last_stored() const;
   void note_stored(const std::string& id);
@@ -122,7 +125,8 @@ class ResultStore {
   std::shared_ptr<Storage> storage_;
   StoreRoot root_;
   std::atomic<std::size_t> largest_scan_ = 0;  ///< in bytes; see expect()
-  mutable std::mutex mutex_;                   ///< of stored_
+  mutable std::mutex mutex_;                   ///< of what follows
+  std::string newest_found_;  ///< by newest(), when the root was taken; empty if there was none
   std::deque<std::string> stored_;  ///< by this, and not removed by it since: the last ones
 };
 

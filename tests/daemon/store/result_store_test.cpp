@@ -168,6 +168,16 @@ TEST_F(ResultStoreOnDisk, DatesWhatComesNextJustAfterTheNewest) {
       << "what a wrong clock dated much later does not count";
 }
 
+/// A disk that stalls then would stall a scan that is yet to be measured.
+TEST_F(ResultStoreOnDisk, DatesWhatComesNextWithoutALookAtTheDisk) {
+  put("20261121T090320417Z-aaaa");
+  ResultStore after_restart(std::make_shared<PosixStorage>(), store.root());
+  ASSERT_TRUE(after_restart.prepare());
+  std::filesystem::remove_all(store.root());
+  EXPECT_EQ(after_restart.time_of_next(*time_of_scan_id("20261121T090000000Z-aaaa")),
+            *time_of_scan_id("20261121T090320418Z-aaaa"));
+}
+
 /// They were removed for their age at the next start, minutes after they were made.
 TEST_F(ResultStoreOnDisk, KeepsWhatAClockWithoutTimeDatedBeforeThisProgram) {
   for (const auto* id : {"19730501T000000000Z-aaaa", "19730501T000100000Z-aaaa",

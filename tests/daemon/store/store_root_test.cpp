@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -214,6 +215,29 @@ TEST_F(StoreRootInUse, SaysOfALinkThatItLeadsNowhere) {
   const auto stored = store.put(kNew, kContent);
   ASSERT_FALSE(stored);
   EXPECT_THAT(stored.error().line(), HasSubstr("mount the disk that it leads to"));
+}
+
+/// Each customer was measured in vain: the trial was made on the disk of the root, which was well.
+TEST_F(StoreRootInUse, IsTriedOutWhereTheNextResultWillLie) {
+  ASSERT_TRUE(store.prepare());
+  fs::create_directories(store.root() / "2026/11");
+  fs::create_directory_symlink(folder.path() / "unmounted", store.root() / "2026/11/21");
+  EXPECT_TRUE(store.try_out(*time_of_scan_id(kOld)));
+  const auto tried = store.try_out(*time_of_scan_id(kNew));
+  ASSERT_FALSE(tried);
+  EXPECT_THAT(tried.error().line(), HasSubstr("mount the disk that it leads to"));
+}
+
+/// Two daemons on one store removed each other's trial, and one of them told of a fault.
+TEST_F(StoreRootInUse, IsTriedOutBesideTheTrialOfAnother) {
+  ASSERT_TRUE(store.prepare());
+  const auto day = store.root() / day_folder(kNew);
+  fs::create_directories(day);
+  for (const auto& name : {".trying-out", ".trying-out-0"}) std::ofstream(day / name) << "x";
+  EXPECT_TRUE(store.try_out(*time_of_scan_id(kNew)));
+  EXPECT_EQ(std::distance(fs::directory_iterator(day), fs::directory_iterator()), 2);
+  ASSERT_TRUE(store.prepare());
+  EXPECT_FALSE(fs::exists(day / ".trying-out-0")) << "nobody else is there";
 }
 
 TEST_F(StoreRootInUse, LosesNothingElseThroughALinkInAResult) {
