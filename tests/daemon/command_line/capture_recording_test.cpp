@@ -328,9 +328,11 @@ TEST(StopRequest, LeavesSignalsAsTheyWere) {
 
 TEST(StopRequest, GoesOnWithoutItsTerminalWhereThatIsWanted) {
   ::signal(SIGHUP, SIG_IGN);  // as nohup does
-  const StopRequest stop;
-  raise(SIGHUP);
-  EXPECT_FALSE(stop.is_made());
+  {
+    const StopRequest stop;
+    raise(SIGHUP);
+    EXPECT_FALSE(stop.is_made());
+  }  // it leaves the signal ignored, as it was
   ::signal(SIGHUP, SIG_DFL);
 }
 
