@@ -263,11 +263,13 @@ DoctorCheck check_store_of(const json& status, const std::filesystem::path& root
                            std::optional<uid_t> daemon) {
   const json store = status.value("store", json());
   const std::string its_root = string_at(store, "root");
-  if (!its_root.empty() && its_root != root) {
+  if (!its_root.empty() &&
+      std::filesystem::path(its_root).lexically_normal() != root.lexically_normal()) {
     return bad("store",
                "the daemon keeps results in " + its_root +
-                   " until it is started again, and the settings say " + root.string(),
-               "sudo systemctl restart instepd");
+                   ", and the settings that the doctor sees say " + root.string(),
+               "if the settings were changed since it began: sudo systemctl restart instepd; else "
+               "give INSTEP_STORE and INSTEP_CONFIG to both alike, or to neither");
   }
   const std::string trouble = string_at(store, "trouble");
   if (!trouble.empty()) return bad("store", trouble, "mend that, then: instep status");

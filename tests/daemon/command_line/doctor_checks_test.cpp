@@ -119,7 +119,10 @@ TEST(StoreCheck, LooksAtTheStoreThatTheDaemonUses) {
   const auto old = check_store_of(told("/old", ""), root, ::geteuid());
   EXPECT_FALSE(old.good);
   EXPECT_THAT(old.finding, AllOf(HasSubstr("/old"), HasSubstr(root.string())));
-  EXPECT_EQ(old.remedy, "sudo systemctl restart instepd");
+  EXPECT_THAT(old.remedy,
+              AllOf(HasSubstr("sudo systemctl restart instepd"), HasSubstr("INSTEP_STORE")));
+  const auto roundabout = folder.path() / "." / "scans";
+  EXPECT_TRUE(check_store_of(told(roundabout, ""), root, ::geteuid()).good);
   const auto gone = check_store_of(told(root, "it is gone"), root, ::geteuid());
   EXPECT_FALSE(gone.good);
   EXPECT_EQ(gone.finding, "it is gone");

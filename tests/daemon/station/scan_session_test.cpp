@@ -46,10 +46,11 @@ ScanOutcome scan_with(const ScanTools& tools) {
   return run_scan(tools, cancelled, progress, listener);
 }
 
+/// But for the store's mark, which is of no scan.
 std::size_t files_in(const std::filesystem::path& folder) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (!entry.is_directory()) ++count;
+    if (!entry.is_directory() && entry.path().filename() != "store-id") ++count;
   }
   return count;
 }
