@@ -36,7 +36,9 @@ constexpr std::chrono::seconds kStoreLookInTrouble{60};
 /// Results grow old without a scan.
 constexpr std::chrono::seconds kSweep{3600};
 
-bool is_missing(const ResultStore& store, const std::string& id) {
+/// Of a store whose disk was taken away nobody can tell.
+bool is_missing(ResultStore& store, const std::string& id) {
+  if (!store.check_root()) return false;
   const auto found = store.find(id);
   return !found && found.error().code == ErrorCode::kNotFound;
 }
@@ -69,7 +71,11 @@ Result<void> StationService::open(MeasureCapture measure) {
   if (!server) return tl::make_unexpected(server.error());
   server_ = std::move(*server);
 
-  store_ = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), settings_.store.root);
+  // Who asks where results are may do so from another folder.
+  std::error_code failed;
+  const auto root = std::filesystem::absolute(settings_.store.root, failed);
+  store_ = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(),
+                                         failed ? settings_.store.root : root);
   archive_ = std::make_unique<TaskThread>("archive");
   StationListener listener;
   listener.on_change = [this] { station_changed(); };
@@ -136,9 +142,12 @@ void StationService::look_at_store() {
   if (trouble) sweep_store();  // it may make room
   if (is_looking_at_store_) return;
   is_looking_at_store_ = true;
-  archive_->post([this, trouble, store = store_, post = loop_->poster()](TaskProgress&) {
+  archive_->post([this, trouble, store = store_, looks = archive_looks_,
+                  post = loop_->poster()](TaskProgress&) {
+    *looks = true;
     const auto outcome = caught("a look at the store",
                                 [&] { return trouble ? store->try_out() : store->check_root(); });
+    *looks = false;
     post([this, trouble, outcome] {
       is_looking_at_store_ = false;
       if (trouble) return station_->store_tried_out(*trouble, outcome);
@@ -361,7 +370,7 @@ void StationService::feed_watchdog() {
   const auto limit = ServiceManager::watchdog_limit().value_or(kWatchdogTick * 4);
   station_->note_progress(progress_);
   // An ailing disk is what it tries out, and to be started again mends none.
-  progress_.note("archive", archive_->is_busy() && !is_looking_at_store_, archive_->progress());
+  progress_.note("archive", archive_->is_busy() && !*archive_looks_, archive_->progress());
   if (progress_.all_moved()) manager_.feed_watchdog();
   if (const auto hung = progress_.newly_hung(); !hung.empty()) {
     log_warning(hung + " has made no step for a while");

@@ -83,8 +83,8 @@ class StationService {
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
-  bool store_in_trouble_ = false;  ///< as station_changed() knows
-  bool is_looking_at_store_ = false;
+  bool store_in_trouble_ = false;     ///< as station_changed() knows
+  bool is_looking_at_store_ = false;  ///< or is going to: one look at a time
   bool is_sweeping_ = false;
   bool sweeps_again_ = false;  ///< asked for while it was sweeping
   ClockWatch clock_{ClockWatch::read()};
@@ -92,6 +92,8 @@ class StationService {
   EventLoop::Timer sweep_timer_;
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;
+  /// The archive's thread is in the middle of a look.
+  std::shared_ptr<std::atomic<bool>> archive_looks_ = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<std::atomic<bool>> leaving_ = std::make_shared<std::atomic<bool>>(false);
 };
 

@@ -89,10 +89,17 @@ class Notifications {
 
 Settings small_station(const std::filesystem::path& folder) {
   Settings settings = test::small_station();
-  settings.store.root = folder / "scans";
+  settings.store.root = std::filesystem::proximate(folder) / "scans";
   settings.control.socket = folder / "control.sock";
   settings.log.level = LogLevel::kError;
   return settings;
+}
+
+Result<std::vector<ScanRecord>> one_foot() {
+  std::vector<ScanRecord> records(1);
+  records[0].time = std::chrono::system_clock::now();
+  records[0].id = new_scan_ids(records[0].time, 1).at(0);
+  return records;
 }
 
 /// A service in this process whose measuring is what a test makes of it.
@@ -138,6 +145,29 @@ class MeasuringService : public testing::Test {
     ASSERT_TRUE(client);
     ASSERT_TRUE(client->ask("scan"));
     ASSERT_EQ(measuring_.get_future().wait_for(kLong), std::future_status::ready);
+  }
+
+  /// The same with one foot, which is stored when this returns.
+  void begin_and_store() {
+    begin([](const Capture&, const PipelineSettings&, const ScanProgress&) { return one_foot(); });
+    ASSERT_TRUE(notifications_.wait_for("STATUS=storing", kLong));
+    ASSERT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+  }
+
+  nlohmann::json ask(const std::string& verb, const std::string& id = {}) const {
+    auto client = ControlClient::connect(folder_.path() / "control.sock");
+    return client->ask(verb, id, kLong).value_or(nlohmann::json());
+  }
+
+  void reload() { ::pthread_kill(service_thread_, SIGHUP); }
+
+  /// Looks at the watchdog may still see the step by which a task began and the last one.
+  bool leaves_the_watchdog_hungry() {
+    constexpr int kMayStillBeFed = 2;
+    notifications_.forget();
+    int fed = 0;
+    while (fed <= kMayStillBeFed && notifications_.wait_for("WATCHDOG=1", 2 * kWatchdog)) ++fed;
+    return fed <= kMayStillBeFed;
   }
 
   /// What run() gave after SIGTERM; nothing if it was not over by kEnd.
@@ -208,12 +238,7 @@ TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenTheWorkHangsAndEndsWithinASe
     over->set_value();
     return given_up();
   });
-  notifications_.forget();
-  // Looks may still see the step by which it began and the last one.
-  constexpr int kMayStillBeFed = 2;
-  int fed = 0;
-  while (fed <= kMayStillBeFed && notifications_.wait_for("WATCHDOG=1", 2 * kWatchdog)) ++fed;
-  EXPECT_LE(fed, kMayStillBeFed);
+  EXPECT_TRUE(leaves_the_watchdog_hungry());
   EXPECT_EQ(end(), false);
   EXPECT_FALSE(stored_anything());
   release->set_value();
@@ -225,13 +250,9 @@ TEST_F(MeasuringService, FeedsTheWatchdogWhileTheDiskStallsWithAMeasuredScanInHa
   constexpr auto kPatient = 2000ms;
   set_watchdog(kPatient);
   std::promise<void> release;
-  begin([&](const Capture&, const PipelineSettings&,
-            const ScanProgress&) -> Result<std::vector<ScanRecord>> {
-    std::vector<ScanRecord> records(1);
-    records[0].time = std::chrono::system_clock::now();
-    records[0].id = new_scan_ids(records[0].time, 1).at(0);
+  begin([&](const Capture&, const PipelineSettings&, const ScanProgress&) {
     stalled = &release;
-    return records;
+    return one_foot();
   });
   ASSERT_TRUE(notifications_.wait_for("STATUS=storing", kLong));
   for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient)) << i;
@@ -239,6 +260,41 @@ TEST_F(MeasuringService, FeedsTheWatchdogWhileTheDiskStallsWithAMeasuredScanInHa
   EXPECT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
   EXPECT_EQ(end(), true);
   EXPECT_TRUE(stored_anything());
+}
+
+/// A look at the store that waited behind it passed for the one that takes so long.
+TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenADeletionHangsThoughALookWaits) {
+  begin_and_store();
+  const std::string last = ask("status")["last_result"];
+  std::promise<void> release;
+  stalled = &release;
+  const auto deleted = std::async(std::launch::async, [&] { return ask("delete", last); });
+  const auto deadline = steady_clock::now() + kLong;
+  while (stalled.load() != nullptr && steady_clock::now() < deadline) ::poll(nullptr, 0, 5);
+  EXPECT_EQ(stalled.load(), nullptr);
+  reload();  // which looks at once
+  EXPECT_TRUE(notifications_.wait_for("READY=1", kLong));
+  EXPECT_TRUE(leaves_the_watchdog_hungry());
+  release.set_value();
+  deleted.wait();
+  EXPECT_EQ(end(), true);
+}
+
+/// It was forgotten for good when somebody asked to delete it while the disk was away.
+TEST_F(MeasuringService, ForgetsTheLastResultWhenItIsDeletedAndNotWhenItsDiskIsAway) {
+  begin_and_store();
+  const auto root = folder_.path() / "scans";
+  const std::filesystem::path told = ask("status")["store"]["root"].get<std::string>();
+  EXPECT_EQ(told.lexically_normal(), root) << "whole, though the settings name it from here";
+  const std::string last = ask("status")["last_result"];
+  EXPECT_NE(last, "");
+  std::filesystem::rename(root, folder_.path() / "aside");
+  EXPECT_TRUE(ask("delete", last).is_null());
+  EXPECT_EQ(ask("status")["last_result"], last);
+  std::filesystem::rename(folder_.path() / "aside", root);
+  EXPECT_EQ(ask("delete", last)["id"], last);
+  EXPECT_EQ(ask("status")["last_result"], "");
+  EXPECT_EQ(end(), true);
 }
 
 }  // namespace
