@@ -13,9 +13,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr std::size_t kMostExtreme = 5;
-constexpr std::size_t kFurthest = 6;
-constexpr double kGapOfStray =
-    4.0;  ///< against the next ones: of one in a hundred ends without one
+constexpr std::size_t kGaps = 4;  ///< between points of an end, that tell how close they lie
+constexpr std::size_t kMostStrays = 2;
+constexpr std::size_t kFurthest = kMostStrays + kGaps + 1;
+/// Against the next ones: of points at random one gap in eighty is as wide.
+constexpr double kGapOfStray = 8.0;
 constexpr double kWidestMm = 6.0;
 constexpr double kNarrowestMm = 3.0;
 /// The patch reaches so far, as a share of the skin's radius there: on a toe's tip a wider one is
@@ -45,14 +47,14 @@ std::vector<Vector3d> furthest_of(const std::vector<Vector3d>& points, const Vec
 
 /// How far a round end reaches of which few points are known: they are spread evenly over how far
 /// they lie behind it (Archimedes), so that it is as far before the first as each is before the
-/// next one on average. A first one that is far before the others is a stray.
+/// next one on average. One or two that are far before the others are strays.
 double reach_of_few(const std::vector<Vector3d>& furthest, const Vector3d& direction) {
   const auto reach = [&](std::size_t i) { return direction.dot(furthest[i]); };
-  constexpr std::size_t kGaps = kFurthest - 2;
   const auto usual_gap = [&](std::size_t first) {
     return (reach(first) - reach(first + kGaps)) / static_cast<double>(kGaps);
   };
-  const std::size_t first = reach(0) - reach(1) > kGapOfStray * usual_gap(1) ? 1 : 0;
+  std::size_t first = kMostStrays;
+  while (first > 0 && reach(first - 1) - reach(first) <= kGapOfStray * usual_gap(first)) --first;
   return reach(first) + usual_gap(first);
 }
 
@@ -93,6 +95,37 @@ std::optional<Dome> dome_of(const QuadraticSkin& skin) {
   return Dome{hessian.inverse() * Vector2d(-c(1), -c(2)), -1.0 / bends(0)};
 }
 
+/// Where a patch reaches furthest, seen from the start.
+struct Summit {
+  Vector2d middle = Vector2d::Zero();
+  std::optional<double> reach;  ///< nothing where the points tell no surface
+  bool is_of_few = false;       ///< fewer than a surface asks for
+};
+
+Summit summit_of(const SkinPatch& patch) {
+  Summit summit;
+  double radius = kWidestMm;
+  for (int round = 0; round < kRounds; ++round) {
+    const SkinPatch close = enough_within(patch, summit.middle, radius);
+    summit.is_of_few = close.size() < kFewestForSummit;
+    if (summit.is_of_few) break;
+    const auto skin = QuadraticSkin::through(close);
+    if (!skin) break;
+    summit.reach = skin->at(0.0, 0.0);
+    const auto dome = dome_of(*skin);
+    if (!dome) break;
+    // No further at once than the patch knows.
+    const double step = dome->vertex.norm();
+    const Vector2d move =
+        step > 0.5 * radius ? Vector2d(dome->vertex * (0.5 * radius / step)) : dome->vertex;
+    if ((summit.middle + move).norm() > kWidestMm) break;
+    summit.reach = skin->at(move.x(), move.y());
+    summit.middle += move;
+    radius = std::clamp(kShareOfRadius * dome->least_radius, kNarrowestMm, kWidestMm);
+  }
+  return summit;
+}
+
 }  // namespace
 
 Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& direction) {
@@ -107,32 +140,14 @@ Vector3d robust_extreme(const std::vector<Vector3d>& points, const Vector3d& dir
     if (direction.dot(offset) < -kDeepestMm) continue;
     patch.emplace_back(across.dot(offset), upright.dot(offset), direction.dot(offset));
   }
-  Vector2d middle = Vector2d::Zero();
-  double radius = kWidestMm;
-  std::optional<double> reach;
-  for (int round = 0; round < kRounds; ++round) {
-    const SkinPatch close = enough_within(patch, middle, radius);
-    if (close.size() < kFewestForSummit) break;
-    const auto skin = QuadraticSkin::through(close);
-    if (!skin) break;
-    reach = skin->at(0.0, 0.0);
-    const auto dome = dome_of(*skin);
-    if (!dome) break;
-    // No further at once than the patch knows.
-    const double step = dome->vertex.norm();
-    const Vector2d move =
-        step > 0.5 * radius ? Vector2d(dome->vertex * (0.5 * radius / step)) : dome->vertex;
-    if ((middle + move).norm() > kWidestMm) break;
-    reach = skin->at(move.x(), move.y());
-    middle += move;
-    radius = std::clamp(kShareOfRadius * dome->least_radius, kNarrowestMm, kWidestMm);
-  }
-  if (!reach || !(std::abs(*reach) < kLargestCorrectionMm)) {
-    if (furthest.size() < kFurthest) return start;
+  const Summit summit = summit_of(patch);
+  if (!summit.reach && summit.is_of_few && furthest.size() == kFurthest) {
     const double further = reach_of_few(furthest, direction) - direction.dot(start);
     return start + std::min(further, kLargestOfFewMm) * direction;
   }
-  return start + middle.x() * across + middle.y() * upright + *reach * direction;
+  if (!summit.reach || !(std::abs(*summit.reach) < kLargestCorrectionMm)) return start;
+  return start + summit.middle.x() * across + summit.middle.y() * upright +
+         *summit.reach * direction;
 }
 
 }  // namespace instep

@@ -1,9 +1,10 @@
 #include "core/fusion/shared_errors.h"
-#include "core/mean.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+
+#include "core/mean.h"
 
 namespace instep {
 namespace {

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "core/geometry/moments_round.h"
+#include "core/geometry/place_hash.h"
 #include "core/median.h"
 #include "core/picked.h"
-#include "core/stride.h"
 
 namespace instep {
 namespace {
@@ -85,9 +85,8 @@ std::vector<std::size_t> haze_among(const PointIndex& index, const IsHaze& is_ha
 
 std::vector<Surroundings> ask_some(const PointIndex& index) {
   std::vector<Surroundings> asked;
-  const auto& points = index.points();
-  for (const auto& place : one_in(stride_to_at_least(kAsked, points.size()), points)) {
-    asked.push_back(surroundings_of(index, place));
+  for (const std::size_t point : some_by_place(index.points(), kAsked)) {
+    asked.push_back(surroundings_of(index, index.points()[point]));
   }
   return asked;
 }
@@ -114,8 +113,9 @@ std::vector<bool> haze_points(const PointIndex& index) {
   std::vector<std::size_t> left(index.points().size());
   std::iota(left.begin(), left.end(), std::size_t{0});
   // Where the thickest is gone the rest of it stands out.
-  for (int round = 1; round < kMostRounds && !found.empty(); ++round) {
+  for (int round = 1; !found.empty(); ++round) {
     for (const std::size_t position : found) is_haze[left[position]] = true;
+    if (round == kMostRounds) break;
     std::erase_if(left, [&](std::size_t point) { return is_haze[point]; });
     found = haze_among(PointIndex(picked(index.points(), left)),
                        [&](const auto& point) { return haze.has_rest(point); });

@@ -8,7 +8,7 @@ namespace instep {
 
 /// Which points fill space, as scattered light does, instead of lying on a skin: points that stand
 /// further apart than most, and with their twelve nearest spread across their plane by more than a
-/// third of what they do along it (three tenths of the points' noise more, squared). Such haze has
+/// third of what they do along it, the more so where noise spreads all of them. Such haze has
 /// others of its kind for neighbours, so that none of it stands alone (stray_points()), and if it
 /// is as dense as the skin nearly, no clearly denser skin lies below (hovering_points()).
 ///

@@ -63,13 +63,16 @@ double half_width_of_band(const Neighbourhood& about) {
   return half_width;
 }
 
-/// With sides short enough to be looked up by: where a hull spans hollows they are long.
+/// With sides about as long as each other, to be looked up by: where a hull spans hollows they are
+/// long, and of many points near the plane there are many short ones.
 ContourIndex index_of(const std::vector<Eigen::Vector2d>& hull) {
   constexpr double kSides = 500.0;
   const double longest = perimeter(hull) / kSides;
   std::vector<Eigen::Vector2d> corners;
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Eigen::Vector2d side = hull[(i + 1) % hull.size()] - hull[i];
+    const bool is_near = !corners.empty() && (hull[i] - corners.back()).norm() < 0.5 * longest;
+    if (is_near && side.norm() < longest) continue;
     const double pieces = std::max(1.0, std::ceil(side.norm() / longest));
     for (double k = 0.0; k < pieces; k += 1.0) corners.emplace_back(hull[i] + k / pieces * side);
   }

@@ -361,7 +361,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     return fit_in_space(here, place);
   }
   if (auto plain = fit_plain(here, place)) return plain;
-  const double narrowest = narrowest_at(place, here);
+  double narrowest = narrowest_at(place, here);
   double width = std::min(kBandwidths * here.bandwidth(here.roughness), kWidest);
   double shown = 0.0;  // of roughness, by the patch before, which was wider: it tells it better
   for (int attempt = 1;; ++attempt) {
@@ -386,7 +386,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     const double wider = kWidening * members.radius;
     if (attempt < kMostAttempts && wider <= PatchPoints::kWidestHole &&
         is_open(*patch, nearest, points_.at(patch->members))) {
-      width = wider;
+      width = narrowest = wider;
       continue;
     }
     const auto& sheet = std::get<HeightPatch>(patch->field);
