@@ -71,7 +71,9 @@ MissedLength left_missed(const MeasuredSection& smooth, const MeasuredSection& p
 
 /// The section as one even skin where it is that, else as its patches tell it: they see a narrow
 /// collar, which the polynomial across a ribbon levels, and follow some of the waves that it does
-/// not. How far the skin may wander where nobody looked is known of the patches alone.
+/// not. How far the skin may wander where nobody looked is known of the patches alone; but these,
+/// of some tens of points, tell worse where it lies there, so that two readings that contradict
+/// each other are no reason to believe them.
 MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
                          const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
                          const SectionEvidence& evidence) {
@@ -91,10 +93,13 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
     patches.missed = left_missed(*smooth, patches);
     return patches;
   }
-  if (contradict(*smooth, patches)) return patches;
   if (is_bridged) {
-    smooth->contact_u95 = std::max(smooth->contact_u95, patches.contact_u95);
-    smooth->stretched_u95 = std::max(smooth->stretched_u95, patches.stretched_u95);
+    smooth->contact_u95 = std::max(
+        {smooth->contact_u95, patches.contact_u95, std::abs(smooth->contact - patches.contact)});
+    smooth->stretched_u95 = std::max({smooth->stretched_u95, patches.stretched_u95,
+                                      std::abs(smooth->stretched - patches.stretched)});
+  } else if (contradict(*smooth, patches)) {
+    return patches;
   }
   return *smooth;
 }
