@@ -93,10 +93,10 @@ struct Girth {
 ///
 /// Where the points are noisy and the skin even, the lengths and their intervals are read off one
 /// surface through far more points, laid along that contour (smooth_section()), unless the two
-/// contradict each other; elsewhere, and where a hole is reported, the intervals are LengthDoubt's.
-/// They take the noise of points to be independent: what is common to neighbours, such as a bent
-/// depth map, is not in them, but for the shared and local errors that the cloud tells of
-/// (shared_doubt_of()).
+/// contradict each other; elsewhere the intervals are LengthDoubt's. Where a hole is reported they
+/// are no narrower than both, and reach from one reading to the other. They take the noise of
+/// points to be independent: what is common to neighbours, such as a bent depth map, is not in
+/// them, but for the shared and local errors that the cloud tells of (shared_doubt_of()).
 ///
 /// Points in two layers (core/girth/skin_layers.h), all round as of a skin and a sock or over a
 /// good part of the section, are named in a warning, and the interval reaches both. Those of

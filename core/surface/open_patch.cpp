@@ -20,9 +20,9 @@ bool is_open(const SurfacePatch& patch, double nearest, const std::vector<Orient
   const auto sums =
       std::get<HeightPatch>(patch.field).sums({patch.centre}, Eigen::MatrixXd::Ones(1, 1));
   double variance = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < patch.members.size(); ++i) {
     const double influence = sums.influence(static_cast<Eigen::Index>(i), 0);
-    variance += influence * influence * points[i].variance;
+    variance += influence * influence * points[patch.members[i]].variance;
   }
   return variance > std::pow(kMostOpen * patch.radius, 2);
 }

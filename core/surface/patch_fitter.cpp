@@ -385,7 +385,7 @@ std::optional<SurfacePatch> PatchFitter::fit(const Eigen::Vector3d& place) const
     const double nearest = std::sqrt(here.nearest.front().squared_distance);
     const double wider = kWidening * members.radius;
     if (attempt < kMostAttempts && wider <= PatchPoints::kWidestHole &&
-        is_open(*patch, nearest, points_.at(patch->members))) {
+        is_open(*patch, nearest, points_.all())) {
       width = narrowest = wider;
       continue;
     }
