@@ -172,8 +172,8 @@ void StationService::sweep_part(std::size_t removed_before) {
       log_warning(
           "the clock was set by more than a week while the daemon runs: nothing is removed for its "
           "age until it is started again. What was scanned before counts from then on as old as "
-          "its "
-          "id says: see that the clock is right (timedatectl), and export what would be too old");
+          "its id says: see that the clock is right (timedatectl), and export what would be too "
+          "old");
     }
   }
   archive_->post([this, retention, removed_before, last = station_->status().last_result,
