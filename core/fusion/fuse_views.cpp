@@ -51,7 +51,9 @@ struct Work {
   }
 };
 
-/// Checks and cleans each view; the first that is not sound fails all.
+/// Checks and cleans each view; the first that is not sound fails all. They come by name: where
+/// points are thinned or matched some go before others, which must not hang on which camera spoke
+/// first.
 Result<std::vector<WorkingView>> open_views(const std::vector<View>& views, const Work& work) {
   std::vector<std::optional<Result<WorkingView>>> opened(views.size());
   const bool done =
@@ -62,6 +64,8 @@ Result<std::vector<WorkingView>> open_views(const std::vector<View>& views, cons
     if (!*view) return tl::make_unexpected(view->error());
     working.push_back(std::move(**view));
   }
+  std::sort(working.begin(), working.end(),
+            [](const auto& a, const auto& b) { return a.id < b.id; });
   return working;
 }
 
