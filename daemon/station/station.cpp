@@ -10,8 +10,6 @@
 namespace instep {
 namespace {
 
-constexpr std::chrono::milliseconds kOpeningGrace{1000};
-
 /// Of a scan that nobody cancelled, too.
 Error stopping() {
   return {ErrorCode::kCancelled, Remedy::kRetry, "the station is stopping",
@@ -21,18 +19,19 @@ Error stopping() {
 }  // namespace
 
 Station::Station(EventLoop& loop, Settings settings, MeasureCapture measure,
-                 std::shared_ptr<ResultStore> store, StationListener listener)
+                 std::shared_ptr<ResultStore> store, StationListener listener, OpenDevices open)
     : loop_(loop),
       settings_(std::move(settings)),
       measure_(std::move(measure)),
       store_(std::move(store)),
-      listener_(std::move(listener)) {
-  check_timer_ = loop_.timer([this] { cameras_ ? check_cameras() : open_devices_again(); });
-  check_deadline_ = loop_.timer([this] { end_check(); });
+      listener_(std::move(listener)),
+      open_devices_(std::move(open)) {
+  open_timer_ = loop_.timer([this] { open_devices_again(); });
 }
 
 Station::~Station() {
   if (cancelled_) *cancelled_ = true;
+  looks_.reset();
   cameras_.reset();
 }
 
@@ -98,7 +97,9 @@ void Station::reload(const Settings& settings) {
   settings_.pedal.debounce = settings.pedal.debounce;
   settings_.pedal.hold_to_cancel = settings.pedal.hold_to_cancel;
   if (pedal_) pedal_->set(settings_.pedal);
-  check_cameras();  // and from then on as often as is wanted now
+  if (!looks_) return;
+  looks_->set(settings_.capture);
+  looks_->look();  // and from then on as often as is wanted now
 }
 
 void Station::shut_down() {
@@ -127,11 +128,7 @@ StationStatus Station::status() const {
   status.warnings = pose_warnings();
   status.stage = stage_;
   status.done = done_;
-  status.cameras = camera_status_;
-  for (std::size_t i = 0; i < status.cameras.size(); ++i) {
-    status.cameras[i].health = care_->health(i);
-    status.cameras[i].frames = cameras_->frame_counts(i);
-  }
+  status.cameras = camera_status();
   if (settings_.pedal.kind != PedalKind::kNone) status.pedal = {pedal_trouble_};
   status.store = {store_->root(), store_trouble_};
   if (signals_) status.outputs = signals_->status();
@@ -139,6 +136,17 @@ StationStatus Station::status() const {
   status.ignored_presses = machine_.ignored_presses();
   status.last_result = last_result_;
   return status;
+}
+
+std::vector<CameraStatus> Station::camera_status() const {
+  std::vector<CameraStatus> all;
+  if (!cameras_) return all;
+  for (const auto& camera : cameras_->descriptions()) {
+    const std::size_t i = all.size();
+    all.push_back({camera.geometry.id, camera.model, camera.serial, looks_->trouble(i),
+                   care_->health(i), cameras_->frame_counts(i)});
+  }
+  return all;
 }
 
 void Station::forget_result(const std::string& id) {
@@ -187,89 +195,45 @@ void Station::act(StationAction action) {
 
 void Station::open_devices_again() {
   opening_ = true;
-  scan_thread_.post([this, post = loop_.poster(), settings = settings_](TaskProgress&) {
-    auto devices = std::make_shared<Result<Devices>>(open_devices(settings));
-    post([this, devices] { take_devices(std::move(*devices)); });
-  });
+  scan_thread_.post(
+      [this, post = loop_.poster(), open = open_devices_, settings = settings_](TaskProgress&) {
+        auto devices = std::make_shared<Result<Devices>>(open(settings));
+        post([this, devices] { take_devices(std::move(*devices)); });
+      });
 }
 
 void Station::take_devices(Result<Devices> devices) {
   opening_ = false;
   if (!devices) {
     open_trouble_ = devices.error();
-    check_timer_.set(back_off_.next());
+    open_timer_.set(open_back_off_.next());
     return handle(StationEvent::kCamerasLost);
   }
   open_trouble_.reset();
-  back_off_.reset();
   devices_ = std::move(*devices);
   cameras_ = std::make_shared<CameraSet>(std::exchange(devices_.cameras, {}));
-  for (const auto& camera : cameras_->descriptions()) {
-    camera_status_.push_back({camera.geometry.id, camera.model, camera.serial});
-  }
   begin_care();
   truth_ = truth_of_simulation(truth_thread_, devices_.work_out_truth);
-  check_cameras();
-}
-
-void Station::check_cameras() {
-  if (!cameras_ || machine_.is_busy()) return;
-  if (std::find(unanswered_.begin(), unanswered_.end(), true) != unanswered_.end()) return;
-  const auto round = ++check_round_;
-  unanswered_.assign(cameras_->size(), true);
-  check_deadline_.set(2 * settings_.capture.frame_limit + kOpeningGrace);
   // The projector is lit for scans alone.
   const auto zero_frames = settings_.outputs.projector ? CameraSet::ZeroFrames::kAreAsExpected
                                                        : CameraSet::ZeroFrames::kAreFaulty;
-  cameras_->check(settings_.capture, zero_frames,
-                  [this, round, post = loop_.poster()](std::size_t camera, Result<void> outcome) {
-                    post([this, round, camera, outcome = std::move(outcome)] {
-                      camera_answered(round, camera, outcome);
-                    });
-                  });
-}
-
-void Station::camera_answered(std::uint64_t round, std::size_t camera,
-                              const Result<void>& outcome) {
-  if (round != check_round_ || !unanswered_[camera]) return;
-  unanswered_[camera] = false;
-  camera_status_[camera].trouble = outcome ? std::nullopt : std::optional(outcome.error());
-  if (std::none_of(unanswered_.begin(), unanswered_.end(), [](bool one) { return one; })) {
-    end_check();
-  }
-}
-
-void Station::end_check() {
-  ++check_round_;
-  check_deadline_.clear();
-  bool all = true;
-  const auto told = cameras_->descriptions();
-  for (std::size_t i = 0; i < camera_status_.size(); ++i) {
-    camera_status_[i].serial = told[i].serial;
-    if (unanswered_[i]) {
-      camera_status_[i].trouble = silent_camera(camera_status_[i].id);
-    }
-    care_->looked_at(i, camera_status_[i].trouble);
-    all = all && !camera_status_[i].trouble;
-  }
-  unanswered_.assign(unanswered_.size(), false);
-  if (all) back_off_.reset();
-  check_timer_.set(all ? std::chrono::nanoseconds(settings_.capture.check_every)
-                       : std::chrono::nanoseconds(back_off_.next()));
-  handle(all ? StationEvent::kCamerasReady : StationEvent::kCamerasLost);
+  looks_.emplace(loop_, cameras_, settings_.capture, zero_frames, [this] { cameras_looked_at(); });
+  looks_->look();
 }
 
 void Station::begin_care() {
   std::vector<std::optional<UsbAddress>> addresses;
-  for (const auto& camera : camera_status_) {
-    const auto usb = devices_.usb.find(camera.id);
+  for (const auto& camera : cameras_->descriptions()) {
+    const auto usb = devices_.usb.find(camera.geometry.id);
     addresses.push_back(usb == devices_.usb.end() ? std::nullopt : std::optional(usb->second));
   }
-  const auto look = [this] {
-    back_off_.reset();
-    check_cameras();
-  };
-  care_.emplace(loop_, addresses, CameraCare::Listener{look, listener_.on_change});
+  care_.emplace(loop_, addresses,
+                CameraCare::Listener{[this] { looks_->look(); }, listener_.on_change});
+}
+
+void Station::cameras_looked_at() {
+  for (std::size_t i = 0; i < cameras_->size(); ++i) care_->looked_at(i, looks_->trouble(i));
+  handle(looks_->all_answer() ? StationEvent::kCamerasReady : StationEvent::kCamerasLost);
 }
 
 void Station::pedal_signalled(PedalSignal signal) {
@@ -326,7 +290,7 @@ void Station::remark_poses() {
 
 std::vector<std::string> Station::pose_warnings() const {
   ToldSerials told;
-  for (const auto& camera : camera_status_) told[camera.id] = camera.serial;
+  for (const auto& camera : camera_status()) told[camera.id] = camera.serial;
   return warnings_of_poses(settings_, told);
 }
 
@@ -335,7 +299,7 @@ void Station::start_scan() {
   remark_missing_light();
   remark_poses();
   cancelled_ = std::make_shared<std::atomic<bool>>(false);
-  check_timer_.clear();
+  looks_->pause();
   stage_ = "capture";
   done_ = 0.0;
   const auto post = loop_.poster();
@@ -365,7 +329,7 @@ void Station::scan_ended(const ScanOutcome& outcome) {
   done_ = 0.0;
   // A scan that failed may have lost a camera: that is looked into at once.
   const bool failed = outcome.error && outcome.error->code != ErrorCode::kCancelled;
-  check_timer_.set(failed ? std::chrono::nanoseconds(1) : settings_.capture.check_every);
+  looks_->resume(failed);
   if (!outcome.stored.empty()) last_result_ = outcome.stored.back().id;
   if (!outcome.error) {
     ++scans_;
@@ -391,7 +355,7 @@ std::vector<Error> Station::troubles() const {
     if (trouble) all.push_back(*trouble);
   };
   add(open_trouble_);
-  for (const auto& camera : camera_status_) add(camera.trouble);
+  for (const auto& camera : camera_status()) add(camera.trouble);
   add(store_trouble_);
   add(pedal_trouble_);
   return all;

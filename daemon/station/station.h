@@ -18,6 +18,7 @@
 #include "daemon/loop/task_thread.h"
 #include "daemon/station/back_off.h"
 #include "daemon/station/camera_care.h"
+#include "daemon/station/camera_looks.h"
 #include "daemon/station/camera_set.h"
 #include "daemon/station/devices.h"
 #include "daemon/station/pedal_watch.h"
@@ -38,12 +39,16 @@ struct StationListener {
   std::function<void()> on_left;  ///< after shut_down(): nothing runs any more
 };
 
+/// open_devices() of devices.h, or what a test puts in its place; called on the scan's thread.
+using OpenDevices = std::function<Result<Devices>(const Settings&)>;
+
 /// The station at work: joins the state machine to the cameras, the pedal, the scan's thread and
 /// the store. Lives on the loop's thread, on which all calls are made; none of them waits.
 class Station {
  public:
   Station(EventLoop& loop, Settings settings, MeasureCapture measure,
-          std::shared_ptr<ResultStore> store, StationListener listener);
+          std::shared_ptr<ResultStore> store, StationListener listener,
+          OpenDevices open = open_devices);
   ~Station();
 
   /// Opens the devices; on_change tells how that goes.
@@ -81,10 +86,8 @@ class Station {
   void act(StationAction action);
   void open_devices_again();
   void take_devices(Result<Devices> devices);
-  void check_cameras();
-  void camera_answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome);
-  void end_check();
   void begin_care();
+  void cameras_looked_at();
   void pedal_signalled(PedalSignal signal);
   void pedal_lost(const Error& error);
   void pedal_returned();
@@ -94,6 +97,7 @@ class Station {
   /// Nor do cameras that are not where a calibration found them, whatever comes of their poses.
   void remark_poses();
   std::vector<std::string> pose_warnings() const;
+  std::vector<CameraStatus> camera_status() const;
   void scan_ended(const ScanOutcome& outcome);
   void note_store_failure(const Error& error);
   ScanTools tools() const;
@@ -106,6 +110,7 @@ class Station {
   MeasureCapture measure_;
   std::shared_ptr<ResultStore> store_;
   StationListener listener_;
+  OpenDevices open_devices_;
   StationMachine machine_;
 
   std::optional<StationSignals> signals_;
@@ -118,13 +123,10 @@ class Station {
   Devices devices_;  ///< without its cameras, which the set owns
   std::shared_future<std::map<std::string, double>> truth_;
   std::shared_ptr<CameraSet> cameras_;
-  std::vector<CameraStatus> camera_status_;
-  std::optional<CameraCare> care_;  ///< there with cameras_
-  std::vector<bool> unanswered_;
-  std::uint64_t check_round_ = 0;
-  EventLoop::Timer check_timer_;
-  EventLoop::Timer check_deadline_;
-  BackOff back_off_;
+  std::optional<CameraCare> care_;    ///< there with cameras_
+  std::optional<CameraLooks> looks_;  ///< there with cameras_
+  EventLoop::Timer open_timer_;
+  BackOff open_back_off_;
 
   TaskThread truth_thread_{"truth"};
   TaskThread scan_thread_{"scan"};

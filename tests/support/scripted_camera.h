@@ -42,7 +42,7 @@ class ScriptedCamera : public DepthCamera {
   }
   Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override {
     std::unique_lock lock(mutex_);
-    is_asked_ = true;
+    ++asked_;
     changed_.notify_all();
     Step step = Step::kGood;
     if (!script_.empty()) {
@@ -64,10 +64,10 @@ class ScriptedCamera : public DepthCamera {
     return frame_of(step);
   }
   void stop() override {}
-  /// Returns once a frame was asked for, which a script may keep waiting.
-  void wait_until_asked() {
+  /// Returns once so many frames were asked for, of which a script may keep the last waiting.
+  void wait_until_asked(int times = 1) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return is_asked_; });
+    changed_.wait(lock, [&] { return asked_ >= times; });
   }
   /// Ends kHang before its time.
   void release() {
@@ -107,7 +107,7 @@ class ScriptedCamera : public DepthCamera {
   std::condition_variable changed_;
   std::deque<Step> script_;
   bool interrupted_ = false;
-  bool is_asked_ = false;
+  int asked_ = 0;
   bool released_ = false;
 };
 
