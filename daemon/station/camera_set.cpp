@@ -1,10 +1,15 @@
 #include "daemon/station/camera_set.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "core/go_on.h"
@@ -41,13 +46,25 @@ class ToldDescription {
   CameraDescription told_;
 };
 
-/// Starts it, and takes down what it has learnt of itself by that.
-Result<void> begin_stream(DepthCamera& camera, ToldDescription& description,
-                          TaskProgress& progress) {
-  auto started = camera.start();
+/// What `use` makes of the stream of a camera, which is stopped whatever comes of it. Takes down
+/// what the camera has learnt of itself at its start. `doing` as in caught().
+template <class Use>
+std::invoke_result_t<const Use&> with_stream(DepthCamera& camera, ToldDescription& description,
+                                             TaskProgress& progress, std::string_view doing,
+                                             const Use& use) {
+  auto outcome = caught(doing, [&] {
+    auto started = camera.start();
+    progress.step();
+    if (started) description.take(camera.description());
+    return started.and_then(use);
+  });
   progress.step();
-  if (started) description.take(camera.description());
-  return started;
+  const auto stopped = caught(doing, [&]() -> Result<void> {
+    camera.stop();
+    return {};
+  });
+  if (outcome && !stopped) return tl::make_unexpected(stopped.error());
+  return outcome;
 }
 
 /// Takes as many good frames as are asked for from a started camera.
@@ -120,20 +137,20 @@ class CaptureFaults {
     const bool explains =
         error.code == ErrorCode::kDeviceGone && first_ && first_->code != ErrorCode::kDeviceGone;
     if (!first_ || explains) first_ = error;
-    at_fault_ += (at_fault_.empty() ? "" : ", ") + camera;
+    at_fault_.push_back(camera);
   }
 
   std::optional<Error> error() const {
     std::optional<Error> error = first_;
-    if (at_fault_.find(',') != std::string::npos) {
-      error->message += " (cameras at fault: " + at_fault_ + ")";
+    if (at_fault_.size() > 1) {
+      error->message += fmt::format(" (cameras at fault: {})", fmt::join(at_fault_, ", "));
     }
     return error;
   }
 
  private:
   std::optional<Error> first_;
-  std::string at_fault_;
+  std::vector<std::string> at_fault_;
 };
 
 }  // namespace
@@ -301,17 +318,13 @@ std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& 
     workers_[i]->thread->post([gathering, i, settings, camera = workers_[i]->camera,
                                description = workers_[i]->description,
                                tally = workers_[i]->tally](TaskProgress& progress) {
-      if (settings.one_at_a_time && !gathering->wait_for_turn(i, progress)) {
-        return gathering->bring(i, cancelled());
-      }
-      Result<Frames> frames = caught("the capture", [&] {
-        return begin_stream(*camera, *description, progress).and_then([&] {
-          return take_frames(*camera, *tally, settings, gathering->cancelled, progress);
-        });
-      });
-      progress.step();
-      camera->stop();
-      gathering->bring(i, std::move(frames));
+      const bool has_turn = !settings.one_at_a_time || gathering->wait_for_turn(i, progress);
+      // One that hung comes to this when nobody waits for its frames any more.
+      if (!has_turn || gathering->cancelled) return gathering->bring(i, cancelled());
+      gathering->bring(i, with_stream(*camera, *description, progress, "the capture", [&] {
+                         return take_frames(*camera, *tally, settings, gathering->cancelled,
+                                            progress);
+                       }));
     });
   }
   return gathering;
@@ -355,13 +368,9 @@ void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
                          description = worker.description, tally = worker.tally,
                          id = worker.id](TaskProgress& progress) {
       const Report tell = look->begin();
-      const auto outcome = caught("the look at it", [&] {
-        return begin_stream(*camera, *description, progress).and_then([&] {
-          return look_at(*camera, *tally, settings, zero_frames, progress);
-        });
+      const auto outcome = with_stream(*camera, *description, progress, "the look at it", [&] {
+        return look_at(*camera, *tally, settings, zero_frames, progress);
       });
-      progress.step();
-      camera->stop();
       outcome ? tell(i, {}) : tell(i, tl::make_unexpected(named_after_camera(id, outcome.error())));
     });
   }

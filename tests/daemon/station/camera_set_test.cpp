@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <future>
@@ -89,6 +90,67 @@ TEST(CameraSet, NamesAllCamerasThatFail) {
   const auto frames = set->capture(quick, go_on);
   ASSERT_FALSE(frames);
   EXPECT_THAT(frames.error().message, testing::HasSubstr("left, right"));
+}
+
+// The other one was interrupted for it, and is on its way back.
+TEST(CameraSet, NamesTheCameraThatFailedAndNotTheOneThatWaitsForAFrame) {
+  const auto set = cameras({Step::kGone, Step::kGone}, std::deque<Step>(20, Step::kTimeout));
+  const auto frames = set->capture(without_end(), go_on);
+  ASSERT_FALSE(frames);
+  EXPECT_EQ(frames.error().message, "camera left: it left");
+}
+
+/// It was told as two.
+TEST(CameraSet, NamesACameraWithACommaOnce) {
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  const std::deque<Step> script = {Step::kGone, Step::kGone};
+  all.push_back(std::make_unique<ScriptedCamera>("left, top", script));
+  CameraSet set(std::move(all));
+  const auto frames = set.capture(settings(), go_on);
+  ASSERT_FALSE(frames);
+  EXPECT_EQ(frames.error().message, "camera left, top: it left");
+}
+
+/// Tells how often it was started, and throws where it is to be stopped.
+class CountedCamera final : public ScriptedCamera {
+ public:
+  using ScriptedCamera::ScriptedCamera;
+  Result<void> start() override {
+    ++starts;
+    return ScriptedCamera::start();
+  }
+  void stop() override {
+    if (throws) throw std::bad_alloc();
+  }
+
+  std::atomic<int> starts = 0;
+  bool throws = false;
+};
+
+/// It was started for frames that nobody waited for, and kept the next scan waiting meanwhile.
+TEST(CameraSet, IsNotStartedForAScanThatWasGivenUp) {
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  auto owned = std::make_unique<CountedCamera>("hangs", std::deque<Step>{Step::kHang});
+  CountedCamera& hangs = *owned;
+  all.push_back(std::move(owned));
+  CameraSet set(std::move(all));
+  ASSERT_FALSE(set.capture(soon_over(), go_on));
+  ASSERT_FALSE(set.capture(without_end(), [] { return false; }));
+  hangs.release();
+  EXPECT_TRUE(set.capture(settings(), go_on));
+  EXPECT_EQ(hangs.starts, 2) << "the first and the last";
+}
+
+/// On its thread that would end the daemon.
+TEST(CameraSet, OutlivesACameraThatThrowsWhenItIsStopped) {
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  auto owned = std::make_unique<CountedCamera>("only", std::deque<Step>{});
+  owned->throws = true;
+  all.push_back(std::move(owned));
+  CameraSet set(std::move(all));
+  const auto frames = set.capture(settings(), go_on);
+  ASSERT_FALSE(frames);
+  EXPECT_THAT(frames.error().line(), testing::HasSubstr("not enough memory"));
 }
 
 /// Sends wrong depth at the beginning of each stream, and says nothing of it.
@@ -322,7 +384,6 @@ TEST(CameraSet, PassesOverWhatAStreamMayBeginWithWhenItChecks) {
   EXPECT_EQ(reports.of(1), "") << "little is to be seen when nobody stands there";
 }
 
-// The one that failed is to blame, and not the other that was interrupted and is on its way back.
 TEST(CameraSet, WaitsForACameraThatIsNotBackYetWhenItChecks) {
   std::vector<std::unique_ptr<DepthCamera>> all;
   auto owned = std::make_unique<ScriptedCamera>("slow", std::deque<Step>{Step::kHang});
