@@ -86,18 +86,12 @@ int check(const std::filesystem::path& file, const Settings& settings) {
       fmt::format("settings {}\n{}{}", file.string(), describe(settings), doubts(settings)));
 }
 
-void warn_of_short_deadline(const Settings& settings) {
-  const std::string too_short = warning_of_short_deadline(settings);
-  if (!too_short.empty()) log_warning(too_short);
-}
-
 int serve(const std::filesystem::path& file, const Settings& settings) {
   ::umask(0027);
   keep_to_one_heap();
   keep_signals_for_the_loop();
   set_up_log(settings.log.level);
   log_info(fmt::format("instepd {} with {}", program_version(), file.string()));
-  warn_of_short_deadline(settings);
   auto service = StationService::create(
       settings, [file] { return read_settings(file); }, measure_capture);
   if (!service) return complain(service.error());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/capture_time.h"
 #include "config/warnings_of_poses.h"
 #include "daemon/station/pipeline_settings.h"
 #include "daemon/station/truth_of_simulation.h"
@@ -126,6 +127,8 @@ StationStatus Station::status() const {
   status.state = machine_.state();
   for (const auto& trouble : troubles()) status.troubles.push_back(trouble.line());
   status.warnings = pose_warnings();
+  const std::string late = warning_of_short_deadline(settings_);
+  if (!late.empty()) status.warnings.push_back(late);
   status.stage = stage_;
   status.done = done_;
   status.cameras = camera_status();
@@ -343,10 +346,13 @@ void Station::scan_ended(const ScanOutcome& outcome) {
 
 Error Station::refusal() const {
   if (machine_.is_leaving()) return stopping();
-  const Error starting{ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
-                       "wait a moment and scan again"};
   const auto all = troubles();
-  return all.empty() ? starting : all.front();
+  // There is none while the look goes on by which the last one has just ended.
+  if (state() == StationState::kStarting || all.empty()) {
+    return {ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
+            "wait a moment and scan again"};
+  }
+  return all.front();
 }
 
 std::vector<Error> Station::troubles() const {

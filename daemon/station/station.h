@@ -78,6 +78,7 @@ class Station {
   /// That result was removed: it is not the last one any more.
   void forget_result(const std::string& id);
 
+  StationState state() const { return machine_.state(); }
   StationStatus status() const;
   void note_progress(ProgressWatch& watch) const;
 

@@ -90,5 +90,38 @@ TEST_F(ScriptedStation, IsReadyAfterAScanThoughALookThatCameBeforeItFails) {
   })) << "the look is made again";
 }
 
+/// Its store's trouble was told, which kept nobody from scanning, with a remedy that was no help.
+TEST_F(ScriptedStation, SaysThatItIsStartingWhateverElseIsWrong) {
+  begin(patient(), {Step::kHang});
+  camera_->wait_until_asked();
+  loop_.call([&] {
+    station_->store_failed({ErrorCode::kNoSpace, Remedy::kOperator, "the disk is full", ""});
+    const auto asked = station_->request_scan();
+    ASSERT_FALSE(asked);
+    EXPECT_EQ(asked.error().message, "the station is starting");
+    EXPECT_EQ(asked.error().remedy, Remedy::kRetry);
+  });
+  camera_->release();
+}
+
+/// It was told at the start alone, whatever was read later.
+TEST_F(ScriptedStation, WarnsOfADeadlineThatIsTooShortForAScanForAsLongAsItIs) {
+  auto settings = patient();
+  settings.cameras[0].kind = CameraKind::kRecording;
+  begin(settings, {});
+  auto late = settings;
+  late.capture.frames_per_camera = 120;
+  late.capture.deadline = 1s;
+  loop_.call([&] {
+    EXPECT_TRUE(station_->status().warnings.empty());
+    station_->reload(late);
+    ASSERT_EQ(station_->status().warnings.size(), 1U);
+    EXPECT_EQ(station_->status().warnings[0].rfind("capture.deadline_ms = 1000 is too short", 0),
+              0U);
+    station_->reload(settings);
+    EXPECT_TRUE(station_->status().warnings.empty());
+  });
+}
+
 }  // namespace
 }  // namespace instep
