@@ -11,8 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-Result<json> list(const ResultStore& store) {
-  const auto ids = store.list();
+Result<json> list(const ResultStore& store, const ResultStore::OnDay& on_day) {
+  const auto ids = store.list(on_day);
   if (!ids) return tl::make_unexpected(ids.error());
   json scans = json::array();
   for (const auto& id : *ids) scans.push_back({{"id", id}});
@@ -54,8 +54,8 @@ json files_in(const std::filesystem::path& folder) {
   return files;
 }
 
-Result<json> answer(ResultStore& store, const Request& request) {
-  if (request.verb == "list") return list(store);
+Result<json> answer(ResultStore& store, const Request& request, const ResultStore::OnDay& on_day) {
+  if (request.verb == "list") return list(store, on_day);
   const auto id = store.find(request.id);
   if (!id) return tl::make_unexpected(id.error());
   if (request.verb == "show") return show(store, *id);
@@ -74,8 +74,9 @@ Result<json> answer(ResultStore& store, const Request& request) {
 
 }  // namespace
 
-std::string answer_from_store(ResultStore& store, const Request& request) {
-  const auto content = answer(store, request);
+std::string answer_from_store(ResultStore& store, const Request& request,
+                              const ResultStore::OnDay& on_day) {
+  const auto content = answer(store, request, on_day);
   return content ? ok_answer(*content) : error_answer(content.error());
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "config/settings.h"
 
@@ -32,6 +35,29 @@ class ChangeLog {
 
  private:
   std::map<std::string, std::string> said_;
+};
+
+/// Of things that last, several at a time: logs each once for as long as it does.
+class LastingLines {
+ public:
+  /// Which of them did not last already. What is not among them is over: it would be news again.
+  std::vector<std::string> news(const std::vector<std::string>& lines) {
+    std::vector<std::string> news;
+    std::copy_if(lines.begin(), lines.end(), std::back_inserter(news),
+                 [&](const auto& line) { return !holds(line); });
+    lines_ = lines;
+    return news;
+  }
+  /// Told by other means.
+  void add(const std::string& line) { lines_.push_back(line); }
+  bool empty() const { return lines_.empty(); }
+
+ private:
+  bool holds(const std::string& line) const {
+    return std::find(lines_.begin(), lines_.end(), line) != lines_.end();
+  }
+
+  std::vector<std::string> lines_;
 };
 
 }  // namespace instep

@@ -122,7 +122,16 @@ bool StationService::end_threads() {
 void StationService::prepare_store() {
   store_timer_.set(kStoreLook);
   sweep_timer_.set(kSweep);
-  const auto prepared = store_->prepare();
+  archive_->post([this, store = store_, looks = archive_looks_,
+                  post = loop_->poster()](TaskProgress&) {
+    *looks = true;
+    const auto prepared = caught("the preparation of the store", [&] { return store->prepare(); });
+    *looks = false;
+    post([this, prepared] { store_prepared(prepared); });
+  });
+}
+
+void StationService::store_prepared(const Result<Prepared>& prepared) {
   if (!prepared) return station_->store_failed(prepared.error());
   if (prepared->is_shared) {
     log_warning("another program works on the results in " + store_->root().string() +
@@ -187,7 +196,8 @@ void StationService::sweep_part(std::size_t removed_before) {
       return !*leaving && now < *end;
     };
     const auto outcome = caught("the removal of old results", [&]() -> Result<Swept> {
-      return store->sweep(retention, std::chrono::system_clock::now(), go_on);
+      return store->sweep(retention, std::chrono::system_clock::now(), go_on,
+                          [&] { progress.step(); });
     });
     Swept swept = outcome.value_or(Swept());
     if (!outcome) swept.trouble = outcome.error();
@@ -248,10 +258,10 @@ void StationService::station_changed() {
   const auto now = status();
   const std::string state = to_string(now.state);
   if (said_.is_news("state", state)) log_info("station is " + state);
-  tell_of_troubles(now.troubles);
-  for (const auto& warning : now.warnings) {
-    if (said_.is_news(warning, "said")) log_warning(warning);
-  }
+  const bool was_in_trouble = !troubles_.empty();
+  for (const auto& trouble : troubles_.news(now.troubles)) log_warning(trouble);
+  if (was_in_trouble && troubles_.empty()) log_info("all is well again");
+  for (const auto& warning : warnings_.news(now.warnings)) log_warning(warning);
   if (said_.is_news("stage", now.stage) && !now.stage.empty()) {
     log_debug("scan is at " + now.stage);
   }
@@ -269,15 +279,6 @@ void StationService::station_changed() {
   }
 }
 
-void StationService::tell_of_troubles(const std::vector<std::string>& troubles) {
-  for (const auto& trouble : troubles) {
-    const auto told = std::find(told_troubles_.begin(), told_troubles_.end(), trouble);
-    if (told == told_troubles_.end()) log_warning(trouble);
-  }
-  if (troubles.empty() && !told_troubles_.empty()) log_info("all is well again");
-  told_troubles_ = troubles;
-}
-
 void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
   for (const auto& result : results) log_info("stored scan " + result.id);
   last_result_event_ = event_line("result", to_json(results));
@@ -288,6 +289,9 @@ void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
 
 void StationService::scan_failed(const Error& error) {
   log_warning("no scan: " + error.line());
+  const auto lasting = station_->status().troubles;
+  const bool lasts = std::find(lasting.begin(), lasting.end(), error.line()) != lasting.end();
+  if (lasts) troubles_.add(error.line());
   server_->broadcast(event_line("failure", {{"error", to_json(error)}}));
 }
 
@@ -319,16 +323,18 @@ void StationService::forget_result(const std::string& id) {
 }
 
 void StationService::serve_from_store(ControlServer::Client client, const Request& request) {
-  archive_->post([this, client, request, store = store_, post = loop_->poster()](TaskProgress&) {
-    const auto answer = caught(
-        "the answer", [&]() -> Result<std::string> { return answer_from_store(*store, request); });
-    const bool is_gone = request.verb == "delete" && is_missing(*store, request.id);
-    post([this, client, id = request.id, is_gone,
-          line = answer ? *answer : error_answer(answer.error())] {
-      if (is_gone) forget_result(id);
-      if (server_) server_->answer(client, line);
-    });
-  });
+  archive_->post(
+      [this, client, request, store = store_, post = loop_->poster()](TaskProgress& progress) {
+        const auto answer = caught("the answer", [&]() -> Result<std::string> {
+          return answer_from_store(*store, request, [&] { progress.step(); });
+        });
+        const bool is_gone = request.verb == "delete" && is_missing(*store, request.id);
+        post([this, client, id = request.id, is_gone,
+              line = answer ? *answer : error_answer(answer.error())] {
+          if (is_gone) forget_result(id);
+          if (server_) server_->answer(client, line);
+        });
+      });
 }
 
 void StationService::reload() {
@@ -341,7 +347,7 @@ void StationService::reload() {
                      settings.error().line();
   if (!settings) {
     log_error(settings_fault_);
-    said_.is_news(settings_fault_, "said");  // it is among the warnings of the status from now on
+    warnings_.add(settings_fault_);
   } else {
     station_->reload(*settings);
     set_log_level(settings->log.level);
@@ -369,8 +375,10 @@ void StationService::shut_down() {
 void StationService::feed_watchdog() {
   const auto limit = ServiceManager::watchdog_limit().value_or(kWatchdogTick * 4);
   station_->note_progress(progress_);
-  // An ailing disk is what it tries out, and to be started again mends none.
-  progress_.note("archive", archive_->is_busy() && !*archive_looks_, archive_->progress());
+  // An ailing disk is what it tries out, and to be started again mends none. Nor while a scan is
+  // being stored, which shares the disk and would be lost.
+  const bool may_stall = *archive_looks_ || station_->state() == StationState::kStoring;
+  progress_.note("archive", archive_->is_busy() && !may_stall, archive_->progress());
   if (progress_.all_moved()) manager_.feed_watchdog();
   if (const auto hung = progress_.newly_hung(); !hung.empty()) {
     log_warning(hung + " has made no step for a while");

@@ -44,7 +44,9 @@ class StationService {
  private:
   StationService(Settings settings, ReadSettings read_settings);
   Result<void> open(MeasureCapture measure);
+  /// On the archive's thread, as its disk may be one that hangs.
   void prepare_store();
+  void store_prepared(const Result<Prepared>& prepared);
   void station_changed();
   void scan_succeeded(const std::vector<StoredResult>& results);
   void scan_failed(const Error& error);
@@ -58,7 +60,6 @@ class StationService {
   /// In short parts, between which the archive answers those who ask.
   void sweep_part(std::size_t removed_before);
   void tell_of(const Swept& swept);
-  void tell_of_troubles(const std::vector<std::string>& troubles);
   void forget_result(const std::string& id);
   void reload();
   void shut_down();
@@ -79,7 +80,8 @@ class StationService {
   std::unique_ptr<TaskThread> archive_;
   std::unique_ptr<ControlServer> server_;
   std::unique_ptr<Station> station_;
-  std::vector<std::string> told_troubles_;
+  LastingLines troubles_;
+  LastingLines warnings_;
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
@@ -92,7 +94,7 @@ class StationService {
   EventLoop::Timer sweep_timer_;
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;
-  /// The archive's thread is in the middle of a look.
+  /// The archive's thread is in the middle of a look at the store, or of its preparation.
   std::shared_ptr<std::atomic<bool>> archive_looks_ = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<std::atomic<bool>> leaving_ = std::make_shared<std::atomic<bool>>(false);
 };

@@ -41,6 +41,7 @@ ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path
     : storage_(storage), root_(std::move(storage), std::move(root)) {}
 
 Result<Prepared> ResultStore::prepare() {
+  const std::lock_guard lock(clearing_);
   const auto is_ours = root_.take();
   if (!is_ours) return tl::make_unexpected(is_ours.error());
   Result<Prepared> prepared;
@@ -116,6 +117,7 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
   if (!is_scan_id(id)) {
     return fail(ErrorCode::kInvalidInput, "\"" + id + "\" is not the id of a scan", "");
   }
+  const std::lock_guard lock(clearing_);
   if (const auto there = check_root(); !there) return tl::make_unexpected(there.error());
   const auto day = root() / day_folder(id);
   const auto writing = day / (kWriting + id);
@@ -178,11 +180,12 @@ Result<std::vector<std::filesystem::path>> ResultStore::days() const {
   return level;
 }
 
-Result<std::vector<std::string>> ResultStore::list() const {
+Result<std::vector<std::string>> ResultStore::list(const OnDay& on_day) const {
   const auto all_days = days();
   if (!all_days) return tl::make_unexpected(all_days.error());
   std::vector<std::string> ids;
   for (const auto& day : *all_days) {
+    on_day();
     const auto of_day = ids_of(day);
     ids.insert(ids.end(), of_day.begin(), of_day.end());
   }
@@ -311,10 +314,10 @@ Result<void> ResultStore::move_away(const std::string& id) {
 }
 
 Swept ResultStore::sweep(const Retention& retention, std::chrono::system_clock::time_point now,
-                         const GoOn& go_on) {
+                         const GoOn& go_on, const OnDay& on_day) {
   Swept swept;
   if (retention.keep_days == 0 && retention.keep_count == 0) return swept;
-  const auto ids = check_root().and_then([&] { return list(); });
+  const auto ids = check_root().and_then([&] { return list(on_day); });
   if (!ids) {
     swept.root_trouble = ids.error();
     return swept;

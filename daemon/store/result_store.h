@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -55,7 +56,8 @@ class ResultStore {
   const std::filesystem::path& root() const { return root_.path(); }
 
   /// Takes the root, see StoreRoot, and clears what an earlier run left half-done, unless another
-  /// program works on the same results. Once, before anything else.
+  /// program works on the same results. Once, before anything else; a put() that comes from another
+  /// thread meanwhile waits for it.
   Result<Prepared> prepare();
 
   /// Whether the root is the one that prepare() took: see StoreRoot. What puts or takes away
@@ -75,9 +77,13 @@ class ResultStore {
   /// fails too, a leftover that prepare() clears.
   Result<std::filesystem::path> put(const std::string& id, const ResultContent& content);
 
+  /// Called before the folder of each day is read, so that who counts the calls can tell many
+  /// folders on a slow disk from a disk that hangs.
+  using OnDay = std::function<void()>;
+
   /// All ids, newest first; without those in folders that cannot be read. It reads the folders of
   /// all days: 0.3 s for 20,000 results.
-  Result<std::vector<std::string>> list() const;
+  Result<std::vector<std::string>> list(const OnDay& on_day = [] {}) const;
 
   /// `id`, or if it is "latest" what was stored last; where this has stored none that is still
   /// there, the newest by `now`: one that a wrong clock dated later only if there is no other.
@@ -97,10 +103,11 @@ class ResultStore {
   /// Takes the result away as a whole, with whatever else lies in its folder.
   Result<void> remove(const std::string& id);
 
-  /// Removes what is too old or too many; what cannot be removed is passed over. Asks `go_on`
-  /// before each.
-  Swept sweep(const Retention& retention, std::chrono::system_clock::time_point now,
-              const GoOn& go_on = always);
+  /// Removes what is too old or too many; what cannot be removed is passed over. Lists them all
+  /// before, and then asks `go_on` before each that is to go.
+  Swept sweep(
+      const Retention& retention, std::chrono::system_clock::time_point now,
+      const GoOn& go_on = always, const OnDay& on_day = [] {});
 
  private:
   Result<Prepared> clear_leftovers();
@@ -124,6 +131,7 @@ class ResultStore {
 
   std::shared_ptr<Storage> storage_;
   StoreRoot root_;
+  std::mutex clearing_;                        ///< what is being written is no leftover
   std::atomic<std::size_t> largest_scan_ = 0;  ///< in bytes; see expect()
   mutable std::mutex mutex_;                   ///< of what follows
   std::string newest_found_;  ///< by newest(), when the root was taken; empty if there was none

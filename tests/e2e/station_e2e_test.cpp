@@ -376,6 +376,8 @@ TEST(Station, NamesAFullDiskAndRecoversFromIt) {
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_THAT(full.text, HasSubstr("make room on the disk")) << station.log();
   ASSERT_TRUE(station.wait_for("STATUS=fault", kLong)) << station.log();
+  const std::string log = station.log();
+  EXPECT_EQ(log.find("make room on the disk"), log.rfind("make room on the disk")) << log;
   std::filesystem::remove(disk / "filler");
   // It would look by itself within a minute.
   station.signal(SIGHUP);

@@ -29,5 +29,19 @@ TEST(Log, StaysWhenItsLevelIsSet) {
   EXPECT_THAT(logged(log_info, "line"), testing::EndsWith(" info: line\n"));
 }
 
+/// What came back after it was over was never told again.
+TEST(LastingLines, AreNewsOnceForAsLongAsTheyLast) {
+  using testing::ElementsAre;
+  using testing::IsEmpty;
+  LastingLines lines;
+  EXPECT_THAT(lines.news({"late", "tilted"}), ElementsAre("late", "tilted"));
+  EXPECT_THAT(lines.news({"tilted", "dark", "late"}), ElementsAre("dark"));
+  EXPECT_THAT(lines.news({}), IsEmpty());
+  EXPECT_TRUE(lines.empty());
+  EXPECT_THAT(lines.news({"late"}), ElementsAre("late"));
+  lines.add("dark");
+  EXPECT_THAT(lines.news({"late", "dark"}), IsEmpty());
+}
+
 }  // namespace
 }  // namespace instep

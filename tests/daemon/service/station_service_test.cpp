@@ -11,8 +11,10 @@
 
 #include <array>
 #include <atomic>
+#include <condition_variable>
 #include <cstring>
 #include <future>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "daemon/control/control_client.h"
@@ -22,14 +24,44 @@
 
 namespace {
 
-/// A disk that stalls: what is written is durable only once it is set. Nothing = one that does not.
-std::atomic<std::promise<void>*> stalled = nullptr;
+/// A disk on which nothing that is written is durable while it stalls.
+class Disk {
+ public:
+  void stall() { set(true); }
+  void release() { set(false); }
+  /// Waits until so many threads wait for it; false if they do not come.
+  bool has_waiting(int threads) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(30), [&] { return waiting_ >= threads; });
+  }
+  void flush() {
+    std::unique_lock lock(mutex_);
+    ++waiting_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return !stalls_; });
+    --waiting_;
+  }
+
+ private:
+  void set(bool stalls) {
+    const std::lock_guard lock(mutex_);
+    stalls_ = stalls;
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stalls_ = false;
+  int waiting_ = 0;
+};
+
+Disk disk;
 
 }  // namespace
 
 /// In place of the C library's.
 extern "C" int fsync(int file) {
-  if (auto* const release = stalled.exchange(nullptr)) release->get_future().wait();
+  disk.flush();
   return static_cast<int>(::syscall(SYS_fsync, file));
 }
 
@@ -126,8 +158,8 @@ class MeasuringService : public testing::Test {
     ::setenv("WATCHDOG_USEC", std::to_string(limit.count()).c_str(), 1);
   }
 
-  /// Runs the service and begins a scan; returns once it measures.
-  void begin(MeasureCapture measure) {
+  /// Runs the service.
+  void start(MeasureCapture measure) {
     const auto settings = small_station(folder_.path());
     running_ = std::async(std::launch::async, [this, settings, measure] {
       service_thread_ = ::pthread_self();
@@ -135,15 +167,18 @@ class MeasuringService : public testing::Test {
           settings, [settings] { return Result<Settings>(settings); },
           [this, measure](const Capture& capture, const PipelineSettings& pipeline,
                           const ScanProgress& progress) {
-            measuring_.set_value();
+            if (!measures_.exchange(true)) measuring_.set_value();
             return measure(capture, pipeline, progress);
           });
       ended_.set_value(service ? (*service)->run() : tl::make_unexpected(service.error()));
     });
+  }
+
+  /// And begins a scan; returns once it measures.
+  void begin(MeasureCapture measure) {
+    start(std::move(measure));
     ASSERT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
-    auto client = ControlClient::connect(folder_.path() / "control.sock");
-    ASSERT_TRUE(client);
-    ASSERT_TRUE(client->ask("scan"));
+    ASSERT_FALSE(ask("scan").is_null());
     ASSERT_EQ(measuring_.get_future().wait_for(kLong), std::future_status::ready);
   }
 
@@ -193,6 +228,7 @@ class MeasuringService : public testing::Test {
 
  private:
   std::promise<void> measuring_;
+  std::atomic<bool> measures_ = false;  ///< or has
   std::promise<Result<bool>> ended_;
   sigset_t signals_before_{};
   pthread_t service_thread_{};
@@ -249,33 +285,47 @@ TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenTheWorkHangsAndEndsWithinASe
 TEST_F(MeasuringService, FeedsTheWatchdogWhileTheDiskStallsWithAMeasuredScanInHand) {
   constexpr auto kPatient = 2000ms;
   set_watchdog(kPatient);
-  std::promise<void> release;
-  begin([&](const Capture&, const PipelineSettings&, const ScanProgress&) {
-    stalled = &release;
-    return one_foot();
-  });
-  ASSERT_TRUE(notifications_.wait_for("STATUS=storing", kLong));
+  begin_and_store();
+  const std::string last = ask("status")["last_result"];
+  disk.stall();
+  ASSERT_FALSE(ask("scan").is_null());
+  ASSERT_TRUE(disk.has_waiting(1)) << "with the scan";
+  const auto deleted = std::async(std::launch::async, [&] { return ask("delete", last); });
+  ASSERT_TRUE(disk.has_waiting(2)) << "with the archive too";
+  notifications_.forget();
   for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient)) << i;
-  release.set_value();
+  disk.release();
   EXPECT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+  deleted.wait();
   EXPECT_EQ(end(), true);
   EXPECT_TRUE(stored_anything());
+}
+
+/// It was killed again and again before it could say what is wrong.
+TEST_F(MeasuringService, IsReadyAndFedThoughTheDiskOfItsResultsHangsFromTheStart) {
+  constexpr auto kPatient = 2000ms;
+  set_watchdog(kPatient);
+  disk.stall();
+  start([](const Capture&, const PipelineSettings&, const ScanProgress&) { return one_foot(); });
+  EXPECT_TRUE(notifications_.wait_for("READY=1", kLong));
+  ASSERT_TRUE(disk.has_waiting(1));
+  for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient)) << i;
+  disk.release();
+  EXPECT_EQ(ask("list")["scans"].size(), 0U);
+  EXPECT_EQ(end(), true);
 }
 
 /// A look at the store that waited behind it passed for the one that takes so long.
 TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenADeletionHangsThoughALookWaits) {
   begin_and_store();
   const std::string last = ask("status")["last_result"];
-  std::promise<void> release;
-  stalled = &release;
+  disk.stall();
   const auto deleted = std::async(std::launch::async, [&] { return ask("delete", last); });
-  const auto deadline = steady_clock::now() + kLong;
-  while (stalled.load() != nullptr && steady_clock::now() < deadline) ::poll(nullptr, 0, 5);
-  EXPECT_EQ(stalled.load(), nullptr);
+  EXPECT_TRUE(disk.has_waiting(1));
   reload();  // which looks at once
   EXPECT_TRUE(notifications_.wait_for("READY=1", kLong));
   EXPECT_TRUE(leaves_the_watchdog_hungry());
-  release.set_value();
+  disk.release();
   deleted.wait();
   EXPECT_EQ(end(), true);
 }

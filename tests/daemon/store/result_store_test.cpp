@@ -52,6 +52,19 @@ TEST_F(ResultStoreOnDisk, LaysAResultInTheFolderOfItsDayForTheGroupToRead) {
   }
 }
 
+/// One that is only slow passed for one that hangs.
+TEST_F(ResultStoreOnDisk, TellsOfEachDayThatItReads) {
+  put("20261102T000000000Z-aaaa");
+  put("20261103T000000000Z-aaaa");
+  put("20261103T000000000Z-bbbb");
+  int days = 0;
+  EXPECT_EQ(store.list([&] { ++days; })->size(), 3U);
+  EXPECT_EQ(days, 2);
+  const auto now = std::chrono::system_clock::now();
+  store.sweep({.keep_days = 0, .keep_count = 9}, now, always, [&] { ++days; });
+  EXPECT_EQ(days, 4);
+}
+
 TEST_F(ResultStoreOnDisk, ListsNewestFirstAndFindsTheLatest) {
   put("20251231T235959999Z-aaaa");
   put("20261121T091502417Z-k3f9");
