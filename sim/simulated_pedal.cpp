@@ -2,8 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/epoll.h>
-#include <sys/eventfd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,6 +18,10 @@ using namespace std::chrono_literals;
 
 constexpr nanoseconds kTapTime = 100ms;
 constexpr std::size_t kLongestLine = 64;
+/// Of one call: lines that come without end must not keep their reader for ever.
+constexpr int kMostReads = 8;
+/// Before more lines are read.
+constexpr std::size_t kMostEdges = 256;
 
 nanoseconds now() {
   return std::chrono::duration_cast<nanoseconds>(
@@ -54,30 +56,20 @@ Result<std::unique_ptr<SimulatedPedal>> SimulatedPedal::open(const Settings& set
 }
 
 SimulatedPedal::~SimulatedPedal() {
-  for (const int descriptor : {poll_descriptor_, event_descriptor_, fifo_descriptor_}) {
-    if (descriptor >= 0) close(descriptor);
-  }
   remove_if_same(settings_.fifo, made_fifo_);
 }
 
 Result<void> SimulatedPedal::open_descriptors() {
-  poll_descriptor_ = epoll_create1(EPOLL_CLOEXEC);
-  event_descriptor_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  if (poll_descriptor_ < 0 || event_descriptor_ < 0) {
+  if (!waiting_.is_open() || !unread_.is_open()) {
     return system_failure("the simulated pedal cannot be made", "raise the limit of open files");
   }
   if (!settings_.fifo.empty()) {
     if (auto opened = open_fifo(); !opened) return opened;
   }
-  for (const int descriptor : {event_descriptor_, fifo_descriptor_}) {
-    if (descriptor < 0) continue;
-    epoll_event interest{};
-    interest.events = EPOLLIN;
-    if (epoll_ctl(poll_descriptor_, EPOLL_CTL_ADD, descriptor, &interest) != 0) {
-      return system_failure("the simulated pedal cannot be watched", "look at the system's log");
-    }
-  }
-  return {};
+  const bool is_watched =
+      waiting_.add(unread_.descriptor()) && (!fifo_.is_open() || waiting_.add(fifo_.number()));
+  if (is_watched) return {};
+  return system_failure("the simulated pedal cannot be watched", "look at the system's log");
 }
 
 Result<void> SimulatedPedal::open_fifo() {
@@ -87,17 +79,17 @@ Result<void> SimulatedPedal::open_fifo() {
   const bool made = mkfifo(name.c_str(), kMode) == 0;
   if (!made && errno != EEXIST) return system_failure("cannot make the FIFO " + name, advice);
   // Open for writing as well: the FIFO then never reports its last writer's leaving.
-  fifo_descriptor_ = ::open(name.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-  if (fifo_descriptor_ < 0) return system_failure("cannot open the FIFO " + name, advice);
+  fifo_ = Descriptor(::open(name.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+  if (!fifo_.is_open()) return system_failure("cannot open the FIFO " + name, advice);
   struct stat status {};
-  if (fstat(fifo_descriptor_, &status) != 0 || !S_ISFIFO(status.st_mode)) {
+  if (fstat(fifo_.number(), &status) != 0 || !S_ISFIFO(status.st_mode)) {
     return fail(ErrorCode::kInvalidInput, name + " is there, but is no FIFO",
                 "delete it, and it is made anew as one; or " + advice);
   }
   if (!made) return {};
-  made_fifo_ = FileIdentity::of(fifo_descriptor_);
+  made_fifo_ = FileIdentity::of(fifo_.number());
   // What the umask took away of the group's right to press is given back.
-  if (fchmod(fifo_descriptor_, kMode) != 0) {
+  if (fchmod(fifo_.number(), kMode) != 0) {
     return system_failure("cannot give the group its right to " + name, advice);
   }
   return {};
@@ -107,7 +99,7 @@ Result<std::vector<PedalEdge>> SimulatedPedal::read_edges() {
   const std::lock_guard lock(mutex_);
   read_fifo();
   if (gone_) return fail(ErrorCode::kDeviceGone, "the pedal left", "plug it in again");
-  drain_wakes();
+  unread_.clear();
   return std::exchange(edges_, {});
 }
 
@@ -125,7 +117,7 @@ Result<void> SimulatedPedal::reopen() {
   gone_ = false;
   pressed_ = settings_.faults.stuck;
   edges_.clear();
-  drain_wakes();
+  unread_.clear();
   return {};
 }
 
@@ -148,7 +140,7 @@ void SimulatedPedal::unplug() {
   const std::lock_guard lock(mutex_);
   gone_ = true;
   return_time_.reset();
-  wake();
+  unread_.set();
 }
 
 void SimulatedPedal::plug_in() {
@@ -157,10 +149,11 @@ void SimulatedPedal::plug_in() {
 }
 
 void SimulatedPedal::read_fifo() {
-  if (fifo_descriptor_ < 0) return;
+  if (!fifo_.is_open()) return;
   std::array<char, 512> bytes;
-  ssize_t count = 0;
-  while ((count = read(fifo_descriptor_, bytes.data(), bytes.size())) > 0) {
+  for (int reads = 0; reads < kMostReads && edges_.size() < kMostEdges; ++reads) {
+    const ssize_t count = read(fifo_.number(), bytes.data(), bytes.size());
+    if (count <= 0) return;
     for (const char byte : std::string_view(bytes.data(), static_cast<std::size_t>(count))) {
       if (byte != '\n') {
         if (unfinished_line_.size() < kLongestLine) unfinished_line_ += byte;
@@ -208,19 +201,7 @@ void SimulatedPedal::move_contact(bool pressed, nanoseconds time) {
     gone_ = true;
     if (absence->duration) return_time_ = now() + nanoseconds(*absence->duration);
   }
-  wake();
-}
-
-void SimulatedPedal::wake() const {
-  const std::uint64_t one = 1;
-  // Fails only when the counter is full, and then the descriptor is readable anyway.
-  if (write(event_descriptor_, &one, sizeof one) < 0) return;
-}
-
-void SimulatedPedal::drain_wakes() const {
-  std::uint64_t wakes = 0;
-  // Fails only when none wait.
-  if (read(event_descriptor_, &wakes, sizeof wakes) < 0) return;
+  unread_.set();
 }
 
 bool SimulatedPedal::is_back() const {

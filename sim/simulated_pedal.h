@@ -6,7 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "drivers/files/descriptor.h"
 #include "drivers/files/file_identity.h"
+#include "drivers/files/poll_set.h"
+#include "drivers/files/wake_up.h"
 #include "drivers/pedal.h"
 #include "sim/fault_script.h"
 
@@ -36,11 +39,12 @@ class SimulatedPedal final : public Pedal {
   /// something else has its name.
   static Result<std::unique_ptr<SimulatedPedal>> open(const Settings& settings);
 
+  /// Removes its FIFO.
   ~SimulatedPedal() override;
   SimulatedPedal(const SimulatedPedal&) = delete;
   SimulatedPedal& operator=(const SimulatedPedal&) = delete;
 
-  int descriptor() const override { return poll_descriptor_; }
+  int descriptor() const override { return waiting_.descriptor(); }
   Result<std::vector<PedalEdge>> read_edges() override;
   Result<bool> is_pressed() override;
   Result<void> reopen() override;
@@ -60,14 +64,12 @@ class SimulatedPedal final : public Pedal {
   void move_contact(bool pressed, std::chrono::nanoseconds time);
   void chatter(bool pressed, std::chrono::nanoseconds until, const PedalFaults& faults);
   void tap_with(const PedalFaults& faults);
-  void wake() const;
-  void drain_wakes() const;
   bool is_back() const;
 
   Settings settings_;
-  int poll_descriptor_ = -1;  ///< readable when either of the two below is
-  int event_descriptor_ = -1;
-  int fifo_descriptor_ = -1;
+  WakeUp unread_;  ///< set where edges_ holds some, or the pedal left
+  Descriptor fifo_;
+  PollSet waiting_;                        ///< for both
   std::optional<FileIdentity> made_fifo_;  ///< nothing if it was there
   std::string unfinished_line_;
 

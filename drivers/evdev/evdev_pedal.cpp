@@ -1,7 +1,6 @@
 #include "drivers/evdev/evdev_pedal.h"
 
 #include <libevdev/libevdev.h>
-#include <sys/epoll.h>
 
 #include <cerrno>
 #include <cstring>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "drivers/evdev/input_device.h"
+#include "drivers/files/poll_set.h"
 #include "drivers/files/wake_up.h"
 
 namespace instep {
@@ -28,7 +28,7 @@ PedalEdge edge_of(const input_event& event) {
 struct EvdevPedal::Connection {
   std::unique_ptr<InputDevice> device;
   /// A device that is gone only hangs up; this becomes readable then.
-  Descriptor waiting{epoll_create1(EPOLL_CLOEXEC)};
+  PollSet waiting;
   /// Set where a call left events: those that libevdev holds do not make the device readable.
   WakeUp unread;
   const int unopened = waiting.is_open() && unread.is_open() ? 0 : errno;
@@ -41,13 +41,7 @@ struct EvdevPedal::Connection {
     if (unopened != 0) return unopened;
     const int failed = libevdev_set_clock_id(device->get(), CLOCK_MONOTONIC);
     if (failed < 0) return -failed;
-    return wait_for(device->descriptor()) && wait_for(unread.descriptor()) ? 0 : errno;
-  }
-
-  bool wait_for(int descriptor) const {
-    epoll_event interest{};
-    interest.events = EPOLLIN;
-    return epoll_ctl(waiting.number(), EPOLL_CTL_ADD, descriptor, &interest) == 0;
+    return waiting.add(device->descriptor()) && waiting.add(unread.descriptor()) ? 0 : errno;
   }
 };
 
@@ -69,7 +63,7 @@ Result<std::unique_ptr<EvdevPedal>> EvdevPedal::open(const Settings& settings) {
 }
 
 int EvdevPedal::descriptor() const {
-  return connection_ ? connection_->waiting.number() : -1;
+  return connection_ ? connection_->waiting.descriptor() : -1;
 }
 
 Result<void> EvdevPedal::connect() {

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <gpiod.h>
-#include <sys/epoll.h>
 #include <sys/inotify.h>
 
 #include <array>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "drivers/files/descriptor.h"
+#include "drivers/files/poll_set.h"
 
 namespace instep {
 namespace {
@@ -42,7 +42,7 @@ PedalEdge edge_of(const gpiod_line_event& event) {
 struct GpioPedal::Connection {
   GpioLine line;
   Descriptor nodes{inotify_init1(IN_NONBLOCK | IN_CLOEXEC)};
-  Descriptor waiting{epoll_create1(EPOLL_CLOEXEC)};
+  PollSet waiting;
   const int unopened = nodes.is_open() && waiting.is_open() ? 0 : errno;
   int edges = -1;  ///< owned by the line
 
@@ -54,14 +54,8 @@ struct GpioPedal::Connection {
     edges = gpiod_line_event_get_fd(line.get());
     const bool ready = fcntl(edges, F_SETFL, O_NONBLOCK) == 0 &&
                        inotify_add_watch(nodes.number(), devices.c_str(), IN_DELETE) >= 0 &&
-                       wait_for(nodes.number()) && wait_for(edges);
+                       waiting.add(nodes.number()) && waiting.add(edges);
     return ready ? 0 : errno;
-  }
-
-  bool wait_for(int descriptor) const {
-    epoll_event interest{};
-    interest.events = EPOLLIN;
-    return epoll_ctl(waiting.number(), EPOLL_CTL_ADD, descriptor, &interest) == 0;
   }
 
   /// Whether a device node went since the last call.
@@ -91,7 +85,7 @@ Result<std::unique_ptr<GpioPedal>> GpioPedal::open(const Settings& settings) {
 }
 
 int GpioPedal::descriptor() const {
-  return connection_ ? connection_->waiting.number() : -1;
+  return connection_ ? connection_->waiting.descriptor() : -1;
 }
 
 Result<void> GpioPedal::connect() {

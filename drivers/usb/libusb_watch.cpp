@@ -1,7 +1,6 @@
 #include "drivers/usb/libusb_watch.h"
 
 #include <libusb-1.0/libusb.h>
-#include <sys/epoll.h>
 
 #include <array>
 #include <cerrno>
@@ -13,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "drivers/files/descriptor.h"
+#include "drivers/files/poll_set.h"
 
 namespace instep {
 namespace {
@@ -52,7 +51,8 @@ std::optional<UsbDevice> describe(const std::string& name) {
 
 class LibusbWatch final : public UsbWatch {
  public:
-  LibusbWatch(Context context, int waiting) : context_(std::move(context)), waiting_(waiting) {}
+  LibusbWatch(Context context, PollSet waiting)
+      : context_(std::move(context)), waiting_(std::move(waiting)) {}
 
   Result<void> begin() {
     if (const auto waiting = wait_for_all(); !waiting) return waiting;
@@ -65,7 +65,7 @@ class LibusbWatch final : public UsbWatch {
                 std::string("USB cannot be watched: ") + libusb_strerror(failed), "start udevd");
   }
 
-  int descriptor() const override { return waiting_.number(); }
+  int descriptor() const override { return waiting_.descriptor(); }
 
   std::vector<UsbChange> changes() override {
     timeval at_once{0, 0};
@@ -90,9 +90,8 @@ class LibusbWatch final : public UsbWatch {
     }
     int failed = 0;
     for (const libusb_pollfd** one = waits; *one != nullptr && failed == 0; ++one) {
-      epoll_event event{};
-      event.events = static_cast<std::uint32_t>((*one)->events);
-      if (::epoll_ctl(waiting_.number(), EPOLL_CTL_ADD, (*one)->fd, &event) != 0) failed = errno;
+      const auto events = static_cast<std::uint32_t>((*one)->events);
+      if (!waiting_.add((*one)->fd, events)) failed = errno;
     }
     libusb_free_pollfds(waits);
     if (failed == 0) return {};
@@ -112,7 +111,7 @@ class LibusbWatch final : public UsbWatch {
   }
 
   Context context_;
-  Descriptor waiting_;  ///< an epoll over all that libusb waits for
+  PollSet waiting_;  ///< all that libusb waits for
   std::vector<std::pair<std::string, bool>> events_;
   std::map<std::string, UsbDevice> known_;
 };
@@ -143,12 +142,12 @@ Result<void> reset(libusb_device* device, const UsbDevice& description) {
 Result<std::unique_ptr<UsbWatch>> open_libusb_watch() {
   auto context = open_context();
   if (!context) return tl::make_unexpected(context.error());
-  const int waiting = ::epoll_create1(EPOLL_CLOEXEC);
-  if (waiting < 0) {
+  PollSet waiting;
+  if (!waiting.is_open()) {
     return fail(ErrorCode::kIo, std::string("USB cannot be watched: ") + std::strerror(errno),
                 "check the limit on open files");
   }
-  auto watch = std::make_unique<LibusbWatch>(std::move(*context), waiting);
+  auto watch = std::make_unique<LibusbWatch>(std::move(*context), std::move(waiting));
   if (const auto begun = watch->begin(); !begun) return tl::make_unexpected(begun.error());
   return watch;
 }
