@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <climits>
-#include <cstdlib>
 #include <optional>
 #include <thread>
 
@@ -47,17 +45,6 @@ std::string library_folder() {
   return known ? folder.data() : "/proc/self/exe";
 }
 
-/// The number of a sensor on its bus grows with each plugging in: the last one that came is most
-/// likely the one that is missed, and to try those in use takes seconds.
-void sort_newest_first(std::vector<OpenniDevice>& places) {
-  const auto number = [](const OpenniDevice& place) {
-    const auto digits = place.uri.find_last_not_of("0123456789") + 1;
-    return std::atol(place.uri.substr(digits, 9).c_str());
-  };
-  std::stable_sort(places.begin(), places.end(),
-                   [&](const auto& a, const auto& b) { return number(a) > number(b); });
-}
-
 }  // namespace
 
 Result<SearchTurn> SearchTurn::wait() {
@@ -79,14 +66,13 @@ Result<SearchTurn> SearchTurn::wait() {
 }
 
 Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial) {
-  auto places = plugged_in_sensors();
+  const auto places = plugged_in_sensors();
   if (serial.empty() && places.size() > 1) {
     return fail(ErrorCode::kInvalidInput,
                 fmt::format("there are {} OpenNI2 sensors, and it is not said which one is meant",
                             places.size()),
                 "give the serial number that instep devices shows");
   }
-  sort_newest_first(places);
   std::unique_ptr<DepthSensor> found;
   std::vector<std::string> others;
   std::optional<Error> first_trouble;
