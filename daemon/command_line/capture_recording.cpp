@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/station/camera_start.h"
 #include "daemon/station/frame_tally.h"
 #include "drivers/recording/recording_writer.h"
 
@@ -14,6 +15,8 @@ namespace {
 /// Frames that are not good are passed over, but not for ever.
 constexpr int kMostBadFrames = 60;
 constexpr std::chrono::seconds kFrameLimit{2};
+/// Cameras have a limit of their own, which is shorter.
+constexpr std::chrono::seconds kStartLimit{20};
 
 using std::chrono::microseconds;
 
@@ -25,9 +28,12 @@ class CameraAtWork {
   CameraAtWork(const CameraAtWork&) = delete;
   CameraAtWork& operator=(const CameraAtWork&) = delete;
 
-  Result<void> start() {
-    const auto started = camera_.start();
-    return started ? started : tl::make_unexpected(named(started.error()));
+  Result<void> start(const RecordingProgress& progress) {
+    const auto deadline = std::chrono::steady_clock::now() + kStartLimit;
+    const auto started = start_by(camera_, deadline, [&] { return progress(0.0); });
+    if (started) return {};
+    const bool is_stopped = started.error().code == ErrorCode::kCancelled;
+    return tl::make_unexpected(is_stopped ? recording_stopped() : named(started.error()));
   }
 
   /// Takes the next frame, whatever it holds, for nothing but what it tells of the clock.
@@ -138,7 +144,7 @@ Result<void> record_together(const Cameras& cameras, FrameSink& sink, const Reco
                              const RecordingProgress& progress) {
   std::list<CameraAtWork> at_work;
   for (const auto& camera : cameras) {
-    if (auto good = at_work.emplace_back(*camera, plan).start(); !good) return good;
+    if (auto good = at_work.emplace_back(*camera, plan).start(progress); !good) return good;
   }
   for (int i = 0; i < plan.warmup_frames; ++i) {
     for (auto& camera : at_work) {
@@ -164,21 +170,21 @@ Result<void> record_together(const Cameras& cameras, FrameSink& sink, const Reco
 Result<void> record_in_turns(const Cameras& cameras, FrameSink& sink, const RecordingPlan& plan,
                              const RecordingProgress& progress) {
   double turns = 0.0;
-  const auto tell_of = [&](double turn) {
-    return tell(progress, (turns + turn) / static_cast<double>(cameras.size()));
+  const RecordingProgress of_turn = [&](double turn) {
+    return progress((turns + turn) / static_cast<double>(cameras.size()));
   };
   for (const auto& camera : cameras) {
     CameraAtWork at_work(*camera, plan);
-    if (auto good = at_work.start(); !good) return good;
+    if (auto good = at_work.start(of_turn); !good) return good;
     for (int i = 0; i < plan.warmup_frames; ++i) {
       if (auto good = at_work.warm_up(); !good) return good;
-      if (auto good = tell_of(0.0); !good) return good;
+      if (auto good = tell(of_turn, 0.0); !good) return good;
     }
     while (at_work.done() < 1.0) {
       auto frame = at_work.take_frame();
       if (!frame) return tl::make_unexpected(frame.error());
       if (auto good = sink.add({std::move(*frame)}); !good) return good;
-      if (auto good = tell_of(at_work.done()); !good) return good;
+      if (auto good = tell(of_turn, at_work.done()); !good) return good;
     }
     ++turns;
   }

@@ -15,6 +15,7 @@
 #include "core/go_on.h"
 #include "daemon/loop/caught.h"
 #include "daemon/loop/task_thread.h"
+#include "daemon/station/camera_start.h"
 
 namespace instep {
 namespace {
@@ -50,15 +51,15 @@ class ToldDescription {
 /// what the camera has learnt of itself at its start. `doing` as in caught().
 template <class Use>
 std::invoke_result_t<const Use&> with_stream(DepthCamera& camera, ToldDescription& description,
-                                             TaskProgress& progress, std::string_view doing,
-                                             const Use& use) {
+                                             std::string_view doing,
+                                             steady_clock::time_point start_deadline,
+                                             const GoOn& go_on, const Use& use) {
   auto outcome = caught(doing, [&] {
-    auto started = camera.start();
-    progress.step();
+    const auto started = start_by(camera, start_deadline, go_on);
     if (started) description.take(camera.description());
     return started.and_then(use);
   });
-  progress.step();
+  (void)go_on();
   const auto stopped = caught(doing, [&]() -> Result<void> {
     camera.stop();
     return {};
@@ -69,12 +70,10 @@ std::invoke_result_t<const Use&> with_stream(DepthCamera& camera, ToldDescriptio
 
 /// Takes as many good frames as are asked for from a started camera.
 Result<Frames> take_frames(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
-                           const std::atomic<bool>& cancelled, TaskProgress& progress) {
+                           const GoOn& go_on) {
   const auto next = [&]() -> Result<DepthFrame> {
-    if (cancelled) return fail(ErrorCode::kCancelled, "the capture was stopped", "");
-    auto frame = camera.next_frame(settings.frame_limit);
-    if (frame) progress.step();
-    return frame;
+    if (!go_on()) return cancelled();
+    return camera.next_frame(settings.frame_limit);
   };
   tally.begin_stream();
   for (int i = 0; i < settings.warmup_frames; ++i) {
@@ -110,7 +109,7 @@ Error without_frame(Error error) {
 
 /// Until a frame is sound, as a stream may begin with some that are not.
 Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettings& settings,
-                     CameraSet::ZeroFrames zero_frames, TaskProgress& progress) {
+                     CameraSet::ZeroFrames zero_frames, const GoOn& go_on) {
   const auto deadline = steady_clock::now() + settings.frame_limit;
   FrameFault fault = FrameFault::kNone;
   tally.begin_stream();
@@ -118,7 +117,7 @@ Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettin
     if (i > 0 && steady_clock::now() >= deadline) break;
     const auto frame = camera.next_frame(settings.frame_limit);
     if (!frame) return tl::make_unexpected(without_frame(frame.error()));
-    progress.step();
+    (void)go_on();
     fault = tally.count(*frame);
     // Nobody needs to stand there, and then there may be hardly anything to be seen.
     const bool nearly_empty = fault == FrameFault::kEmpty && !is_all_zero(*frame);
@@ -321,9 +320,13 @@ std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& 
       const bool has_turn = !settings.one_at_a_time || gathering->wait_for_turn(i, progress);
       // One that hung comes to this when nobody waits for its frames any more.
       if (!has_turn || gathering->cancelled) return gathering->bring(i, cancelled());
-      gathering->bring(i, with_stream(*camera, *description, progress, "the capture", [&] {
-                         return take_frames(*camera, *tally, settings, gathering->cancelled,
-                                            progress);
+      const auto go_on = [&] {
+        progress.step();
+        return !gathering->cancelled;
+      };
+      const auto deadline = steady_clock::now() + settings.deadline;
+      gathering->bring(i, with_stream(*camera, *description, "the capture", deadline, go_on, [&] {
+                         return take_frames(*camera, *tally, settings, go_on);
                        }));
     });
   }
@@ -368,9 +371,14 @@ void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
                          description = worker.description, tally = worker.tally,
                          id = worker.id](TaskProgress& progress) {
       const Report tell = look->begin();
-      const auto outcome = with_stream(*camera, *description, progress, "the look at it", [&] {
-        return look_at(*camera, *tally, settings, zero_frames, progress);
-      });
+      const auto go_on = [&] {
+        progress.step();
+        return true;
+      };
+      const auto deadline = steady_clock::now() + settings.frame_limit;
+      const auto outcome =
+          with_stream(*camera, *description, "the look at it", deadline, go_on,
+                      [&] { return look_at(*camera, *tally, settings, zero_frames, go_on); });
       outcome ? tell(i, {}) : tell(i, tl::make_unexpected(named_after_camera(id, outcome.error())));
     });
   }

@@ -49,10 +49,10 @@ class CameraSet {
   enum class ZeroFrames { kAreFaulty, kAreAsExpected };
 
   /// Looks whether each camera gives a frame that is no worse than those a scan drops, and reports
-  /// each on its thread, twice settings.frame_limit after its start at the latest. One that is not
-  /// done with what it was asked before is looked at when it is, which may be never: who asks has
-  /// to set a limit. It then reports to whoever asked last. The remedy of one that streams and
-  /// sends nothing is kReopen.
+  /// each on its thread, twice settings.frame_limit and a call of start() later at the latest. One
+  /// that is not done with what it was asked before is looked at when it is, which may be never:
+  /// who asks has to set a limit. It then reports to whoever asked last. The remedy of one that
+  /// streams and sends nothing is kReopen.
   using Report = std::function<void(std::size_t camera, Result<void> outcome)>;
   void check(const CaptureSettings& settings, ZeroFrames zero_frames, const Report& report);
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "daemon/station/camera_start.h"
+
 namespace instep {
 
 RecoveryLadder::Step RecoveryLadder::failed(const Error& error) {
   // What goes on by itself would only begin anew.
-  if (error.code == ErrorCode::kTimeout && error.remedy == Remedy::kRetry) return Step::kReopen;
+  if (is_on_its_way(error)) return Step::kReopen;
   // There is nothing to reset where nothing is plugged in, and no use in it where a person has to
   // change something.
   away_ = error.code == ErrorCode::kDeviceGone || error.code == ErrorCode::kNotFound;

@@ -125,10 +125,14 @@ Result<void> OpenniCamera::start() {
   return {};
 }
 
-/// It may be opening, or starting or stopping still, after an earlier call.
+/// It may be opening, starting or stopping still after an earlier call, or stream since one that
+/// gave up waiting for that.
 Result<void> OpenniCamera::bring_to_stream() {
+  if (child_->phase() == Phase::kStreaming) {
+    child_->drop_frames();
+    return {};
+  }
   const auto deadline = steady_clock::now() + kStartLimit;
-  if (child_->phase() == Phase::kStreaming) child_->stop();
   auto done = Result<void>();
   if (child_->phase() != Phase::kStarting) {
     done = child_->wait_for(Phase::kOpen, deadline, interrupt_)

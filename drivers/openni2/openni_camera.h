@@ -73,7 +73,7 @@ class OpenniCamera final : public DepthCamera {
   Settings settings_;
   CameraDescription description_;
   std::unique_ptr<OpenniChild> child_;  ///< none = has to be launched
-  std::optional<Error> dropped_for_;  ///< why the last child was; until a stream begins
+  std::optional<Error> dropped_for_;    ///< why the last child was; until a stream begins
   bool started_ = false;
   FrameNumbers numbers_;
   std::chrono::steady_clock::time_point last_host_time_{};

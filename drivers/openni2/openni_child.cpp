@@ -79,10 +79,14 @@ OpenniChild::~OpenniChild() {
 }
 
 void OpenniChild::start() {
-  ring_.clear();
-  arrival_->clear();
+  drop_frames();
   tell(kStartCommand);
   enter(Phase::kStarting);
+}
+
+void OpenniChild::drop_frames() {
+  ring_.clear();
+  arrival_->clear();
 }
 
 void OpenniChild::stop() {

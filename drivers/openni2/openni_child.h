@@ -45,8 +45,9 @@ class OpenniChild {
   bool is_well() const { return is_well_; }  ///< false once anything went wrong with it
   const CameraOpened& opened() const { return opened_; }  ///< once it has left Phase::kOpening
 
-  void start();  ///< in Phase::kOpen
-  void stop();   ///< in Phase::kStreaming
+  void start();        ///< in Phase::kOpen
+  void drop_frames();  ///< those that wait, in Phase::kStreaming
+  void stop();         ///< in Phase::kStreaming
 
   /// Fails with kTimeout if the phase has not come by `deadline`, kCancelled if `interrupt` is set,
   /// with what happened to the sensor, mostly kDeviceGone, and with kIo and Remedy::kReopen if the

@@ -20,6 +20,7 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::microseconds kPeriod{33333};
 constexpr std::chrono::microseconds kSlowPeriod{300000};
+constexpr std::chrono::milliseconds kSlowStart{1200};
 constexpr int kRegistrationShift_px = 4;
 constexpr std::uint16_t kLargestDepth_100um = 65534;
 constexpr std::uint16_t kLargestDepth_mm = 10000;
@@ -52,6 +53,7 @@ class DepthStream final : public oni::driver::StreamBase {
 
   OniStatus start() override {
     if (plug_->has("hang-start")) hang();
+    if (plug_->has("slow-start")) std::this_thread::sleep_for(kSlowStart);
     if (store_.is_empty() || !plug_->is_in()) return ONI_STATUS_ERROR;
     stopping_ = false;
     thread_ = std::thread([this] { run(); });

@@ -6,7 +6,7 @@
 //     corrupt         values beyond the sensor's      short     a third of the data is missing
 //     wrong-size      half the width                  overheat  the device says that it is too hot
 //     crash           ends the process (abort)        busy      cannot be opened
-//     slow-open       takes 50 ms to open
+//     slow-open       takes 50 ms to open             slow-start  takes 1.2 s to begin its stream
 //     hang-open, hang-start, hang-stop                never come back
 //     keep-mirror, keep-holes, keep-mode, keep-registration
 //                     takes the setting, but does not do it

@@ -111,4 +111,17 @@ class ScriptedCamera : public DepthCamera {
   bool released_ = false;
 };
 
+/// One whose start takes longer than a call may, and goes on by itself.
+class SlowToStart final : public ScriptedCamera {
+ public:
+  SlowToStart(const std::string& id, int calls) : ScriptedCamera(id, {}), calls_(calls) {}
+  Result<void> start() override {
+    if (--calls_ > 0) return fail(ErrorCode::kTimeout, "it is still starting", "wait a moment");
+    return ScriptedCamera::start();
+  }
+
+ private:
+  int calls_;  ///< until it streams
+};
+
 }  // namespace instep::test

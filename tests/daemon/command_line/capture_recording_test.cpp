@@ -76,6 +76,24 @@ Cameras two_cameras(const std::deque<Step>& script_of_second) {
   return cameras;
 }
 
+/// It could never be recorded, though it only needed to be asked again.
+TEST(CaptureRecording, WaitsForACameraThatIsSlowToStartUnlessItIsStopped) {
+  const test::TemporaryFolder folder;
+  for (const auto turns : {CameraTurns::kTogether, CameraTurns::kOneAtATime}) {
+    Cameras cameras;
+    cameras.push_back(std::make_unique<test::SlowToStart>("slow", 4));
+    const RecordingPlan plan = {.length = {2, {}}, .turns = turns};
+    const auto stopped = capture_recording(cameras, {}, plan, folder.path() / "stopped",
+                                           [](double) { return false; });
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().message, recording_stopped().message);
+    const auto to = folder.path() / (turns == CameraTurns::kTogether ? "together" : "in turns");
+    const auto recording = capture_recording(cameras, {}, plan, to, go_on);
+    ASSERT_TRUE(recording) << recording.error().line();
+    EXPECT_EQ(recording->frames.size(), 2U);
+  }
+}
+
 TEST(CaptureRecording, LeavesOutTheFramesThatAScanLeavesOut) {
   const test::TemporaryFolder folder;
   const auto cameras = two_cameras(

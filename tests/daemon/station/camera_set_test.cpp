@@ -320,6 +320,15 @@ TEST(CameraSet, ReportsEachCameraWhenChecked) {
   EXPECT_EQ(reports.of(1), "camera right: it left");
 }
 
+TEST(CameraSet, WaitsForACameraThatIsSlowToStart) {
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  all.push_back(std::make_unique<test::SlowToStart>("slow", 3));
+  CameraSet set(std::move(all));
+  Reports reports(1);
+  set.check(without_end(), CameraSet::ZeroFrames::kAreFaulty, reports.taker());
+  EXPECT_EQ(reports.of(0), "");
+}
+
 /// One that was away when it was made.
 class LateCamera final : public ScriptedCamera {
  public:

@@ -229,6 +229,18 @@ TEST_F(OpenniFault, HungStartIsATimeoutAndThenANewProcess) {
   EXPECT_TRUE(camera->next_frame(kLong));
 }
 
+/// It was stopped for having begun while nobody waited, and started anew, again and again.
+TEST_F(OpenniFault, AStartThatTookTooLongServesTheNextCall) {
+  bus_.plug_in({.faults = {"slow-start"}});
+  const auto camera = bus_.camera();
+  const Result<void> started = camera->start();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error().code, ErrorCode::kTimeout);
+  std::this_thread::sleep_for(500ms);  // it streams by now
+  ASSERT_TRUE(camera->start());
+  EXPECT_TRUE(camera->next_frame(kLong));
+}
+
 TEST_F(OpenniFault, AnInterruptEndsAStart) {
   bus_.plug_in({.faults = {"hang-start"}});
   const auto camera = bus_.camera();
