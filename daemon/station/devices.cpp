@@ -110,7 +110,13 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
   return {};
 }
 
-Result<void> add_openni(const OpenniSettings& chosen, Devices& devices) {
+using Cameras = std::vector<std::unique_ptr<DepthCamera>>;
+
+Result<std::unique_ptr<DepthCamera>> open_openni(const OpenniSettings& chosen, Cameras& kept) {
+  const auto open_still = std::find_if(kept.begin(), kept.end(), [&](const auto& camera) {
+    return camera && camera->description().geometry.id == chosen.placement.name;
+  });
+  if (open_still != kept.end()) return std::move(*open_still);
   OpenniCamera::Settings settings;
   settings.name = chosen.placement.name;
   settings.serial = chosen.serial;
@@ -123,6 +129,13 @@ Result<void> add_openni(const OpenniSettings& chosen, Devices& devices) {
     error.message = "camera " + chosen.placement.name + ": " + error.message;
     return tl::make_unexpected(error);
   }
+  return std::move(*camera);
+}
+
+/// `kept`: those that are open still.
+Result<void> add_openni(const OpenniSettings& chosen, Cameras& kept, Devices& devices) {
+  auto camera = open_openni(chosen, kept);
+  if (!camera) return tl::make_unexpected(camera.error());
   devices.simulated = devices.simulated || (*camera)->description().simulated;
   if (const auto usb = usb_address_of(chosen, {})) devices.usb[chosen.placement.name] = *usb;
   devices.cameras.push_back(std::move(*camera));
@@ -178,6 +191,46 @@ Error with_waiting(Error trouble, const Devices& devices) {
   }
   if (!names.empty()) trouble.message += " (no fault so far: " + names + ")";
   return trouble;
+}
+
+/// Leaves in `kept` those that it could open, if it fails, for the next time.
+Result<Devices> open_all(Cameras& kept, const Settings& settings) {
+  Devices devices;
+  std::optional<Error> trouble;
+  for (const auto& camera : settings.cameras) {
+    Result<void> added;
+    switch (camera.kind) {
+      case CameraKind::kSimulated:
+        added = add_simulated(settings.simulation, devices);
+        break;
+      case CameraKind::kRecording:
+        added = add_recording(camera.path, devices);
+        break;
+      case CameraKind::kOpenni:
+        added = add_openni(camera.openni, kept, devices);
+        break;
+      case CameraKind::kV4l2:
+        added = add_v4l2(camera.v4l2, devices);
+        break;
+    }
+    if (camera.placement() != nullptr) devices.calibration = source_of_poses(settings);
+    if (added) continue;
+    // One that is away does not hide what is wrong with another.
+    if (trouble) {
+      trouble->message += "; " + added.error().message;
+    } else {
+      trouble = added.error();
+    }
+  }
+  if (trouble) {
+    const Error error = with_waiting(*trouble, devices);
+    kept = std::move(devices.cameras);
+    return tl::make_unexpected(error);
+  }
+  if (const auto distinct = check_names(devices); !distinct) {
+    return tl::make_unexpected(distinct.error());
+  }
+  return devices;
 }
 
 GpioBias bias_of(PedalBias bias) {
@@ -249,38 +302,13 @@ std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
 }
 
 Result<Devices> open_devices(const Settings& settings) {
-  Devices devices;
-  std::optional<Error> trouble;
-  for (const auto& camera : settings.cameras) {
-    Result<void> added;
-    switch (camera.kind) {
-      case CameraKind::kSimulated:
-        added = add_simulated(settings.simulation, devices);
-        break;
-      case CameraKind::kRecording:
-        added = add_recording(camera.path, devices);
-        break;
-      case CameraKind::kOpenni:
-        added = add_openni(camera.openni, devices);
-        break;
-      case CameraKind::kV4l2:
-        added = add_v4l2(camera.v4l2, devices);
-        break;
-    }
-    if (camera.placement() != nullptr) devices.calibration = source_of_poses(settings);
-    if (added) continue;
-    // One that is away does not hide what is wrong with another.
-    if (trouble) {
-      trouble->message += "; " + added.error().message;
-    } else {
-      trouble = added.error();
-    }
-  }
-  if (trouble) return tl::make_unexpected(with_waiting(*trouble, devices));
-  if (const auto distinct = check_names(devices); !distinct) {
-    return tl::make_unexpected(distinct.error());
-  }
-  return devices;
+  return open_devices_at_last()(settings);
+}
+
+OpenDevices open_devices_at_last() {
+  return [kept = std::make_shared<Cameras>()](const Settings& settings) {
+    return open_all(*kept, settings);
+  };
 }
 
 Result<void> check_fault_script(const Settings& settings) {

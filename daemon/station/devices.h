@@ -40,6 +40,11 @@ std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodie
 /// camera that is away at boot may come.
 Result<Devices> open_devices(const Settings& settings);
 
+/// The same for whoever tries again until all are there: OpenNI2 sensors that it could open stay
+/// open from a call that failed to the next. For one thread at a time.
+using OpenDevices = std::function<Result<Devices>(const Settings&)>;
+OpenDevices open_devices_at_last();
+
 /// z of the standing surface, by the settings or else as the cameras' source says it. Asked anew
 /// for each scan: the settings may take theirs back while the devices stay open.
 std::optional<double> platform_height_mm(const Settings& settings, const Devices& devices);

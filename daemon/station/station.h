@@ -39,16 +39,14 @@ struct StationListener {
   std::function<void()> on_left;  ///< after shut_down(): nothing runs any more
 };
 
-/// open_devices() of devices.h, or what a test puts in its place; called on the scan's thread.
-using OpenDevices = std::function<Result<Devices>(const Settings&)>;
-
 /// The station at work: joins the state machine to the cameras, the pedal, the scan's thread and
 /// the store. Lives on the loop's thread, on which all calls are made; none of them waits.
 class Station {
  public:
+  /// `open` is called on the scan's thread.
   Station(EventLoop& loop, Settings settings, MeasureCapture measure,
           std::shared_ptr<ResultStore> store, StationListener listener,
-          OpenDevices open = open_devices);
+          OpenDevices open = open_devices_at_last());
   ~Station();
 
   /// Opens the devices; on_change tells how that goes.

@@ -123,6 +123,26 @@ TEST(OpenniStation, StartsWithoutItsCamerasAndSurvivesTheirCrashes) {
   EXPECT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
 }
 
+/// They were all opened and closed again every two seconds for as long as one was away.
+TEST(OpenniStation, KeepsItsOtherSensorsOpenWhileOneIsMissing) {
+  OpenniBus bus;
+  OpenniStation sensors(bus, small_station(), 3);
+  bus.unplug(sensors.serial(1));
+  StationProcess station;
+  station.write_settings(sensors.camera_tables() + kSmallCapture);
+  station.start();
+  ASSERT_TRUE(station.wait_for("is not plugged in", kLong)) << station.log();
+  const auto open = child_processes(station.process());
+  sensors.plug_in(1);
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0) << station.log();
+  const auto all = child_processes(station.process());
+  EXPECT_EQ(all.size(), sensors.size());
+  EXPECT_EQ(std::count_if(
+                all.begin(), all.end(),
+                [&](pid_t one) { return std::find(open.begin(), open.end(), one) != open.end(); }),
+            2);
+}
+
 TEST(OpenniStation, TakesTheSetOnceMoreWhenAProcessDiesInMidScan) {
   OpenniBus bus;
   const OpenniStation sensors(bus, small_station(), 3);
