@@ -21,7 +21,7 @@ struct CameraDescription {
 /// decides nothing: whether to retry, reopen or give up is the daemon's business.
 ///
 /// One thread owns a camera and makes all calls, but interrupt(), which any thread may make. No
-/// call blocks longer than its limit, or than 1 s where it has none.
+/// call blocks longer than its limit, or where it has none than 2 s, unless its backend says so.
 class DepthCamera {
  public:
   virtual ~DepthCamera() = default;

@@ -16,7 +16,8 @@ namespace instep {
 std::vector<std::string> new_scan_ids(std::chrono::system_clock::time_point time,
                                       std::size_t count);
 
-/// True for what new_scan_ids() makes, and for nothing else; an id that passes is safe in a path.
+/// True for what has the form of those that new_scan_ids() makes, though there may be no such date
+/// or time of day; an id that passes is safe in a path.
 bool is_scan_id(std::string_view id);
 
 /// YYYY/MM/DD of an id for which is_scan_id() holds: where its result lies under the store's root.

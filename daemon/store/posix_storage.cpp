@@ -27,6 +27,11 @@ auto uninterrupted(Call call) {
   return outcome;
 }
 
+Descriptor open_to_read(const std::filesystem::path& path, int flags) {
+  return Descriptor(
+      uninterrupted([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags); }));
+}
+
 /// With what lies in a folder.
 tl::unexpected<Error> failed(const std::string& doing, const std::filesystem::path& path) {
   return tl::make_unexpected(storage_error(errno, doing, path, path.parent_path()));
@@ -146,7 +151,7 @@ Result<void> PosixStorage::remove_folder(const std::filesystem::path& path) {
 }
 
 Result<void> PosixStorage::sync_folder(const std::filesystem::path& path) {
-  const Descriptor folder(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor folder = open_to_read(path, O_DIRECTORY);
   if (!folder.is_open()) return folder_failed("open", path);
   if (uninterrupted([&] { return ::fsync(folder.number()); }) != 0)
     return folder_failed("flush", path);
@@ -161,7 +166,7 @@ Result<void> PosixStorage::check_writing(const std::filesystem::path& path) {
 Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
   const std::lock_guard lock(mutex_);
   held_ = Descriptor();  // else what it locked itself would look like another's
-  held_ = Descriptor(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  held_ = open_to_read(path, O_DIRECTORY);
   is_shared_ = false;
   if (!held_.is_open()) return folder_failed("open", path);
   was_held_ = true;
@@ -179,7 +184,7 @@ void PosixStorage::share_hold() {
 Result<void> PosixStorage::keep_hold(const std::filesystem::path& path) {
   const std::lock_guard lock(mutex_);
   if (!was_held_) return {};
-  const Descriptor there(::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  const Descriptor there = open_to_read(path, O_PATH | O_DIRECTORY);
   const bool is_gone = !there.is_open() && (errno == ENOENT || errno == ENOTDIR);
   if (!there.is_open() && !is_gone) return folder_failed("open", path);
   if (is_gone || !held_.is_open() ||
@@ -230,7 +235,7 @@ Result<std::vector<Storage::Entry>> PosixStorage::list(const std::filesystem::pa
 
 Result<std::string> PosixStorage::read(const std::filesystem::path& path, std::size_t most) {
   // A pipe would let its reader wait for ever.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  const Descriptor file = open_to_read(path, O_NOFOLLOW | O_NONBLOCK);
   if (!file.is_open()) return failed("read", path);
   struct stat there {};
   if (::fstat(file.number(), &there) != 0) return failed("read", path);

@@ -10,7 +10,7 @@
 namespace instep {
 
 /// The text of recording.json for `recording`; its folder plays no part. Reading it back gives the
-/// same values, bit by bit.
+/// same numbers, bit by bit, and the same texts, but for bytes that are no UTF-8.
 std::string recording_to_json(const Recording& recording);
 
 /// The inverse, with all the checks of read_recording(). `file` is used in messages, and its folder
