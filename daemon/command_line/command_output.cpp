@@ -10,8 +10,8 @@
 #include <string>
 #include <system_error>
 
+#include "daemon/json/untrusted_json.h"
 #include "daemon/report/csv_report.h"
-#include "daemon/report/json_fields.h"
 
 namespace instep {
 namespace {

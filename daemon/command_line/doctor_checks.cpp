@@ -19,9 +19,9 @@
 #include "daemon/build_facts.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/machine/device_checks.h"
 #include "daemon/machine/folder_rights.h"
-#include "daemon/report/json_fields.h"
 #include "daemon/station/devices.h"
 #include "drivers/files/file_bytes.h"
 

@@ -9,10 +9,10 @@
 #include "daemon/command_line/commands.h"
 #include "daemon/command_line/file_ending.h"
 #include "daemon/command_line/own_input.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/repeat/repeat_report.h"
 #include "daemon/repeat/repeat_study.h"
 #include "daemon/repeat/repeat_svg.h"
-#include "daemon/report/json_fields.h"
 #include "drivers/files/file_bytes.h"
 
 namespace instep {

@@ -12,7 +12,7 @@
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/report/pair_report.h"
 #include "daemon/scan/recorded_capture.h"
 #include "daemon/scan/scan_pipeline.h"

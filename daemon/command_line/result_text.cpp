@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/report/sizes_report.h"
 
 namespace instep {

@@ -15,7 +15,7 @@
 #include "daemon/command_line/status_text.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/report/pair_report.h"
 #include "drivers/files/file_bytes.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 
 namespace instep {
 namespace {

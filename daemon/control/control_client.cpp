@@ -14,7 +14,7 @@
 
 #include "daemon/control/protocol.h"
 #include "daemon/control/unix_socket.h"
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 
 namespace instep {
 namespace {

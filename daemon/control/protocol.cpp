@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error_names.h"
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/report/json_number.h"
 
 namespace instep {

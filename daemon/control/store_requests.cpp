@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/scan/scan_id.h"
 
 namespace instep {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 
 namespace instep {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 
 namespace instep {
 namespace {

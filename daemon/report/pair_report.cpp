@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 #include "daemon/report/sizes_report.h"
 
 namespace instep {

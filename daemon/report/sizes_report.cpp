@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 
 namespace instep {
 namespace {

@@ -1,4 +1,4 @@
-#include "daemon/report/json_fields.h"
+#include "daemon/json/untrusted_json.h"
 
 namespace instep {
 namespace {
