@@ -125,6 +125,16 @@ Result<std::vector<SubjectTruth>> subjects_truth(const Scene& scene) {
   return truths;
 }
 
+std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies) {
+  std::map<std::string, double> truth;
+  for (const auto& body : bodies) {
+    const bool apart = bodies.size() > 1 && body.side;
+    const std::string prefix = apart ? std::string(to_string(*body.side)) + "_" : "";
+    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
+  }
+  return truth;
+}
+
 Result<SimulatedStation> build_station(const SimulationSettings& settings) {
   LayoutSettings layout;
   layout.cameras = settings.cameras;

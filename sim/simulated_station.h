@@ -51,6 +51,10 @@ struct SimulatedStation {
 /// two a foot, so ask only when it is wanted.
 Result<std::vector<SubjectTruth>> subjects_truth(const Scene& scene);
 
+/// The same as one list, as a recording and Capture::truth hold it: two feet are told apart by
+/// their side before each id.
+std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies);
+
 /// Builds it. The same settings give the same feet, frames and truth. Fails with kInvalidInput on
 /// settings out of range or a fault script that cannot be read. Cost: about a second on two cores
 /// for four cameras and one foot.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "daemon/station/camera_errors.h"
 #include "daemon/station/camera_start.h"
 #include "daemon/station/frame_tally.h"
 #include "drivers/recording/recording_writer.h"

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "daemon/station/station.h"
+#include "daemon/station/station_status.h"
+#include "daemon/store/stored_result.h"
 
 namespace instep {
 

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "daemon/station/camera_errors.h"
+
 namespace instep {
 namespace {
 

@@ -15,6 +15,7 @@
 #include "core/go_on.h"
 #include "daemon/loop/caught.h"
 #include "daemon/loop/task_thread.h"
+#include "daemon/station/camera_errors.h"
 #include "daemon/station/camera_start.h"
 
 namespace instep {
@@ -153,11 +154,6 @@ class CaptureFaults {
 };
 
 }  // namespace
-
-Error silent_camera(const std::string& camera) {
-  return {ErrorCode::kTimeout, Remedy::kReopen, "camera " + camera + " does not answer",
-          "unplug it and plug it in again; if that does not help, restart instepd"};
-}
 
 /// Who is told of the next look at a camera; nobody if none waits.
 struct CameraSet::Look {

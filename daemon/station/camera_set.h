@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "config/settings.h"
@@ -15,9 +14,6 @@
 #include "drivers/depth_camera.h"
 
 namespace instep {
-
-/// What is wrong with a camera that neither gives a frame nor fails.
-Error silent_camera(const std::string& camera);
 
 /// The cameras of the station, each on a thread of its own, so that one that hangs holds up neither
 /// the others nor the daemon. All calls may be made from any thread; none but capture() waits.

@@ -279,16 +279,6 @@ OpenedPedal open_simulated_pedal(const Settings& settings) {
 
 }  // namespace
 
-std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies) {
-  std::map<std::string, double> truth;
-  for (const auto& body : bodies) {
-    const bool apart = bodies.size() > 1 && body.side;
-    const std::string prefix = apart ? std::string(to_string(*body.side)) + "_" : "";
-    for (const auto& [id, value] : body.measures) truth[prefix + id] = value;
-  }
-  return truth;
-}
-
 std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
                                          const DeviceFolders& folders) {
   if (sensor.serial.empty()) return std::nullopt;

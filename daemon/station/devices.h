@@ -14,7 +14,6 @@
 #include "drivers/pedal.h"
 #include "drivers/usb/usb_device.h"
 #include "drivers/v4l2/video_nodes.h"
-#include "sim/simulated_station.h"
 
 namespace instep {
 
@@ -29,10 +28,6 @@ struct Devices {
   /// nobody waits. Needs nothing of these devices, which may be gone by then.
   std::function<Result<std::map<std::string, double>>()> work_out_truth;
 };
-
-/// The true measures of what stands there, as Capture::truth holds them: two feet are told apart by
-/// their side before each id.
-std::map<std::string, double> truth_by_id(const std::vector<SubjectTruth>& bodies);
 
 /// The one place that knows the camera families: a new one is a new case here. May take some
 /// seconds (a simulated station builds its foot). Fails with what the family says, of each

@@ -40,14 +40,6 @@ Error bad_frames_only(FrameFault last) {
           "check its cable, and that it has a USB controller of its own"};
 }
 
-Error named_after_camera(const std::string& camera, Error error) {
-  const std::string name = "camera " + camera;
-  const bool is_named =
-      error.message.starts_with(name + " ") || error.message.starts_with(name + ":");
-  if (!is_named) error.message = name + ": " + error.message;
-  return error;
-}
-
 void FrameTally::begin_stream() {
   const std::lock_guard lock(mutex_);
   last_sequence_.reset();

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
-#include <string>
 
 #include "core/fusion/depth_frame.h"
 #include "core/result.h"
@@ -21,9 +20,6 @@ enum class FrameFault {
 
 /// Why a camera is given up that has sent faulty frames only; `last`: what was wrong with the last.
 Error bad_frames_only(FrameFault last);
-
-/// The error of a camera, with its name, unless it begins with that already.
-Error named_after_camera(const std::string& camera, Error error);
 
 /// The frames of a camera since the daemon began.
 struct FrameCounts {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <future>
 #include <map>
@@ -19,19 +18,13 @@
 #include "daemon/station/capture_remarks.h"
 #include "daemon/station/devices.h"
 #include "daemon/store/result_store.h"
+#include "daemon/store/stored_result.h"
 
 namespace instep {
 
 /// measure_capture() of scan_pipeline.h, or what a test puts in its place.
 using MeasureCapture = std::function<Result<std::vector<ScanRecord>>(
     const Capture&, const PipelineSettings&, const ScanProgress&)>;
-
-/// A result that is on disk.
-struct StoredResult {
-  std::string id;
-  std::filesystem::path folder;
-  Side side = Side::kRight;
-};
 
 /// What a scan works with. Shared, so that a scan that hangs can be left behind.
 struct ScanTools {
