@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -62,9 +61,9 @@ Result<void> send_all(int descriptor, std::string_view text, steady_clock::time_
 }  // namespace
 
 Result<ControlClient> ControlClient::connect(const std::filesystem::path& socket) {
-  const auto descriptor = connect_unix_socket(socket);
-  if (descriptor) return ControlClient(*descriptor);
-  const bool is_not_found = descriptor.error().code == ErrorCode::kNotFound;
+  auto connected = connect_unix_socket(socket);
+  if (connected) return ControlClient(std::move(*connected));
+  const bool is_not_found = connected.error().code == ErrorCode::kNotFound;
   if (is_not_found && has_lost_listener(socket)) {
     return fail(ErrorCode::kDeviceGone, Remedy::kOperator,
                 "the daemon runs, but its socket " + socket.string() + " was removed",
@@ -74,25 +73,19 @@ Result<ControlClient> ControlClient::connect(const std::filesystem::path& socket
     return fail(ErrorCode::kNotFound, "no daemon answers on " + socket.string(),
                 "start it with: sudo systemctl start instepd (or run instepd)");
   }
-  if (descriptor.error().code == ErrorCode::kPermissionDenied) {
+  if (connected.error().code == ErrorCode::kPermissionDenied) {
     return fail(ErrorCode::kPermissionDenied,
                 "you may not talk to the daemon on " + socket.string(),
                 "join its group: sudo usermod -aG instep $USER, then log in again");
   }
-  return tl::make_unexpected(descriptor.error());
+  return tl::make_unexpected(connected.error());
 }
-
-ControlClient::~ControlClient() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-ControlClient::ControlClient(ControlClient&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), input_(std::move(other.input_)) {}
 
 std::optional<uid_t> ControlClient::daemon_user() const {
   ucred peer{};
   socklen_t size = sizeof(peer);
-  if (::getsockopt(descriptor_, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
+  if (::getsockopt(socket_.number(), SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0)
+    return std::nullopt;
   return peer.uid;
 }
 
@@ -103,7 +96,7 @@ Result<nlohmann::json> ControlClient::ask(const std::string& verb, const std::st
   if (!id.empty()) request["id"] = id;
   const std::string line =
       request.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  if (const auto sent = send_all(descriptor_, line, deadline); !sent) {
+  if (const auto sent = send_all(socket_.number(), line, deadline); !sent) {
     return tl::make_unexpected(sent.error());
   }
   while (true) {
@@ -129,11 +122,11 @@ Result<nlohmann::json> ControlClient::next(milliseconds limit) {
       return tl::make_unexpected(answer_not_understood());
     }
     looked_at = input_.size();
-    if (const auto ready = wait_until(deadline, descriptor_, POLLIN); !ready) {
+    if (const auto ready = wait_until(deadline, socket_.number(), POLLIN); !ready) {
       return tl::make_unexpected(ready.error());
     }
     std::array<char, 65536> block;
-    const auto got = ::recv(descriptor_, block.data(), block.size(), 0);
+    const auto got = ::recv(socket_.number(), block.data(), block.size(), 0);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return ended();
     input_.append(block.data(), static_cast<std::size_t>(got));

@@ -7,8 +7,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/result.h"
+#include "drivers/files/descriptor.h"
 
 namespace instep {
 
@@ -18,9 +20,6 @@ class ControlClient {
   /// Fails with kNotFound, saying how to start it, if no daemon answers on the socket, and with
   /// kTimeout if one hangs.
   static Result<ControlClient> connect(const std::filesystem::path& socket);
-  ~ControlClient();
-  ControlClient(ControlClient&& other) noexcept;
-  ControlClient& operator=(ControlClient&&) = delete;
 
   /// Sends {"verb", "id"} and returns the answer; events that come before it are passed over. An
   /// answer that is an error is returned as that error. Fails like next() too; then connect again,
@@ -36,9 +35,9 @@ class ControlClient {
   std::optional<uid_t> daemon_user() const;
 
  private:
-  explicit ControlClient(int descriptor) : descriptor_(descriptor) {}
+  explicit ControlClient(Descriptor socket) : socket_(std::move(socket)) {}
 
-  int descriptor_ = -1;
+  Descriptor socket_;
   std::string input_;
 };
 

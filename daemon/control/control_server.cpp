@@ -2,7 +2,6 @@
 
 #include <sys/epoll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -26,17 +25,13 @@ Error too_many() {
 }
 
 /// Tells a client that has no place, as far as it can be told without waiting.
-void turn_away(int descriptor, const Error& reason) {
+void turn_away(const Descriptor& client, const Error& reason) {
   const std::string line = error_answer(reason) + "\n";
-  [[maybe_unused]] const auto sent = ::send(descriptor, line.data(), line.size(), MSG_NOSIGNAL);
+  [[maybe_unused]] const auto sent =
+      ::send(client.number(), line.data(), line.size(), MSG_NOSIGNAL);
 }
 
 }  // namespace
-
-ControlServer::Connection::~Connection() {
-  watch = {};
-  if (descriptor >= 0) ::close(descriptor);
-}
 
 bool ControlServer::Connection::is_done() const {
   return is_read_out && !has_open_request && !watches && output.empty();
@@ -75,27 +70,27 @@ ControlServer::~ControlServer() {
 }
 
 void ControlServer::accept() {
-  const int descriptor =
-      ::accept4(socket_->descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (descriptor < 0 && is_exhausted(errno)) {
+  Descriptor accepted(
+      ::accept4(socket_->descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+  if (!accepted.is_open() && is_exhausted(errno)) {
     // Who waits to be let in keeps waking the loop, which could not let them in at once.
     watch_.set_events(0);
     listen_again_.set(kPauseOfListening);
   }
-  if (descriptor < 0) return;
+  if (!accepted.is_open()) return;
   auto connection = std::make_shared<Connection>();
-  connection->descriptor = descriptor;
+  connection->socket = std::move(accepted);
   const bool has_place = connections_.size() < kMostClients || make_place();
-  if (!has_place) return turn_away(descriptor, too_many());
+  if (!has_place) return turn_away(connection->socket, too_many());
   take_up(std::move(connection));
 }
 
 void ControlServer::take_up(std::shared_ptr<Connection> connection) {
   const Client client = next_client_++;
   connection->last_heard = ++heard_;
-  auto watching = loop_.watch(connection->descriptor, EPOLLIN,
+  auto watching = loop_.watch(connection->socket.number(), EPOLLIN,
                               [this, client](std::uint32_t events) { ready(client, events); });
-  if (!watching) return turn_away(connection->descriptor, watching.error());
+  if (!watching) return turn_away(connection->socket, watching.error());
   connection->watch = std::move(*watching);
   connections_.emplace(client, std::move(connection));
 }
@@ -113,7 +108,7 @@ bool ControlServer::make_place() {
     }
   }
   if (quietest == connections_.end()) return false;
-  turn_away(quietest->second->descriptor, too_many());
+  turn_away(quietest->second->socket, too_many());
   connections_.erase(quietest);
   return true;
 }
@@ -133,7 +128,7 @@ void ControlServer::ready(Client client, std::uint32_t events) {
 
 bool ControlServer::read(Connection& connection) {
   std::array<char, kLongestRequest> block;
-  const auto got = ::recv(connection.descriptor, block.data(), block.size(), 0);
+  const auto got = ::recv(connection.socket.number(), block.data(), block.size(), 0);
   if (got < 0) return errno == EAGAIN || errno == EINTR;
   connection.last_heard = ++heard_;
   connection.is_read_out = got == 0;
@@ -188,7 +183,7 @@ void ControlServer::send(Client client, const std::string& line) {
 bool ControlServer::flush(Connection& connection) {
   std::size_t done = 0;
   while (done < connection.output.size()) {
-    const auto sent = ::send(connection.descriptor, connection.output.data() + done,
+    const auto sent = ::send(connection.socket.number(), connection.output.data() + done,
                              connection.output.size() - done, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0 && errno != EAGAIN) return false;

@@ -13,6 +13,7 @@
 #include "daemon/control/protocol.h"
 #include "daemon/control/unix_socket.h"
 #include "daemon/loop/event_loop.h"
+#include "drivers/files/descriptor.h"
 
 namespace instep {
 
@@ -52,8 +53,8 @@ class ControlServer {
 
  private:
   struct Connection {
-    int descriptor = -1;
-    EventLoop::Watch watch;
+    Descriptor socket;
+    EventLoop::Watch watch;  ///< of the socket, which it does not outlive
     std::string input;
     std::string output;
     bool has_open_request = false;
@@ -61,7 +62,6 @@ class ControlServer {
     bool is_read_out = false;  ///< it has shut down its writing side
     bool watches = false;
     std::uint64_t last_heard = 0;  ///< grows with each word of any client
-    ~Connection();
 
     /// It asked its last, and was told all that it asked.
     bool is_done() const;

@@ -84,18 +84,17 @@ tl::unexpected<Error> taken(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<int> connect_unix_socket(const std::filesystem::path& path,
-                                std::chrono::microseconds limit) {
+Result<Descriptor> connect_unix_socket(const std::filesystem::path& path,
+                                       std::chrono::microseconds limit) {
   const auto address = address_of(path);
   if (!address) return tl::make_unexpected(address.error());
-  const int descriptor = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) return failed("making a socket for", path);
+  Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  if (!socket.is_open()) return failed("making a socket for", path);
   // Where more wait than a listener takes, as before a daemon that hangs, connecting waits too.
   const timeval longest{limit.count() / 1000000, limit.count() % 1000000};
-  ::setsockopt(descriptor, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);
-  if (::connect(descriptor, generic(*address), sizeof *address) == 0) return descriptor;
+  ::setsockopt(socket.number(), SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);
+  if (::connect(socket.number(), generic(*address), sizeof *address) == 0) return socket;
   const int reason = errno;
-  ::close(descriptor);
   if (reason == EAGAIN) {
     return fail(ErrorCode::kTimeout, "what listens on " + path.string() + " takes no connection",
                 kIfItHangs);
@@ -159,7 +158,6 @@ Result<void> ListeningSocket::make_way() const {
   if (::lstat(path_.c_str(), &there) != 0) return {};
   if (!S_ISSOCK(there.st_mode)) return no_socket(path_);
   const auto other = connect_unix_socket(path_, kLookWhether);
-  if (other) ::close(*other);
   if (other || other.error().code == ErrorCode::kTimeout) return taken(path_);
   ::unlink(path_.c_str());
   return {};

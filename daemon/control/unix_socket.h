@@ -11,12 +11,11 @@
 
 namespace instep {
 
-/// A Unix stream socket connected to `path`, close-on-exec; the caller closes it. Fails with
-/// kNotFound if nobody listens there, kTimeout if who does takes no connection within `limit`
-/// (above 0; nor may a later write wait longer), kInvalidInput if something else is there,
-/// kPermissionDenied, or kIo.
-Result<int> connect_unix_socket(const std::filesystem::path& path,
-                                std::chrono::microseconds limit = std::chrono::seconds(10));
+/// A Unix stream socket connected to `path`, close-on-exec. Fails with kNotFound if nobody listens
+/// there, kTimeout if who does takes no connection within `limit` (above 0; nor may a later write
+/// wait longer), kInvalidInput if something else is there, kPermissionDenied, or kIo.
+Result<Descriptor> connect_unix_socket(const std::filesystem::path& path,
+                                       std::chrono::microseconds limit = std::chrono::seconds(10));
 
 /// What helps against a daemon that does not answer: to start one that runs does nothing.
 inline constexpr const char* kIfItHangs =

@@ -14,8 +14,6 @@
 #include <cstring>
 #include <system_error>
 
-#include "drivers/files/descriptor.h"
-
 namespace instep {
 namespace {
 
@@ -151,28 +149,28 @@ Result<ChildProcess> ChildProcess::start(const ChildProgram& program) {
       ::posix_spawn(&id, program.file.c_str(), surroundings.actions(), surroundings.attributes(),
                     pointers_to(words).data(), pointers_to(variables).data());
   if (failure != 0) return tl::make_unexpected(start_error(failure, program));
-  const int descriptor = static_cast<int>(::syscall(SYS_pidfd_open, id, 0));
+  Descriptor end(static_cast<int>(::syscall(SYS_pidfd_open, id, 0)));
   const int why_not = errno;
-  ChildProcess child(id, descriptor);
-  if (descriptor < 0) return tl::make_unexpected(start_error(why_not, program));
+  const bool is_watched = end.is_open();
+  ChildProcess child(id, std::move(end));
+  if (!is_watched) return tl::make_unexpected(start_error(why_not, program));
   return child;
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
-    : id_(std::exchange(other.id_, -1)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : id_(std::exchange(other.id_, -1)), end_(std::move(other.end_)) {}
 
 ChildProcess::~ChildProcess() {
   if (id_ > 0) {
     ::kill(id_, SIGKILL);
     wait(kReapingLimit);
   }
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::optional<std::string> ChildProcess::wait(std::chrono::milliseconds limit) {
   if (id_ <= 0) return "has ended";
   // Readable, it has ended, and waiting for it does not block but for the kernel's last touch.
-  const int how = is_readable(descriptor_, limit) ? 0 : WNOHANG;
+  const int how = is_readable(end_.number(), limit) ? 0 : WNOHANG;
   int status = 0;
   pid_t reaped = -1;
   do {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "drivers/files/descriptor.h"
 
 namespace instep {
 
@@ -46,10 +47,10 @@ class ChildProcess {
   std::optional<std::string> wait(std::chrono::milliseconds limit);
 
  private:
-  ChildProcess(pid_t id, int descriptor) : id_(id), descriptor_(descriptor) {}
+  ChildProcess(pid_t id, Descriptor end) : id_(id), end_(std::move(end)) {}
 
-  pid_t id_ = -1;        ///< -1 once it was reaped
-  int descriptor_ = -1;  ///< becomes readable at its end
+  pid_t id_ = -1;   ///< -1 once it was reaped
+  Descriptor end_;  ///< becomes readable then
 };
 
 }  // namespace instep

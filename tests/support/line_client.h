@@ -2,7 +2,6 @@
 
 #include <sys/socket.h>
 #include <sys/time.h>
-#include <unistd.h>
 
 #include <array>
 #include <filesystem>
@@ -17,21 +16,18 @@ namespace instep::test {
 class LineClient {
  public:
   explicit LineClient(const std::filesystem::path& socket)
-      : descriptor_(connect_unix_socket(socket).value()) {
+      : socket_(connect_unix_socket(socket).value()) {
     const timeval limit{30, 0};
-    ::setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
-    ::setsockopt(descriptor_, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+    ::setsockopt(socket_.number(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+    ::setsockopt(socket_.number(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
   }
-  ~LineClient() { ::close(descriptor_); }
-  LineClient(const LineClient&) = delete;
-  LineClient& operator=(const LineClient&) = delete;
 
   /// False if the daemon has gone.
   bool send(const std::string& bytes) const {
-    return ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+    return ::send(socket_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
            static_cast<ssize_t>(bytes.size());
   }
-  void shut_down_writing() const { ::shutdown(descriptor_, SHUT_WR); }
+  void shut_down_writing() const { ::shutdown(socket_.number(), SHUT_WR); }
 
   /// The next line without its end; nothing once the daemon has ended the connection.
   std::optional<std::string> line() {
@@ -42,14 +38,14 @@ class LineClient {
         return found;
       }
       std::array<char, 65536> block;
-      const auto got = ::recv(descriptor_, block.data(), block.size(), 0);
+      const auto got = ::recv(socket_.number(), block.data(), block.size(), 0);
       if (got <= 0) return std::nullopt;
       input_.append(block.data(), static_cast<std::size_t>(got));
     }
   }
 
  private:
-  int descriptor_;
+  Descriptor socket_;
   std::string input_;
 };
 

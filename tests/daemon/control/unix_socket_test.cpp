@@ -41,7 +41,6 @@ TEST_F(UnixSocket, IsReachedByItsGroupAndLeavesNothingBehind) {
     ASSERT_TRUE(socket) << socket.error().line();
     const auto client = connect_unix_socket(path_);
     ASSERT_TRUE(client) << client.error().line();
-    ::close(*client);
     struct stat status {};
     ASSERT_EQ(::stat(path_.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 0777, 0660U);
@@ -95,7 +94,6 @@ TEST_F(UnixSocket, OfManyThatOpenItAtOnceOneHasIt) {
     ASSERT_EQ(open, 1U);
     const auto client = connect_unix_socket(path_);
     ASSERT_TRUE(client) << "the one that is open is the one that has the name";
-    ::close(*client);
   }
 }
 
@@ -139,10 +137,10 @@ class HangingListener {
 TEST_F(UnixSocket, DoesNotWaitForEverForOneThatTakesNoConnection) {
   const HangingListener hanging(path_);
   std::deque<Descriptor> waiting;
-  Result<int> reached = 0;
+  Result<Descriptor> reached;
   for (int client = 0; client < 10 && reached; ++client) {
     reached = connect_unix_socket(path_, std::chrono::milliseconds(20));
-    if (reached) waiting.emplace_back(*reached);
+    if (reached) waiting.push_back(std::move(*reached));
   }
   ASSERT_FALSE(reached);
   EXPECT_EQ(reached.error().code, ErrorCode::kTimeout);
