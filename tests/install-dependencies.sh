@@ -13,6 +13,7 @@ packages=(
   libgpiod-dev libevdev-dev
   libusb-1.0-0-dev
   libgtest-dev libgmock-dev
+  clang-format-14  # of the test that sources are laid out by .clang-format
   qemu-system-x86 busybox-static cpio kmod make libelf1 udev xz-utils systemd  # of the tests against a real kernel
   librsvg2-bin  # a program, not a library: prints a report as PDF
 )

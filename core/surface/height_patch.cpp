@@ -58,9 +58,8 @@ constexpr double kEven = 1e-10;
 /// Whether all points within the radius are.
 bool are_exact(const std::vector<OrientedPoint>& points, double radius) {
   const double spacing = spacing_within(radius, points.size());
-  return std::all_of(points.begin(), points.end(), [&](const OrientedPoint& point) {
-    return is_harmless(point, spacing);
-  });
+  return std::all_of(points.begin(), points.end(),
+                     [&](const OrientedPoint& point) { return is_harmless(point, spacing); });
 }
 
 /// Rows: round the body, along it, where distances count for less the more it is bent round, and

@@ -19,8 +19,8 @@ std::optional<LengthUnit> length_unit_from_string(std::string_view text);
 double millimetres_in(LengthUnit unit);
 
 /// The unit in which a body of this extent (its longest side without strays, in file units, finite
-/// and not negative) is to be read. A given unit is kept unless it makes the body smaller than 2 mm or
-/// larger than 20 m: then it fails with kInvalidInput and names the unit to ask for. kAuto takes
+/// and not negative) is to be read. A given unit is kept unless it makes the body smaller than 2 mm
+/// or larger than 20 m: then it fails with kInvalidInput and names the unit to ask for. kAuto takes
 /// the unit in which the body is foot-like, 100 to 1000 mm, and fails if there is none.
 Result<LengthUnit> settle_unit(LengthUnit unit, double extent, const std::string& file);
 

@@ -41,10 +41,10 @@ class V4l2Camera final : public DepthCamera {
   };
 
   /// Does not touch the device, which may come later; one that is told by its socket alone has no
-  /// serial number until its first start() then. What is told of a camera holds for its life: start() takes no other
-  /// unit that comes into the socket, and fails with kUnsupported. Fails with kInvalidInput if the
-  /// depth unit, the intrinsics or the address is absent or cannot be right, kIo if the process has
-  /// no descriptor left.
+  /// serial number until its first start() then. What is told of a camera holds for its life:
+  /// start() takes no other unit that comes into the socket, and fails with kUnsupported. Fails
+  /// with kInvalidInput if the depth unit, the intrinsics or the address is absent or cannot be
+  /// right, kIo if the process has no descriptor left.
   static Result<std::unique_ptr<V4l2Camera>> create(Settings settings,
                                                     VideoSystem& system = linux_video_system());
 

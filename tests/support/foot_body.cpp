@@ -58,8 +58,8 @@ PointCloud FootBody::points() const {
       const double angle = 2.0 * std::numbers::pi * i / count;
       const double side = std::cos(angle);
       const double up = std::sin(angle);
-      const double z = kWidestHeightMm + (up > 0.0 ? rise * std::pow(up, 0.9)
-                                                   : -fall * std::pow(-up, 0.5));
+      const double z =
+          kWidestHeightMm + (up > 0.0 ? rise * std::pow(up, 0.9) : -fall * std::pow(-up, 0.5));
       if (z <= kCutMm) cloud.positions.emplace_back(x, side * (side > 0 ? medial : lateral), z);
     }
   }

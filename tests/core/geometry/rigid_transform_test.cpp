@@ -17,7 +17,9 @@ Matrix4d some_pose() {
   return pose.matrix();
 }
 
-TEST(RigidTransform, TakesARotationWithAShift) { EXPECT_TRUE(is_rigid(some_pose())); }
+TEST(RigidTransform, TakesARotationWithAShift) {
+  EXPECT_TRUE(is_rigid(some_pose()));
+}
 
 TEST(RigidTransform, RefusesScaleMirrorShearAndNaN) {
   Matrix4d scaled = some_pose();
