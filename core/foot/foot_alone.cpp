@@ -40,7 +40,7 @@ Result<void> check_beside(const StandingBody& body) {
               "move them apart and scan again, or give the points of one foot alone");
 }
 
-void leave_out_strays(FootAlone& foot) {
+void leave_strays_out_of(FootAlone& foot) {
   const LeftOutStrays left_out = leave_out_strays(foot.cloud);
   if (left_out.any_clump) {
     foot.warnings.emplace_back(
@@ -129,7 +129,7 @@ Result<FootAlone> foot_alone(const PointCloud& cloud, bool is_told, bool is_one_
   FootAlone foot;
   // Files of triangles name a corner once for each face.
   foot.cloud = cloud.subset(distinct_points(cloud));
-  leave_out_strays(foot);
+  leave_strays_out_of(foot);
   if (auto checked = check_count(foot.cloud); !checked) return tl::unexpected(checked.error());
   if (!is_told) {
     leave_out_leg(is_one_foot, foot);

@@ -34,50 +34,57 @@ bool take_out(const std::vector<bool>& strays, PointCloud& cloud) {
   return any;
 }
 
-/// Those that `strays_in` finds, and clumps.
+/// Whether there were any. Where a scanner's lines meet skin aslant the last of them are as far
+/// from all others.
+bool take_out_clumps(double spacing, PointCloud& cloud) {
+  const std::vector<bool> clumps = loose_clumps(cloud.positions, spacing);
+  if (std::find(clumps.begin(), clumps.end(), true) == clumps.end()) return false;
+  const auto lines = scanner_lines(cloud.positions);
+  return !(lines && lines->are_apart()) && take_out(clumps, cloud);
+}
+
+/// Of so many points.
+double share_out_of(std::size_t all, const PointCloud& cloud) {
+  return 1.0 - static_cast<double>(cloud.size()) / static_cast<double>(all);
+}
+
+/// Those that `strays_in` finds, and clumps. Whether there were any of these.
 template <class Finder>
-LeftOutStrays take_out(PointCloud& cloud, const Finder& strays_in) {
-  LeftOutStrays left_out;
+bool take_out_found(const Finder& strays_in, PointCloud& cloud) {
   const PointIndex index(cloud.positions);
   const double spacing = usual_spacing(index, kSpacingSample);
-  if (!(spacing > 0.0)) return left_out;
+  if (!(spacing > 0.0)) return false;
   take_out(strays_in(index, spacing), cloud);
-  const std::vector<bool> clumps = loose_clumps(cloud.positions, spacing);
-  const bool any = std::find(clumps.begin(), clumps.end(), true) != clumps.end();
-  // Where a scanner's lines meet skin aslant the last of them are as far from all others.
-  if (any) {
-    const auto lines = scanner_lines(cloud.positions);
-    left_out.any_clump = !(lines && lines->are_apart()) && take_out(clumps, cloud);
-  }
-  const auto all = static_cast<double>(index.points().size());
-  left_out.share = 1.0 - static_cast<double>(cloud.size()) / all;
-  return left_out;
+  return take_out_clumps(spacing, cloud);
 }
 
 /// Haze first: in it no stray stands alone.
-LeftOutStrays take_out_all(PointCloud& cloud) {
-  if (cloud.positions.empty()) return {};
-  const auto all = static_cast<double>(cloud.size());
-  const auto share_out = [&] { return 1.0 - static_cast<double>(cloud.size()) / all; };
+LeftOutStrays hunted(PointCloud& cloud) {
+  const std::size_t all = cloud.size();
   take_out(haze_points(PointIndex(cloud.positions)), cloud);
-  LeftOutStrays left_out =
-      take_out(cloud, [&, haze = share_out()](const PointIndex& index, double spacing) {
-        return strays_among(index, spacing, {haze});
-      });
-  left_out.share = share_out();
-  return left_out;
+  const double haze = share_out_of(all, cloud);
+  const bool any_clump = take_out_found(
+      [&](const PointIndex& index, double spacing) { return strays_among(index, spacing, {haze}); },
+      cloud);
+  return {share_out_of(all, cloud), any_clump};
+}
+
+LeftOutStrays taken_out_alone(PointCloud& cloud) {
+  const std::size_t all = cloud.size();
+  const bool any_clump = take_out_found(stray_points, cloud);
+  return {share_out_of(all, cloud), any_clump};
 }
 
 }  // namespace
 
 LeftOutStrays leave_out_strays(PointCloud& cloud) {
-  if (!cloud.origins.empty()) return {};
-  if (cloud.size() <= kMostHunted) return take_out_all(cloud);
+  if (cloud.positions.empty() || !cloud.origins.empty()) return {};
+  if (cloud.size() <= kMostHunted) return hunted(cloud);
   auto some = some_by_place(cloud.positions, kMostHunted);
   std::sort(some.begin(), some.end());
   PointCloud sample = cloud.subset(some);
-  const LeftOutStrays of_some = take_out_all(sample);
-  if (of_some.share <= kMany) return take_out(cloud, stray_points);
+  const LeftOutStrays of_some = hunted(sample);
+  if (of_some.share <= kMany) return taken_out_alone(cloud);
   cloud = std::move(sample);
   return of_some;
 }
