@@ -130,17 +130,21 @@ std::optional<Place> turn_corner(BlendedSurface& surface, const Place& from, dou
   return Place{point, field->gradient.head<2>().normalized()};
 }
 
-}  // namespace
-
-std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vector2d& start,
-                                     double step, double reach, double longest) {
-  const auto first = correct(surface, start, 4.0 * step);
-  if (!first) return std::nullopt;
+/// As far as a line was followed.
+struct FollowedLine {
   Contour contour;
-  Place here = *first;
+  bool is_closed = false;
+};
+
+/// From a place on it, counter-clockwise round the body.
+FollowedLine follow(BlendedSurface& surface, const Place& first, double step, double reach,
+                    double longest) {
+  FollowedLine line;
+  Contour& contour = line.contour;
+  Place here = first;
   double way = 0.0;
   double bend = 0.0;
-  WayHome way_home(first->point, kBesideHome * step);
+  WayHome way_home(first.point, kBesideHome * step);
   double leeway = 0.0;  // so far the line may go before it can be too far from all points
   int corners = 0;
   const auto most = static_cast<std::size_t>(kMostSteps * longest / step);
@@ -157,7 +161,7 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
     if (!next && ++corners <= kMostCorners) {
       next = turn_corner(surface, here, kCreaseStep * step);
     }
-    if (!next) return std::nullopt;
+    if (!next) return line;
     const double length = (next->point - here.point).norm();
     const double turn = turn_between(here.outward, next->outward);
     bend = std::abs(turn) < kSmoothTurn ? turn / length : 0.0;
@@ -165,7 +169,7 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
     leeway -= length;
     if (leeway < 0.0) {
       leeway = reach - surface.distance_to_data({next->point.x(), next->point.y(), 0.0});
-      if (leeway < 0.0) return std::nullopt;
+      if (leeway < 0.0) return line;
     }
     const auto home = way_home.of_step(here.point, next->point);
     if (contour.points.size() > kFewestCorners && home != WayHome::Step::kElsewhere) {
@@ -173,11 +177,32 @@ std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vecto
         contour.points.pop_back();
         contour.outward.pop_back();
       }
-      return contour;
+      line.is_closed = true;
+      return line;
     }
     here = *next;
   }
-  return std::nullopt;
+  return line;
+}
+
+}  // namespace
+
+std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vector2d& start,
+                                     double step, double reach, double longest) {
+  const auto first = correct(surface, start, 4.0 * step);
+  if (!first) return std::nullopt;
+  auto line = follow(surface, *first, step, reach, longest);
+  if (!line.is_closed) return std::nullopt;
+  return std::move(line.contour);
+}
+
+std::optional<Contour> trace_open_line(BlendedSurface& surface, const Eigen::Vector2d& start,
+                                       double step, double reach, double longest) {
+  const auto first = correct(surface, start, 4.0 * step);
+  if (!first) return std::nullopt;
+  auto line = follow(surface, *first, step, reach, longest);
+  if (line.is_closed || line.contour.points.size() < kFewestCorners) return std::nullopt;
+  return std::move(line.contour);
 }
 
 }  // namespace instep

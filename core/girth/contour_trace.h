@@ -16,4 +16,10 @@ namespace instep {
 std::optional<Contour> trace_contour(BlendedSurface& surface, const Eigen::Vector2d& start,
                                      double step, double reach, double longest);
 
+/// The same from one end of a line that does not close: counter-clockwise round the body, to where
+/// it strays further than `reach` from all points or cannot be followed. Nothing if it closes, or
+/// ends after a few steps.
+std::optional<Contour> trace_open_line(BlendedSurface& surface, const Eigen::Vector2d& start,
+                                       double step, double reach, double longest);
+
 }  // namespace instep

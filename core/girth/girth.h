@@ -66,10 +66,12 @@ struct Girth {
 ///
 /// Refuses, with the reason, where no closed section can be told from the points: too few points
 /// (kInsufficientData), a plane that misses the cloud or runs along its edge (kInvalidInput). A
-/// section of which more than a quarter has no points is refused; a narrower hole is bridged by
-/// the surface and reported, as far as patches span it: a slit along the body that opens more than
-/// a tenth of the section mostly is refused as well. So is a section whose 95 % interval is wider
-/// than a tenth of it to each side, or that of its contact length than a fifth. Strays and loops
+/// hole is bridged by the surface and reported, as far as patches span it: up to a quarter of the
+/// section, a slit along the body up to a tenth or so. Over a wider opening, as of a sole that no
+/// camera saw, the tape is laid straight across, and the interval reaches to a body that is round
+/// there, which a warning says (girth_over_opening()); where some two fifths are missing it is
+/// refused. So is a closed section whose 95 % interval is wider than a tenth of it to each side, or
+/// that of its contact length than a fifth, and an open one from 15 % on. Strays and loops
 /// that far fewer points make are left out; of several loops the one that all three control points
 /// lie on counts (control_points.h), or if none has them that round the largest area, and the
 /// others are named in a warning. A crease such as a last's featherline stays sharp, and so does

@@ -11,6 +11,7 @@
 #include "core/girth/bodies_apart.h"
 #include "core/girth/control_points.h"
 #include "core/girth/girth.h"
+#include "core/girth/open_section.h"
 #include "core/girth/section_warnings.h"
 #include "core/girth/shared_length_doubt.h"
 #include "core/girth/told_girth.h"
@@ -227,6 +228,11 @@ Result<Girth> girth_by_rbf(const PointCloud& cloud, const TapePlane& plane,
     if (one && (!told || counts_before(*one, *told))) told = std::move(*one);
     if (!told || !is_pointed_at(*told, plane)) {
       if (auto pointed = girth_of_pointed_body(cloud, plane, options)) told = std::move(*pointed);
+    }
+  }
+  if (!told || told->refusal) {
+    if (auto open = girth_over_opening(cloud, plane, options)) {
+      return with_shared_doubt(std::move(*open), plane, cloud);
     }
   }
   if (!told) return tl::make_unexpected(std::move(told).error());

@@ -110,22 +110,6 @@ std::string waist_warning(double width_mm) {
          " between two wide parts: if these are two bodies, give the points of one alone";
 }
 
-/// In millimetres.
-Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
-               const SectionEvidence& evidence) {
-  Girth girth;
-  girth.contact_mm = band.unit_mm * section.contact;
-  for (const auto& point : section.contour.refined(kPiecesOfChord))
-    girth.contour.push_back(band.to_plane(point));
-  girth.stretched_mm = band.unit_mm * section.stretched;
-  girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
-  girth.contact_u95_mm = band.unit_mm * section.contact_u95;
-  girth.band_points = band.points_taken();
-  girth.sigma_mm = band.noise_mm();
-  girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
-  return girth;
-}
-
 bool is_told(const Result<ToldGirth>& girth) {
   return girth && !girth->refusal;
 }
@@ -327,6 +311,21 @@ ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOp
 }
 
 }  // namespace
+
+Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
+               const SectionEvidence& evidence) {
+  Girth girth;
+  girth.contact_mm = band.unit_mm * section.contact;
+  for (const auto& point : section.contour.refined(kPiecesOfChord))
+    girth.contour.push_back(band.to_plane(point));
+  girth.stretched_mm = band.unit_mm * section.stretched;
+  girth.stretched_u95_mm = band.unit_mm * section.stretched_u95;
+  girth.contact_u95_mm = band.unit_mm * section.contact_u95;
+  girth.band_points = band.points_taken();
+  girth.sigma_mm = band.noise_mm();
+  girth.largest_gap_mm = band.unit_mm * evidence.seen_gap;
+  return girth;
+}
 
 bool is_too_doubtful(const Girth& girth) {
   return !(*girth.stretched_u95_mm <= kMostDoubt * girth.stretched_mm &&

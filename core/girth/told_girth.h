@@ -5,6 +5,9 @@
 #include "core/geometry/point_cloud.h"
 #include "core/girth/contour_zigzags.h"
 #include "core/girth/girth.h"
+#include "core/girth/plane_band.h"
+#include "core/girth/section_evidence.h"
+#include "core/girth/smooth_section.h"
 #include "core/girth/tape_plane.h"
 #include "core/girth/unfollowed_skin.h"
 #include "core/result.h"
@@ -35,6 +38,11 @@ struct ToldGirth {
   /// A section that closes over seen points, all of them, with little doubt.
   bool is_plain() const;
 };
+
+/// What a section of that band tells, in millimetres and on the plane; without the number of the
+/// cloud's points, and without warnings.
+Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
+               const SectionEvidence& evidence);
 
 /// Whether the intervals of a girth that has both leave nothing to be told.
 bool is_too_doubtful(const Girth& girth);

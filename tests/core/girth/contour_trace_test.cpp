@@ -169,5 +169,30 @@ TEST(ContourTrace, KeepsItsBoundsOnRandomPoints) {
   EXPECT_GT(traced, 0);
 }
 
+Vector2d at_angle(double degrees) {
+  const double angle = degrees * kPi / 180.0;
+  return kRadius * Vector2d(std::cos(angle), std::sin(angle));
+}
+
+TEST(ContourTrace, FollowsALineThatDoesNotCloseFromEndToEnd) {
+  auto points = test::sphere_points(kRadius, 8000, 0.0, 4);
+  std::erase_if(points, [](const OrientedPoint& point) {
+    const double down = std::atan2(point.position.x(), -point.position.y());
+    return std::abs(down) < 40.0 * kPi / 180.0;
+  });
+  auto surface = surface_of(points);
+  EXPECT_FALSE(trace_contour(surface, at_angle(-50.0), 0.02, 0.05, 10.0));
+  const auto line = trace_open_line(surface, at_angle(-50.0), 0.02, 0.05, 10.0);
+  ASSERT_TRUE(line);
+  EXPECT_LT((line->points.front() - at_angle(-50.0)).norm(), 0.001);
+  EXPECT_LT((line->points.back() - at_angle(230.0)).norm(), 0.07);
+  for (const auto& corner : line->points) EXPECT_NEAR(corner.norm(), kRadius, 0.002);
+}
+
+TEST(ContourTrace, AClosedLineIsNoOpenOne) {
+  auto surface = surface_of(test::sphere_points(kRadius, 4000, 0.0, 1));
+  EXPECT_FALSE(trace_open_line(surface, {kRadius, 0.0}, 0.02, 0.2, 10.0));
+}
+
 }  // namespace
 }  // namespace instep

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "core/girth/girth.h"
 #include "tests/support/places.h"
@@ -37,6 +38,19 @@ TEST_F(GirthByRbfOfTrialData, MeetsAnalyticShapes) {
     EXPECT_NEAR(error_of(shape.cloud, section), 0.0, tolerance_mm(section, shape.cloud.size()))
         << section.file;
   }
+}
+
+/// Of which no camera saw the sole: the truth is the hull of what was seen.
+TEST_F(GirthByRbfOfTrialData, LaysTheTapeOverTheOpenSoleOfAScannedFoot) {
+  const std::string file = "lab_left.ply";
+  const auto foot = test::read_shape(test::trial_data() / "feet" / file);
+  int sections = 0;
+  for (const auto& section : test::known_sections("feet")) {
+    if (section.file != file) continue;
+    EXPECT_NEAR(error_of(foot.cloud, section), 0.0, 1.0) << section.name;
+    ++sections;
+  }
+  EXPECT_EQ(sections, 3);
 }
 
 /// Mean error over the sections of the lasts, each from `count` points drawn at random.
