@@ -33,6 +33,7 @@ constexpr double kLeastOpening = 0.1;
 constexpr double kStep = 0.5;
 /// A line along the skin, against the width of the body.
 constexpr double kLongestLine = 6.0;
+constexpr std::size_t kFewestCorners = 8;
 /// Within so many grains of the plane and the line points tell where the skin ends: further off the
 /// rim of an opening has turned up or down.
 constexpr double kAtPlane = 1.0;
@@ -170,7 +171,7 @@ double length_of(const Contour& line) {
 }
 
 /// From the first to the last of the points along it: what was followed beyond is no skin that was
-/// seen. Nothing if no corner is left.
+/// seen. No corner is left where there are none.
 Contour seen_part(const Contour& line, const PlaneBand& band) {
   const ContourIndex closed(closed_straight(line, kStep * band.grain));
   const auto ways = evidence_for(band, closed, kAtPlane * band.grain).ways;
@@ -188,6 +189,17 @@ Contour seen_part(const Contour& line, const PlaneBand& band) {
   return seen;
 }
 
+/// The skin on the plane from the one end of its one opening to the other.
+std::optional<Contour> open_line(const PlaneBand& band, BlendedSurface& surface) {
+  const auto opening = opening_of(band);
+  if (!opening) return std::nullopt;
+  const auto followed = line_beside(*opening, band, surface);
+  if (!followed) return std::nullopt;
+  Contour line = seen_part(*followed, band);
+  if (line.points.size() < kFewestCorners) return std::nullopt;
+  return line;
+}
+
 /// As if points lay in the opening, whose doubt is told apart.
 SectionEvidence evidence_with_opening(const PlaneBand& band, const SectionLoop& loop,
                                       double way_to_opening) {
@@ -199,6 +211,17 @@ SectionEvidence evidence_with_opening(const PlaneBand& band, const SectionLoop& 
   evidence.gap = largest_gap_between(evidence.ways, loop.index.length());
   evidence.seen_gap = evidence.gap;
   return evidence;
+}
+
+/// By what is known of the skin beside the opening.
+MeasuredSection measured(const Contour& contour, const BlendedSurface& surface, double sigma) {
+  const LengthDoubt doubt = doubt_of(contour, surface, sigma);
+  return {contour,
+          contour.length() + doubt.waves,
+          contour.tape_length() + doubt.waves,
+          doubt.contact_u95,
+          doubt.stretched_u95,
+          {}};
 }
 
 std::string opening_warning(double width_mm) {
@@ -214,39 +237,30 @@ std::optional<Girth> girth_over_opening(const PointCloud& cloud, const TapePlane
   SlabSource slabs(cloud, plane, options.sigma_mm);
   auto band = band_at(slabs);
   if (!band) return std::nullopt;
-  const auto opening = opening_of(*band);
-  if (!opening) return std::nullopt;
+  // The index goes with the surface; the band keeps the points.
   BlendedSurface surface(PatchFitter(band->points, std::move(band->index), band->roughness));
-  const auto followed = line_beside(*opening, *band, surface);
-  if (!followed) return std::nullopt;
-  const Contour line = seen_part(*followed, *band);
-  if (line.points.empty()) return std::nullopt;
-  const std::vector<SectionLoop> loops = {SectionLoop(closed_straight(line, kStep * band->grain))};
+  const auto line = open_line(*band, surface);
+  if (!line) return std::nullopt;
+  const std::vector<SectionLoop> loops = {SectionLoop(closed_straight(*line, kStep * band->grain))};
   const Contour& contour = loops.front().contour;
   if (!contour.goes_round_once()) return std::nullopt;
-  const auto evidence = evidence_with_opening(*band, loops.front(), length_of(line));
+  const auto evidence = evidence_with_opening(*band, loops.front(), length_of(*line));
   const double beside = unexplained_share(*band, loops, evidence);
   if (beside > kMostBesideLine || evidence.gap > kWidestBridge * contour.length()) {
     return std::nullopt;
   }
 
-  const LengthDoubt doubt = doubt_of(contour, surface, band->sigma);
-  MeasuredSection section{contour,
-                          contour.length() + doubt.waves,
-                          contour.tape_length() + doubt.waves,
-                          doubt.contact_u95,
-                          doubt.stretched_u95,
-                          {}};
+  MeasuredSection section = measured(contour, surface, band->sigma);
   const auto unknowns = unknowns_of(*band, slabs.cloud(), loops, surface, evidence, section);
   widen(*band, unknowns, section);
   auto warnings = warnings_of(*band, loops, evidence, beside, unknowns, section);
-  const double unseen = kBeyondArc * arc_beyond_chord(line, evidence_reach(*band)) + band->grain;
+  const double unseen = kBeyondArc * arc_beyond_chord(*line, evidence_reach(*band)) + band->grain;
   section.contact_u95 += unseen;
   section.stretched_u95 += unseen;
   if (!(section.stretched_u95 <= kMostDoubtOfOpening * section.stretched)) return std::nullopt;
   Girth girth = girth_of(*band, section, evidence);
   girth.points = cloud.size();
-  girth.largest_gap_mm = band->unit_mm * (line.points.front() - line.points.back()).norm();
+  girth.largest_gap_mm = band->unit_mm * (line->points.front() - line->points.back()).norm();
   girth.warnings = std::move(warnings);
   girth.warnings.push_back(opening_warning(girth.largest_gap_mm));
   return girth;
