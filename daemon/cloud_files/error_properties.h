@@ -15,4 +15,10 @@ inline std::string shared_error_property(std::size_t index) {
 inline constexpr const char* kLocalErrorProperty = "local_error_mm";
 inline constexpr const char* kLocalErrorReachProperty = "local_error_reach_mm";
 
+/// Of noise whose unit nobody told, so that it is not used.
+inline constexpr const char* kNoiseWithoutUnit = "sigma";
+inline constexpr const char* kNoteOfNoiseWithoutUnit =
+    "the column sigma was not used, for its unit is not told: if it is the noise of each point in "
+    "mm, name it sigma_mm";
+
 }  // namespace instep

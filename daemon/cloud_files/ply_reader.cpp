@@ -78,14 +78,18 @@ Result<void> want_local_errors(const PlyElement& element, const std::string& fil
 }
 
 Result<void> read_vertices(PlyBody& body, const PlyElement& element, const std::string& file,
-                           PointCloud& cloud) {
+                           RawCloud& raw) {
+  PointCloud& cloud = raw.cloud;
   std::vector<PlyColumn> columns;
   std::vector<double> origins;
   if (!want_vectors(element, {"x", "y", "z"}, cloud.positions, columns)) {
     return damaged_file(file, "its vertices lack x, y or z");
   }
   want_vectors(element, {"nx", "ny", "nz"}, cloud.normals, columns);
-  want_numbers(element, "sigma_mm", cloud.sigma_mm, columns);
+  if (!want_numbers(element, "sigma_mm", cloud.sigma_mm, columns) &&
+      element.find(kNoiseWithoutUnit)) {
+    raw.notes.emplace_back(kNoteOfNoiseWithoutUnit);
+  }
   want_numbers(element, "origin", origins, columns);
   const auto wanted = want_shared_errors(element, file, cloud.shared_errors_mm, columns);
   if (!wanted) return wanted;
@@ -192,7 +196,7 @@ Result<RawCloud> read_ply(std::string_view bytes, const std::string& file) {
     Result<void> good;
     if (element.name == "vertex" && !has_vertices) {
       has_vertices = true;
-      good = read_vertices(*body, element, file, raw.cloud);
+      good = read_vertices(*body, element, file, raw);
     } else if (element.name == "face" && points > 0) {
       good = read_faces(*body, element, points, file, raw);
     } else if (element.name == "tristrips") {

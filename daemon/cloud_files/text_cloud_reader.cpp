@@ -6,6 +6,7 @@
 #include <array>
 #include <optional>
 
+#include "daemon/cloud_files/error_properties.h"
 #include "daemon/cloud_files/text_columns.h"
 #include "daemon/cloud_files/text_tokens.h"
 
@@ -25,6 +26,7 @@ struct Row {
   std::size_t words = 0;
   bool all_numbers = true;
   bool any_number = false;
+  std::string first_word_of_letters;  ///< that is no number; empty if all are
 };
 
 bool is_empty_or_comment(std::string_view line) {
@@ -61,6 +63,20 @@ bool has_decimal_commas(std::string_view line) {
   return words > 1;
 }
 
+/// Some numbers are parted by blanks or semicolons alone and others by commas alone, which may part
+/// thousands.
+bool has_commas_within_words(std::string_view line) {
+  int words = 0;
+  bool within = false;
+  for (auto word = take_word(line, kSeparatorsButCommas); !word.empty();
+       word = take_word(line, kSeparatorsButCommas)) {
+    ++words;
+    const auto comma = word.find(',');
+    within = within || (comma != word.npos && comma > 0 && comma + 1 < word.size());
+  }
+  return within && words > 1;
+}
+
 /// But for a semicolon that ends the line, as programs write the rows of a matrix.
 bool has_commas_and_semicolons(std::string_view line) {
   const std::string_view row = line.substr(0, line.find_last_not_of(" \t;") + 1);
@@ -75,6 +91,7 @@ Row parse_row(std::string_view line) {
        word = take_word(line, separators)) {
     if (decimal_commas) std::replace(word.begin(), word.end(), ',', '.');
     const auto value = number_in(word);
+    if (!value && row.all_numbers) row.first_word_of_letters = word;
     row.all_numbers = row.all_numbers && value.has_value();
     row.any_number = row.any_number || value.has_value();
     if (value && row.words < kMostColumns) row.values[row.words] = *value;
@@ -94,10 +111,23 @@ bool has_quoted_numbers(std::string_view line) {
 
 tl::unexpected<Error> bad_line(const std::string& file, std::size_t number,
                                const std::string& what) {
-  return fail(
-      ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
-      "give 3 or 6 numbers in each line, parted by blanks, commas or semicolons; of up to 64 "
-      "columns of numbers, name those that count in a heading: x, y, z, nx, ny, nz");
+  return fail(ErrorCode::kCorruptData, fmt::format("line {} of {} {}", number, file, what),
+              "give numbers alone in each line, 3 to 64, parted by blanks, commas or semicolons; "
+              "name those "
+              "that count in a heading: x, y, z, nx, ny, nz, sigma_mm");
+}
+
+tl::unexpected<Error> no_point(const Row& row, const std::string& file, std::size_t number) {
+  if (!row.any_number || row.words > kMostColumns) return bad_line(file, number, "is no point");
+  constexpr std::size_t kLongest = 40;
+  std::string word = row.first_word_of_letters.substr(0, kLongest);
+  std::erase_if(word, [](char letter) { return kQuotes.find(letter) != kQuotes.npos; });
+  return bad_line(file, number, fmt::format("holds \"{}\", which is no number", word));
+}
+
+/// Of columns that nobody named.
+bool leave_some_out(const TextColumns& usual) {
+  return usual.count > (usual.normal ? 6U : 3U);
 }
 
 /// The columns of a file, from its lines before the first point and from that one.
@@ -115,6 +145,7 @@ class Columns {
     if (!may_be) return false;
     heading_seen_ = true;
     named_ = columns_named_by(line);
+    names_in_heading_ = names_of_columns(line);
     return true;
   }
 
@@ -126,12 +157,31 @@ class Columns {
   /// Nobody named them.
   bool are_guessed() const { return guessed_; }
 
-  /// Of a line of so many numbers.
-  Result<TextColumns> of(std::size_t words, const std::string& file, std::size_t number) {
+  /// What the user should know of those that are not used.
+  std::vector<std::string> notes() const {
+    if (!columns_) return {};
+    if (columns_->has_noise_without_unit) return {kNoteOfNoiseWithoutUnit};
+    if (!guessed_ || !leave_some_out(*columns_)) return {};
+    return {fmt::format(
+        "of {} columns that no heading names, the first three were taken for x, y and z, and the "
+        "others were not used: name those that count in a heading, x, y, z, nx, ny, nz, sigma_mm",
+        columns_->count)};
+  }
+
+  /// Of a line, which is of so many numbers.
+  Result<TextColumns> of(std::string_view line, std::size_t words, const std::string& file,
+                         std::size_t number) {
     if (!columns_ && named_) columns_ = named_;
     if (!columns_ && remarked_ && remarked_->count == words) columns_ = remarked_;
     if (!columns_) {
       columns_ = usual_columns(words);
+      const bool leaves_some_out = columns_ && leave_some_out(*columns_);
+      if (leaves_some_out && has_commas_within_words(line)) {
+        return bad_line(file, number, "has commas and blanks, so the numbers cannot be told");
+      }
+      if (leaves_some_out && words == names_in_heading_) {
+        return bad_line(file, number, "has columns of which its heading names no x, y and z");
+      }
       guessed_ = true;
     }
     if (!columns_) return bad_line(file, number, "is no point");
@@ -145,6 +195,7 @@ class Columns {
   std::optional<TextColumns> columns_;
   std::optional<TextColumns> named_;
   std::optional<TextColumns> remarked_;
+  std::size_t names_in_heading_ = 0;
   bool heading_seen_ = false;
   bool guessed_ = false;
 };
@@ -209,8 +260,8 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
                   "leave one line before the points, which names the columns; begin all others "
                   "with #");
     }
-    if (!row.all_numbers || row.words > kMostColumns) return bad_line(file, number, "is no point");
-    const auto own = columns.of(row.words, file, number);
+    if (!row.all_numbers || row.words > kMostColumns) return no_point(row, file, number);
+    const auto own = columns.of(*line, row.words, file, number);
     if (!own) return tl::unexpected(own.error());
     if (auto clear = commas.check(*line, file, number); !clear) {
       return tl::unexpected(clear.error());
@@ -222,16 +273,20 @@ Result<RawCloud> read_text_cloud(std::string_view text, const std::string& file)
     add_point(row, *own, raw.cloud);
   }
   raw.are_normals_guessed = columns.are_guessed() && raw.cloud.has_normals();
+  raw.notes = columns.notes();
   return raw;
 }
 
 bool looks_like_text_cloud(std::string_view text) {
   TextLines lines(without_byte_order_mark(text));
   int looked_at = 0;
+  bool has_named_columns = false;
   while (const auto line = lines.next()) {
     if (is_empty_or_comment(*line)) continue;
     const Row row = parse_row(*line);
     if ((row.all_numbers && row.words >= 3) || has_quoted_numbers(*line)) return true;
+    if (has_named_columns && row.any_number) return true;
+    has_named_columns = has_named_columns || columns_named_by(*line).has_value();
     if (++looked_at > kMostLinesBefore) return false;
   }
   return false;

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
+#include "daemon/cloud_files/error_properties.h"
 #include "daemon/cloud_files/text_tokens.h"
 
 namespace instep {
@@ -35,25 +37,25 @@ std::vector<std::string> names_in(std::string_view heading) {
   return names;
 }
 
-/// Where one of two names stands; nothing if nowhere, or at two places.
-std::optional<std::size_t> place_of(const std::vector<std::string>& names, const std::string& name,
-                                    const std::string& other) {
+/// Where one of the names for a column stands; nothing if nowhere, or at two places.
+std::optional<std::size_t> place_of(const std::vector<std::string>& names,
+                                    std::initializer_list<std::string> wanted) {
   std::optional<std::size_t> place;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i] != name && names[i] != other) continue;
+    if (std::find(wanted.begin(), wanted.end(), names[i]) == wanted.end()) continue;
     if (place) return std::nullopt;
     place = i;
   }
   return place;
 }
 
+/// Each of the three in one of two spellings.
 std::optional<std::array<std::size_t, 3>> places_of(const std::vector<std::string>& names,
-                                                    const std::string& before,
-                                                    const std::string& before_other) {
+                                                    std::array<const char*, 3> wanted,
+                                                    std::array<const char*, 3> or_wanted) {
   std::array<std::size_t, 3> places{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string letter(1, "xyz"[axis]);
-    const auto place = place_of(names, before + letter, before_other + letter);
+    const auto place = place_of(names, {wanted[axis], or_wanted[axis]});
     if (!place) return std::nullopt;
     places[axis] = *place;
   }
@@ -63,7 +65,7 @@ std::optional<std::array<std::size_t, 3>> places_of(const std::vector<std::strin
 }  // namespace
 
 std::optional<TextColumns> usual_columns(std::size_t count) {
-  if (count != 3 && count != 6) return std::nullopt;
+  if (count < 3) return std::nullopt;
   TextColumns columns;
   columns.count = count;
   if (count == 6) columns.normal = {3, 4, 5};
@@ -72,14 +74,19 @@ std::optional<TextColumns> usual_columns(std::size_t count) {
 
 std::optional<TextColumns> columns_named_by(std::string_view heading) {
   const auto names = names_in(heading);
-  const auto position = places_of(names, "", "");
+  const auto position = places_of(names, {"x", "y", "z"}, {"x_mm", "y_mm", "z_mm"});
   if (!position) return std::nullopt;
   TextColumns columns;
   columns.count = names.size();
   columns.position = *position;
-  columns.normal = places_of(names, "n", "normal_");
-  columns.sigma_mm = place_of(names, "sigma_mm", "sigma_mm");
+  columns.normal = places_of(names, {"nx", "ny", "nz"}, {"normal_x", "normal_y", "normal_z"});
+  columns.sigma_mm = place_of(names, {"sigma_mm"});
+  columns.has_noise_without_unit = !columns.sigma_mm && place_of(names, {kNoiseWithoutUnit});
   return columns;
+}
+
+std::size_t names_of_columns(std::string_view heading) {
+  return names_in(heading).size();
 }
 
 }  // namespace instep

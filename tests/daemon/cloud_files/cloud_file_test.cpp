@@ -45,6 +45,17 @@ TEST_F(CloudFiles, WrittenCloudComesBackBitByBit) {
   EXPECT_TRUE(file->mesh.empty());
 }
 
+TEST_F(CloudFiles, SaysThatNoiseWithoutAUnitIsNotUsed) {
+  const auto file = read("a.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                         "property float y\nproperty float z\nproperty float sigma\nend_header\n"
+                         "0 0 0 0.5\n100 50 60 0.5\n");
+  ASSERT_TRUE(file) << file.error().line();
+  EXPECT_FALSE(file->cloud.has_sigma());
+  ASSERT_EQ(file->notes.size(), 1U);
+  EXPECT_NE(file->notes[0].find("sigma_mm"), std::string::npos);
+}
+
 TEST_F(CloudFiles, ReadsAsciiPlyWithPropertiesOfAnyKindAndOrder) {
   const auto file = read("a.ply",
                          "ply\r\nformat ascii 1.0\r\ncomment x\r\nelement thing 2\r\n"

@@ -83,9 +83,53 @@ TEST(TextCloudReader, RefusesLinesThatAreNotAsTheHeadingSays) {
   const auto fewer = read_text_cloud("x,y,z,q\n1,2,3,4\n1,2,3\n", "t.csv");
   ASSERT_FALSE(fewer);
   EXPECT_NE(fewer.error().message.find("line 3"), std::string::npos);
-  const auto unnamed = read_text_cloud("1 2 3 4\n", "t.csv");
-  ASSERT_FALSE(unnamed);
-  EXPECT_NE(unnamed.error().advice.find("heading"), std::string::npos);
+  const auto unknown = read_text_cloud("id,east,north,up\n1,2,3,4\n", "t.csv");
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("names no x, y and z"), std::string::npos);
+  EXPECT_NE(unknown.error().advice.find("sigma_mm"), std::string::npos);
+}
+
+/// As scanners export them: intensities, colours.
+TEST(TextCloudReader, TakesTheFirstThreeOfManyUnnamedColumnsAndSaysSo) {
+  for (const char* text :
+       {"1.5 -2 3 0.7\n4 5 6 0.8\n", "2\n1.5 -2 3 -900 9 9 9\n4 5 6 -800 8 8 8\n",
+        "foot of Anna\n1.5,-2,3,9,9\n4,5,6,9,9\n"}) {
+    expect_both(text);
+    const auto raw = read_text_cloud(text, "t.csv");
+    ASSERT_EQ(raw->notes.size(), 1U) << text;
+    EXPECT_NE(raw->notes[0].find("the others were not used"), std::string::npos) << raw->notes[0];
+    EXPECT_FALSE(raw->cloud.has_normals());
+  }
+  for (const char* text : {"1 2 3\n", "1 2 3 0 0 1\n", "# x y z intensity\n1 2 3 4\n"}) {
+    EXPECT_TRUE(read_text_cloud(text, "t.csv")->notes.empty()) << text;
+  }
+}
+
+TEST(TextCloudReader, TakesNamesWithTheirUnit) {
+  const auto raw = read_text_cloud("x_mm,y_mm,z_mm,sigma_mm\n1.5,-2,3,0.25\n", "t.csv");
+  ASSERT_TRUE(raw) << raw.error().line();
+  EXPECT_EQ(raw->cloud.positions[0], kFirst);
+  EXPECT_EQ(raw->cloud.sigma_mm, std::vector<double>{0.25});
+  EXPECT_TRUE(raw->notes.empty());
+}
+
+TEST(TextCloudReader, SaysThatNoiseWithoutAUnitIsNotUsed) {
+  const auto raw = read_text_cloud("x,y,z,sigma\n1.5,-2,3,0.25\n", "t.csv");
+  ASSERT_TRUE(raw) << raw.error().line();
+  EXPECT_FALSE(raw->cloud.has_sigma());
+  ASSERT_EQ(raw->notes.size(), 1U);
+  EXPECT_NE(raw->notes[0].find("name it sigma_mm"), std::string::npos) << raw->notes[0];
+}
+
+TEST(TextCloudReader, NamesTheWordThatIsNoNumber) {
+  const std::string text = "\"x\",\"y\",\"z\",\"name\"\n1,2,3,\"heel\"\n4,5,6,\"toe\"\n";
+  EXPECT_TRUE(looks_like_text_cloud(text));
+  const auto raw = read_text_cloud(text, "t.csv");
+  ASSERT_FALSE(raw);
+  EXPECT_NE(raw.error().message.find("line 2 of t.csv holds \"heel\", which is no number"),
+            std::string::npos)
+      << raw.error().line();
+  EXPECT_FALSE(looks_like_text_cloud("Dear x, y, z,\nhow are you?\nYours\n"));
 }
 
 }  // namespace
