@@ -8,7 +8,7 @@ packages=(
   ccache  # no compiling twice; a build without it is the same
   libeigen3-dev libnanoflann-dev libexpected-dev
   libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libtomlplusplus-dev
-  libpng-dev libassimp-dev libsystemd-dev
+  libpng-dev libassimp-dev liblzf-dev libsystemd-dev
   libopenni2-dev
   libgpiod-dev libevdev-dev
   libusb-1.0-0-dev

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "daemon/cloud_files/pcd_compression.h"
 #include "daemon/cloud_files/scalar_column.h"
 #include "daemon/cloud_files/text_tokens.h"
 
@@ -15,6 +17,10 @@ namespace {
 
 constexpr std::size_t kMostFields = 256;
 constexpr double kMostFieldValues = 65536;
+
+constexpr std::string_view kAscii = "ascii";
+constexpr std::string_view kBinary = "binary";
+constexpr std::string_view kCompressed = "binary_compressed";
 
 struct PcdField {
   std::string name;
@@ -178,22 +184,15 @@ Result<void> read_ascii(std::string_view& text, const PcdHeader& header, std::si
   return {};
 }
 
-}  // namespace
-
-Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
-  const auto header = read_header(bytes, file);
-  if (!header) return tl::make_unexpected(header.error());
-  if (header->data != "ascii" && header->data != "binary") {
-    return fail(
-        ErrorCode::kUnsupported,
-        fmt::format("{} holds PCD data of the kind \"{}\"", file, header->data.substr(0, 40)),
-        "convert it with pcl_convert_pcd_ascii_binary to ascii (0) or binary (1)");
-  }
-  const bool ascii = header->data == "ascii";
-  auto rest = bytes.substr(header->size_bytes);
-  const double wanted = header->points.value_or(header->width * header->height);
-  const std::size_t least = std::max<std::size_t>(ascii ? 2 * header->columns : header->stride, 1);
-  if (wanted > static_cast<double>((rest.size() + 1) / least)) {
+/// How many points the header names, if so many can be in a file: of those that are not compressed,
+/// in `size` bytes.
+Result<std::size_t> count_points(const PcdHeader& header, std::size_t size,
+                                 const std::string& file) {
+  const double wanted = header.points.value_or(header.width * header.height);
+  const std::size_t least =
+      std::max<std::size_t>(header.data == kAscii ? 2 * header.columns : header.stride, 1);
+  const std::size_t last_end = header.data == kAscii ? 1 : 0;  // a line's, which may be missing
+  if (header.data != kCompressed && wanted > static_cast<double>((size + last_end) / least)) {
     return damaged_file(file,
                         fmt::format("it is too short for the {} points of its header", wanted));
   }
@@ -201,30 +200,69 @@ Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
     return fail(ErrorCode::kUnsupported, fmt::format("{} has {} points", file, wanted),
                 fmt::format("thin it out to at most {}", kMostFilePoints));
   }
-  const auto count = static_cast<std::size_t>(wanted);
+  return static_cast<std::size_t>(wanted);
+}
+
+/// Of points one behind the other, or, if they were compressed, of all values of the first field,
+/// of the second ...
+void read_binary(std::string_view points, const PcdHeader& header, std::size_t count,
+                 const std::vector<Target>& targets) {
+  constexpr bool kSwapped = std::endian::native != std::endian::little;
+  const bool by_field = header.data == kCompressed;
+  for (const auto& target : targets) {
+    const std::size_t start = target.field.offset * (by_field ? count : 1);
+    const std::size_t stride = by_field ? target.field.size : header.stride;
+    copy_column(points.data() + start, stride, count, target.type, kSwapped, target.out);
+  }
+}
+
+const char* format_name(std::string_view data) {
+  if (data == kAscii) return "PCD, ASCII";
+  return data == kBinary ? "PCD, binary" : "PCD, compressed";
+}
+
+}  // namespace
+
+Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file) {
+  const auto header = read_header(bytes, file);
+  if (!header) return tl::make_unexpected(header.error());
+  if (header->data != kAscii && header->data != kBinary && header->data != kCompressed) {
+    return fail(
+        ErrorCode::kUnsupported,
+        fmt::format("{} holds PCD data of the kind \"{}\"", file, header->data.substr(0, 40)),
+        "export it as PCD of the kind ascii, binary or binary_compressed, or as PLY");
+  }
+  auto rest = bytes.substr(header->size_bytes);
+  const auto count = count_points(*header, rest.size(), file);
+  if (!count) return tl::make_unexpected(count.error());
+  const double size = static_cast<double>(*count) * static_cast<double>(header->stride);
+  UnpackedPcd unpacked;
+  if (header->data == kCompressed && *count > 0) {
+    auto done = unpack_pcd(rest, size, file);
+    if (!done) return tl::make_unexpected(done.error());
+    unpacked = std::move(*done);
+  }
 
   RawCloud raw;
-  raw.format = ascii ? "PCD, ASCII" : "PCD, binary";
+  raw.format = format_name(header->data);
   std::vector<Target> targets;
-  if (!want_vectors(*header, {"x", "y", "z"}, count, raw.cloud.positions, targets)) {
+  if (!want_vectors(*header, {"x", "y", "z"}, *count, raw.cloud.positions, targets)) {
     return damaged_file(file, "its points lack x, y or z");
   }
-  want_vectors(*header, {"normal_x", "normal_y", "normal_z"}, count, raw.cloud.normals, targets);
-  if (count == 0) return raw;
-  if (ascii) {
-    if (auto good = read_ascii(rest, *header, count, targets, file); !good) {
+  want_vectors(*header, {"normal_x", "normal_y", "normal_z"}, *count, raw.cloud.normals, targets);
+  if (*count == 0) return raw;
+  if (header->data == kAscii) {
+    if (auto good = read_ascii(rest, *header, *count, targets, file); !good) {
       return tl::make_unexpected(good.error());
     }
-    raw.surplus_bytes = without_blanks_at_end(rest).size();
-    return raw;
+  } else if (header->data == kBinary) {
+    read_binary(rest, *header, *count, targets);
+    rest.remove_prefix(*count * header->stride);
+  } else {
+    read_binary(unpacked.bytes, *header, *count, targets);
+    rest.remove_prefix(unpacked.packed_bytes);
   }
-  if (rest.size() / least < count) return damaged_file(file, "it is cut short");
-  constexpr bool kSwapped = std::endian::native != std::endian::little;
-  for (const auto& target : targets) {
-    copy_column(rest.data() + target.field.offset, header->stride, count, target.type, kSwapped,
-                target.out);
-  }
-  raw.surplus_bytes = without_blanks_at_end(rest.substr(count * header->stride)).size();
+  raw.surplus_bytes = without_blanks_at_end(rest).size();
   return raw;
 }
 

@@ -8,9 +8,9 @@
 
 namespace instep {
 
-/// Reads the bytes of a PCD file, ASCII or binary, fields of any type in any order: x y z and, if
-/// there, normal_x normal_y normal_z. Other fields are passed over. Compressed data are refused
-/// with kUnsupported; a header that lies or data that end early are kCorruptData.
+/// Reads the bytes of a PCD file, ASCII, binary or compressed, fields of any type in any order: x y
+/// z and, if there, normal_x normal_y normal_z. Other fields are passed over. Another kind of data
+/// is kUnsupported; a header that lies, data that end early or cannot be unpacked are kCorruptData.
 Result<RawCloud> read_pcd(std::string_view bytes, const std::string& file);
 
 }  // namespace instep

@@ -218,7 +218,7 @@ TEST_F(CloudFiles, ReadsPcd) {
   file = read("b.pcd", bytes);
   ASSERT_TRUE(file) << file.error().line();
   EXPECT_EQ(file->cloud.positions, kPoints);
-  expect_fault("c.pcd", header + "binary_compressed\n1234", ErrorCode::kUnsupported, "convert");
+  expect_fault("c.pcd", header + "packed\n1234", ErrorCode::kUnsupported, "binary_compressed");
   expect_fault("d.pcd", bytes.substr(0, bytes.size() - 1), ErrorCode::kCorruptData, "short");
 }
 
