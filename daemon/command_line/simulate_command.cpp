@@ -7,6 +7,7 @@
 
 #include "daemon/command_line/capture_recording.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/stop_request.h"
 #include "daemon/station/devices.h"
 #include "sim/simulated_station.h"
 
@@ -57,6 +58,7 @@ Result<void> run(const SimulateCommand& command) {
   header.platform_height_mm = station->platform_height_mm;
   header.truth = truth_by_id(*truth);
   header.simulated = true;
+  const StopRequest stop;
   ProgressLine line;
   RecordingPlan plan;
   plan.length.frames_per_camera = command.frames;
@@ -64,7 +66,7 @@ Result<void> run(const SimulateCommand& command) {
   const auto recording =
       capture_recording(station->cameras, header, plan, command.folder, [&](double done) {
         line.show("simulating", done);
-        return true;
+        return !stop.is_made();
       });
   if (!recording) return tl::make_unexpected(recording.error());
   return print_json({{"folder", command.folder},

@@ -1,7 +1,11 @@
 #include "drivers/recording/recording_writer.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/file.h>
 
+#include <cerrno>
+#include <iterator>
 #include <system_error>
 
 #include "drivers/files/file_bytes.h"
@@ -12,6 +16,9 @@ namespace instep {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// What a recording is written in until it is whole. One that a sudden end has left is known by it.
+constexpr const char* kUnfinished = ".unfinished";
 
 fs::path camera_folder(std::size_t camera) {
   return fmt::format("camera{:02}", camera);
@@ -34,6 +41,21 @@ Result<void> check_header(Recording header, const fs::path& file) {
   return {};
 }
 
+bool holds_only_unfinished(const fs::path& folder, std::error_code& error) {
+  const fs::directory_iterator first(folder, error);
+  if (error || first == fs::directory_iterator()) return false;
+  return first->path().filename() == kUnfinished && std::next(first) == fs::directory_iterator();
+}
+
+/// Takes hold of a folder that one program at a time may write in.
+Result<Descriptor> hold(const fs::path& folder) {
+  Descriptor held(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!held.is_open()) return tl::make_unexpected(file_error(errno, "open", folder));
+  if (::flock(held.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return held;
+  return fail(ErrorCode::kBusy, "another program records to " + folder.string(),
+              "give the name of another folder");
+}
+
 }  // namespace
 
 Result<RecordingWriter> RecordingWriter::create(const fs::path& folder, Recording header) {
@@ -43,25 +65,33 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& folder, Recordin
     return tl::make_unexpected(good.error());
   }
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_empty(folder, error)) {
+  const bool is_left_half_done = holds_only_unfinished(folder, error);
+  if (!is_left_half_done && fs::exists(folder, error) && !fs::is_empty(folder, error)) {
     return fail(ErrorCode::kInvalidInput, folder.string() + " is there and not empty",
                 "give the name of a new folder");
   }
-  RecordingWriter writer(std::move(header));
-  writer.made_folder_ = fs::create_directories(folder, error);
-  for (std::size_t i = 0; !error && i < writer.recording_.cameras.size(); ++i) {
-    fs::create_directory(folder / camera_folder(i), error);
-  }
+  const bool made_folder = fs::create_directories(folder, error);
   if (error) return tl::make_unexpected(file_error(error.value(), "make", folder));
+  auto held = hold(folder);
+  if (!held) return tl::make_unexpected(held.error());
+  RecordingWriter writer(std::move(header), std::move(*held));
+  writer.made_folder_ = made_folder || is_left_half_done;
+  const auto unfinished = folder / kUnfinished;
+  fs::remove_all(unfinished, error);
+  if (!error) fs::create_directory(unfinished, error);
+  for (std::size_t i = 0; !error && i < writer.recording_.cameras.size(); ++i) {
+    fs::create_directory(unfinished / camera_folder(i), error);
+  }
+  if (error) return tl::make_unexpected(file_error(error.value(), "make", unfinished));
   return writer;
 }
 
 RecordingWriter::~RecordingWriter() {
   if (recording_.folder.empty()) return;  // moved from, or finished
   std::error_code ignored;
-  for (const auto& frame : recording_.frames) fs::remove(recording_.folder / frame.file, ignored);
+  fs::remove_all(recording_.folder / kUnfinished, ignored);
   for (std::size_t i = 0; i < recording_.cameras.size(); ++i) {
-    fs::remove(recording_.folder / camera_folder(i), ignored);
+    fs::remove_all(recording_.folder / camera_folder(i), ignored);  // where finish() failed
   }
   if (made_folder_) fs::remove(recording_.folder, ignored);
 }
@@ -88,7 +118,8 @@ Result<void> RecordingWriter::add_frame(const DepthFrame& frame) {
   if (!bytes) return tl::make_unexpected(bytes.error());
   const auto file = camera_folder(static_cast<std::size_t>(camera - recording_.cameras.data())) /
                     fmt::format("{:06}.png", state.frames);
-  if (auto good = write_file_bytes(recording_.folder / file, *bytes); !good) return good;
+  if (auto good = write_file_bytes(recording_.folder / kUnfinished / file, *bytes); !good)
+    return good;
   recording_.frames.push_back({frame.camera, file, frame.device_time});
   state = {state.frames + 1, frame.device_time};
   return {};
@@ -99,8 +130,17 @@ Result<void> RecordingWriter::finish() {
     return fail(ErrorCode::kInsufficientData, "a recording needs at least one frame",
                 "check that the cameras give frames");
   }
-  const auto file = recording_.folder / kRecordingFileName;
-  if (auto good = write_file_bytes(file, recording_to_json(recording_)); !good) return good;
+  const auto unfinished = recording_.folder / kUnfinished;
+  const auto json = recording_to_json(recording_);
+  if (auto good = write_file_bytes(unfinished / kRecordingFileName, json); !good) return good;
+  std::error_code error;
+  const auto bring_out = [&](const fs::path& name) {
+    if (!error) fs::rename(unfinished / name, recording_.folder / name, error);
+  };
+  for (std::size_t i = 0; i < recording_.cameras.size(); ++i) bring_out(camera_folder(i));
+  bring_out(kRecordingFileName);  // last, for with it the recording is whole
+  if (error) return tl::make_unexpected(file_error(error.value(), "finish", recording_.folder));
+  fs::remove(unfinished, error);
   recording_.folder.clear();  // nothing to take away any more
   return {};
 }

@@ -7,13 +7,15 @@
 
 #include "core/fusion/depth_frame.h"
 #include "core/result.h"
+#include "drivers/files/descriptor.h"
 #include "drivers/recording/recording.h"
 
 namespace instep {
 
-/// Writes a recording that appears whole or not at all: each image under a temporary name that is
-/// then renamed, `recording.json` last. A writer that is destroyed before finish() takes away what
-/// it wrote.
+/// Writes a recording that appears whole or not at all: all of it in a folder `.unfinished` within
+/// its own, out of which it is brought by renaming, `recording.json` last. A writer that is
+/// destroyed before finish() takes away what it wrote; what the sudden end of a program has left
+/// there does the next one that is given the same folder.
 ///
 ///     auto writer = RecordingWriter::create("/data/visit", header);
 ///     writer->add_frame(frame); ...
@@ -23,7 +25,8 @@ namespace instep {
 class RecordingWriter {
  public:
   /// `header` holds everything but folder and frames, which are ignored. Makes `folder`; it must
-  /// not exist or be empty (kInvalidInput). Also fails where the cameras are not ones that
+  /// not exist, be empty (kInvalidInput) or hold what a sudden end has left; kBusy where another
+  /// program writes there. Also fails where the cameras are not ones that
   /// read_recording() would take, and with kPermissionDenied or kNoSpace.
   static Result<RecordingWriter> create(const std::filesystem::path& folder, Recording header);
 
@@ -42,7 +45,8 @@ class RecordingWriter {
   const Recording& recording() const { return recording_; }
 
  private:
-  explicit RecordingWriter(Recording recording) : recording_(std::move(recording)) {}
+  RecordingWriter(Recording recording, Descriptor held)
+      : recording_(std::move(recording)), held_(std::move(held)) {}
 
   struct CameraState {
     std::size_t frames = 0;
@@ -50,6 +54,7 @@ class RecordingWriter {
   };
 
   Recording recording_;
+  Descriptor held_;  ///< the folder, against another program's writing there
   std::map<std::string, CameraState> states_;
   bool made_folder_ = false;
 };

@@ -55,6 +55,24 @@ TEST(Record, EndsByItselfAtASignalInOneLineAndKeepsNothing) {
   }
 }
 
+TEST(Simulate, LeavesNothingInTheWayOfTheNextOneHoweverItEnds) {
+  const test::TemporaryFolder folder;
+  const auto visit = folder.path() / "visit";
+  for (const int number : {SIGINT, SIGTERM, SIGKILL}) {
+    test::BackgroundProgram simulating(
+        "instep", {"simulate", "--out", visit, "--subject", "cylinder", "--frames", "1000"},
+        folder.path() / "errors");
+    for (int i = 0; i < 2000 && !holds_a_frame(visit); ++i) std::this_thread::sleep_for(10ms);
+    ASSERT_TRUE(holds_a_frame(visit)) << simulating.errors();
+    simulating.signal(number);
+    simulating.wait_for_end();
+    EXPECT_EQ(fs::exists(visit), number == SIGKILL);
+  }
+  const auto next = test::run_program(
+      "instep", {"simulate", "--out", visit, "--subject", "cylinder", "--frames", "1"});
+  EXPECT_EQ(next.exit_code, 0) << next.errors;
+}
+
 // The daemon was asked on the socket of the settings, where it is not.
 TEST(Record, AsksTheDaemonOnTheSocketThatTheEnvironmentNames) {
   const test::TemporaryFolder folder;

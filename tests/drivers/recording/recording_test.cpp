@@ -245,6 +245,28 @@ TEST(RecordingWriter, LeavesNothingBehindWhenNotFinished) {
   EXPECT_FALSE(fs::exists(place));
 }
 
+TEST(RecordingWriter, ClearsWhatASuddenEndHasLeft) {
+  const test::TemporaryFolder folder;
+  const auto place = folder.path() / "visit";
+  fs::create_directories(place / ".unfinished" / "camera07");
+  std::ofstream(place / ".unfinished" / "camera07" / "000000.png") << "half";
+  test::write_small_recording(place);
+  EXPECT_TRUE(read_recording(place));
+  EXPECT_FALSE(fs::exists(place / ".unfinished"));
+  EXPECT_FALSE(fs::exists(place / "camera07"));
+}
+
+TEST(RecordingWriter, LeavesToAnotherWhatItStillWrites) {
+  const test::TemporaryFolder folder;
+  auto first = RecordingWriter::create(folder.path() / "visit", test::small_header());
+  ASSERT_TRUE(first);
+  const auto second = RecordingWriter::create(folder.path() / "visit", test::small_header());
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kBusy);
+  EXPECT_TRUE(first->add_frame(test::small_frames()[0]));
+  EXPECT_TRUE(first->finish());
+}
+
 TEST(RecordingWriter, RefusesAFolderThatHoldsSomething) {
   const test::TemporaryFolder folder;
   std::ofstream(folder.path() / "mine.txt") << "x";
