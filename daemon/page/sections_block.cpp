@@ -58,8 +58,10 @@ std::string panel_svg(const DrawnSection& panel, const Vector2d& middle, double 
   const Vector2d origin(middle.x() - per_mm * (drawing.left + drawing.right) / 2.0, middle.y());
   const double half = per_mm * (drawing.right - drawing.left) / 2.0 + 20.0;
   const Girth& girth = *panel.measure->girth;
-  std::string text =
-      svg::line(middle + Vector2d(-half, 6.0), middle + Vector2d(half, 6.0), "floor");
+  std::string text;
+  if (!drawing.is_level) {
+    text += svg::line(middle + Vector2d(-half, 6.0), middle + Vector2d(half, 6.0), "floor");
+  }
   text += section_svg(drawing, origin, per_mm, kSectionStyle);
   text += svg::label(middle + Vector2d(0.0, 44.0), "section-name", as_words(panel.measure->id));
   text += svg::label(middle + Vector2d(0.0, 80.0), "section-number",

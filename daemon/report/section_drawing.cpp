@@ -23,16 +23,22 @@ class View {
   View(const TapePlane& plane, double medial_sign) {
     const Vector3d upwards = Vector3d::UnitZ() - plane.normal().z() * plane.normal();
     // A level tape has no upward side: heel to toe then takes its place.
-    up_ = upwards.norm() > 0.2
+    is_level_ = upwards.norm() <= 0.2;
+    up_ = !is_level_
               ? Vector3d(upwards.normalized())
               : Vector3d((Vector3d::UnitX() - plane.normal().x() * plane.normal()).normalized());
     right_ = up_.cross(plane.normal());
     if (right_.y() * medial_sign > 0.0) right_ = -right_;
   }
 
+  bool is_level() const { return is_level_; }
+  /// A tape round heel and instep leans to the front by half a right angle, others by little.
+  bool leans_to_front() const { return !is_level_ && up_.x() > 0.5; }
+
   Vector2d operator()(const Vector3d& point) const { return {right_.dot(point), -up_.dot(point)}; }
 
  private:
+  bool is_level_ = false;
   Vector3d up_;
   Vector3d right_;  ///< towards lateral
 };
@@ -61,6 +67,10 @@ SectionDrawing draw_section(const FootScan& foot, const Measure& measure) {
     if (corner.allFinite()) drawing.contour.push_back(view(plane.lift(corner)));
   }
   if (drawing.contour.empty()) return drawing;
+  drawing.is_level = view.is_level();
+  if (view.is_level()) drawing.upper_end = "front";
+  if (view.leans_to_front()) drawing.upper_end = "instep";
+  if (view.is_level() || view.leans_to_front()) drawing.lower_end = "heel";
 
   const auto lower = [](const Vector2d& a, const Vector2d& b) { return a.y() < b.y(); };
   const auto [top, bottom] =

@@ -9,9 +9,13 @@
 
 namespace instep {
 
-/// The section of one girth, ready to be drawn: medial to the left, dorsal up, in millimetres with
-/// y downwards and the lowest point of the contour at y = 0.
+/// The section of one girth, ready to be drawn: medial to the left, dorsal up, or the front where
+/// its plane is level, in millimetres with y downwards and the lowest point of the contour at y =
+/// 0.
 struct SectionDrawing {
+  const char* upper_end = "dorsal";   ///< of the foot, as the plane lies
+  const char* lower_end = "plantar";  ///< the same
+  bool is_level = false;              ///< it does not stand on the floor
   std::vector<Eigen::Vector2d> contour;
   std::vector<Eigen::Vector2d> tape;             ///< hull of the contour
   std::vector<Eigen::Vector2d> seen_points;      ///< of the cloud, beside the plane

@@ -67,11 +67,14 @@ std::string panel_svg(const DrawnSection& panel, double left, double base_line) 
   const double middle = left + width_px(panel) / 2.0;
   const double top = base_line - kPixelsPerMm * drawing.height;
   const Girth& girth = *panel.measure->girth;
-  std::string text = svg::line({left - 14.0, base_line + 3.0},
-                               {left + width_px(panel) + 14.0, base_line + 3.0}, "floor");
+  std::string text;
+  if (!drawing.is_level) {
+    text += svg::line({left - 14.0, base_line + 3.0},
+                      {left + width_px(panel) + 14.0, base_line + 3.0}, "floor");
+  }
   text += section_svg(drawing, origin, kPixelsPerMm, kSectionStyle);
-  text += svg::label({middle, top - 12.0}, "side", "dorsal");
-  text += svg::label({middle, base_line + 20.0}, "side", "plantar");
+  text += svg::label({middle, top - 12.0}, "side", drawing.upper_end);
+  text += svg::label({middle, base_line + 20.0}, "side", drawing.lower_end);
   text += svg::label({left + 10.0, base_line + 20.0}, "side", "medial");
   text += svg::label({left + width_px(panel) - 10.0, base_line + 20.0}, "side", "lateral");
   text += svg::label({middle, base_line + 52.0}, "heading", as_words(panel.measure->id));

@@ -10,6 +10,7 @@
 #include "daemon/report/number_text.h"
 #include "daemon/report/pair_report.h"
 #include "daemon/report/result_json.h"
+#include "daemon/report/section_drawing.h"
 #include "daemon/report/sections_svg.h"
 #include "daemon/report/sizes_report.h"
 #include "daemon/report/svg_text.h"
@@ -301,6 +302,21 @@ std::pair<double, double> heights(const std::string& svg, const std::string& sty
   if (found.empty()) return {kNan, kNan};
   const auto [least, most] = std::minmax_element(found.begin(), found.end());
   return {*least, *most};
+}
+
+/// A tape round the ankle lies level: it has a front and a heel, and is off the floor.
+TEST(SectionsSvg, AreLabelledByTheirPlane) {
+  auto set = small_set();
+  const auto has = [&](const std::string& label) {
+    return sections_svg(small_foot(), set).find(">" + label + "<") != std::string::npos;
+  };
+  EXPECT_TRUE(has("dorsal") && has("plantar") && !has("heel"));
+  set.measures[1].plane = *TapePlane::through({0, 0, 90}, {10, 0, 90}, {0, 10, 90});
+  EXPECT_TRUE(has("front") && has("heel") && !has("dorsal") && !has("plantar"));
+  EXPECT_TRUE(draw_section(small_foot(), set.measures[1]).is_level);
+  set.measures[1].plane = *TapePlane::through({0, 0, 10}, {60, 0, 70}, {0, 10, 10});
+  EXPECT_TRUE(has("instep") && has("heel") && !has("dorsal") && !has("plantar"));
+  EXPECT_FALSE(draw_section(small_foot(), set.measures[1]).is_level);
 }
 
 TEST(SectionsSvg, StandBelowATableOfAnyLength) {
