@@ -151,7 +151,7 @@ std::string length_and_width(const ShoeSizes& sizes) {
 }
 
 void add_sizes(const ShoeSizes& sizes, bool of_both, double lowest, Table& table) {
-  table.caption(of_both ? "Size guide for the larger foot" : "Size guide");
+  table.caption(of_both ? "Size guide for the larger of each measure" : "Size guide");
   table.space(6.0);
   if (sizes.mondopoint_mm) table.size("Mondopoint", length_and_width(sizes));
   if (sizes.eu) table.size("EU", half_sizes(sizes.eu->marked));

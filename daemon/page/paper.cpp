@@ -45,6 +45,21 @@ std::size_t end_of(const std::string& text, std::size_t room) {
   return at;
 }
 
+/// Whether a number and its "%" would be parted.
+bool parts_share(const std::string& text, std::size_t space) {
+  return space > 0 && text[space - 1] >= '0' && text[space - 1] <= '9' &&
+         text.compare(space + 1, 1, "%") == 0;
+}
+
+/// The last space up to `limit` that may end a line; npos without any.
+std::size_t last_break(const std::string& text, std::size_t limit) {
+  std::size_t space = text.rfind(' ', limit);
+  while (space != std::string::npos && parts_share(text, space)) {
+    space = text.rfind(' ', space - 1);
+  }
+  return space;
+}
+
 }  // namespace
 
 double scale_that_fits(double extent_mm, double room) {
@@ -64,7 +79,7 @@ std::vector<std::string> wrapped(const std::string& text, double width, double l
   std::string rest = mended_text(text);
   while (hundredths(rest) > room) {
     const std::size_t limit = end_of(rest, room);
-    const std::size_t space = rest.rfind(' ', limit);
+    const std::size_t space = last_break(rest, limit);
     const bool has_space = space != std::string::npos && space > 0;
     lines.push_back(rest.substr(0, has_space ? space : limit));
     rest.erase(0, has_space ? space + 1 : limit);

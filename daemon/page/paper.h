@@ -30,7 +30,8 @@ inline double per_foot_mm(double scale) {
 /// since nobody knows which one the reader has.
 double text_width(const std::string& text, double letter_size);
 
-/// Cuts text into lines of at most `width` at a size of letters, at spaces where it can.
+/// Cuts text into lines of at most `width` at a size of letters, at spaces where it can, but
+/// for one between a number and "%".
 std::vector<std::string> wrapped(const std::string& text, double width, double letter_size);
 
 }  // namespace instep::paper

@@ -29,44 +29,67 @@ constexpr double kLengthLine = 116.0;
 constexpr double kBelowFloor = 30.0;
 constexpr double kLegendLine = 34.0;
 constexpr double kLegendLetters = 25.0;
-constexpr double kNumberApart = 31.0;
+constexpr double kNumberApartAcross = 46.0;  // of two figures each
+constexpr double kNumberApartDown = 28.0;
 constexpr double kNumberOut = 30.0;
 constexpr double kLittleConfidence = 0.35;
 
 /// The places of the numbers of landmarks in one view.
 class Numbers {
  public:
-  /// Beside `place`, on the side away from `middle` if that is free.
+  /// Beside `place`, on the side away from `middle` if that is free, or else further out.
   Vector2d beside(const Vector2d& place, const Vector2d& middle) {
     const Vector2d away = place - middle;
     const double start = std::atan2(away.y(), away.x());
     constexpr int kTurns = 16;
+    constexpr int kRings = 2;
     Vector2d best = place;
-    for (int turn = 0; turn < kTurns; ++turn) {
+    for (int attempt = 0; attempt < kRings * kTurns; ++attempt) {
+      const int turn = attempt % kTurns;
       // Alternately to either side: 0, 1, -1, 2, -2, ...
       const int steps = turn % 2 == 0 ? -turn / 2 : (turn + 1) / 2;
       const double angle = start + steps * 2.0 * std::numbers::pi / kTurns;
-      best = place + kNumberOut * Vector2d(std::cos(angle), std::sin(angle));
-      const bool is_free = std::none_of(taken_.begin(), taken_.end(), [&](const Vector2d& other) {
-        return (other - best).norm() < kNumberApart;
-      });
-      if (is_free) break;
+      const double out = kNumberOut * (1 + attempt / kTurns);
+      best = place + out * Vector2d(std::cos(angle), std::sin(angle));
+      if (is_free(best)) break;
     }
     taken_.push_back(best);
     return best;
   }
 
  private:
+  bool is_free(const Vector2d& place) const {
+    return std::none_of(taken_.begin(), taken_.end(), [&](const Vector2d& other) {
+      return std::abs(other.x() - place.x()) < kNumberApartAcross &&
+             std::abs(other.y() - place.y()) < kNumberApartDown;
+    });
+  }
+
   std::vector<Vector2d> taken_;
 };
 
-std::string landmarks_svg(const FootScan& foot, const FootView& view, const Vector2d& middle) {
+bool shows(const FootView& view, const Landmark& landmark) {
+  return landmark.position_mm.allFinite() && !view.hides(landmark.position_mm);
+}
+
+using Landmarks = decltype(FootScan::landmarks);
+
+/// Those that one of the views shows, which are numbered from 1 on.
+Landmarks shown_by(const FootView& one, const FootView& other, Landmarks landmarks) {
+  std::erase_if(landmarks, [&](const auto& named) {
+    return !shows(one, named.second) && !shows(other, named.second);
+  });
+  return landmarks;
+}
+
+std::string landmarks_svg(const Landmarks& landmarks, const FootView& view,
+                          const Vector2d& middle) {
   std::string text;
   Numbers numbers;
   int number = 0;
-  for (const auto& [name, landmark] : foot.landmarks) {
+  for (const auto& [name, landmark] : landmarks) {
     ++number;
-    if (!landmark.position_mm.allFinite() || view.hides(landmark.position_mm)) continue;
+    if (!shows(view, landmark)) continue;
     const Vector2d place = view(landmark.position_mm);
     const Vector2d beside = numbers.beside(place, middle);
     text += svg::dots({place}, 5.5, "mark");
@@ -77,7 +100,7 @@ std::string landmarks_svg(const FootScan& foot, const FootView& view, const Vect
 }
 
 /// "1 acropodion, 2 instep point ...", and which of them are placed by proportion.
-svg::Block legend(const FootScan& foot, const Vector2d& corner, double width) {
+svg::Block legend(const Landmarks& landmarks, const Vector2d& corner, double width) {
   svg::Block block{{}, corner.y()};
   const auto end_line = [&](const std::string& line) {
     block.bottom += kLegendLine;
@@ -85,7 +108,7 @@ svg::Block legend(const FootScan& foot, const Vector2d& corner, double width) {
   };
   std::string line;
   int number = 0;
-  for (const auto& [name, landmark] : foot.landmarks) {
+  for (const auto& [name, landmark] : landmarks) {
     const std::string item =
         fmt::format("{} {}{}", ++number, as_words(name),
                     landmark.confidence < kLittleConfidence ? " (by proportion)" : "");
@@ -135,12 +158,13 @@ svg::Block views_block(const FootScan& foot, const MeasureSet& measures, const V
                                 paper::scale_that_fits(side.bounds().sizes().y(), kTallestSide));
   const double per_mm = paper::per_foot_mm(scale);
   const auto rings = tape_rings(measures);
+  const Landmarks landmarks = shown_by(above, side, foot.landmarks);
   const auto draw = [&](FootView& view, double top) {
     const Vector2d at(corner.x() + per_mm * (view.bounds().min().x() - leftmost), top);
     view.place(at, per_mm);
     return view.relief() + tapes_svg(rings, view) +
            ring_names(rings, view, top - kNames + 62.0, corner.x(), corner.x() + width) +
-           landmarks_svg(foot, view, at + per_mm * Vector2d(view.bounds().sizes()) / 2.0);
+           landmarks_svg(landmarks, view, at + per_mm * Vector2d(view.bounds().sizes()) / 2.0);
   };
   const std::string to_scale = fmt::format(", 1 : {:g}", scale);
 
@@ -157,7 +181,7 @@ svg::Block views_block(const FootScan& foot, const MeasureSet& measures, const V
   block.svg += draw(side, y);
   y += per_mm * side.bounds().sizes().y();
   block.svg += svg::line({corner.x(), y}, {corner.x() + width, y}, "floor");
-  const svg::Block names = legend(foot, {corner.x(), y + kBelowFloor}, width);
+  const svg::Block names = legend(landmarks, {corner.x(), y + kBelowFloor}, width);
   return {block.svg + names.svg, names.bottom};
 }
 

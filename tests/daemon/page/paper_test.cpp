@@ -49,6 +49,13 @@ TEST(WrappedText, BreaksAtSpacesAndFitsTheWidth) {
   EXPECT_EQ(joined, text);
 }
 
+TEST(WrappedText, PartsNoNumberFromItsPercent) {
+  const std::string text = "taken for a left foot, 99 % sure of it";
+  for (double width = 100.0; width < 400.0; width += 4.0) {
+    for (const auto& line : paper::wrapped(text, width, 20.0)) EXPECT_NE(line[0], '%') << width;
+  }
+}
+
 TEST(WrappedText, HasRoomForLettersThatAreAsWideAsTheyAreTall) {
   std::string joined;
   for (const auto& line : paper::wrapped("足型計測ステーション東京本店", 100.0, 20.0)) {

@@ -170,6 +170,34 @@ TEST(ReportPage, SaysHowMuchItLeftOut) {
   for (std::size_t i = 1; i < heights.size(); i += 2) EXPECT_LT(heights[i], 2860.0);
 }
 
+/// What no view shows is numbered on none: one within the foot.
+TEST(ReportPage, NamesTheLandmarksThatItDraws) {
+  ScanRecord record = made_up_scan();
+  record.foot.landmarks["arch_point"] = {{120, 0, 20}, 1.0, "hidden"};
+  const std::string page = report_page(record);
+  EXPECT_THAT(page, Not(HasSubstr("arch point")));
+  EXPECT_THAT(page, HasSubstr("1 acropodion"));
+  EXPECT_THAT(page, HasSubstr("2 instep point"));
+  EXPECT_THAT(page, HasSubstr("3 pternion"));
+}
+
+TEST(ReportPage, KeepsTheNumbersOfNearLandmarksApart) {
+  ScanRecord record = made_up_scan();
+  for (int i = 0; i < 6; ++i) {
+    record.foot.landmarks["toe" + std::to_string(i) + "_tip"] = {
+        {262.0 + i, -3.0 + i, 20}, 1.0, "together"};
+  }
+  const auto places = numbers(report_page(record), "class=\"mark-number\" x=\"#\" y=\"#\"");
+  ASSERT_GE(places.size(), 12U);
+  for (std::size_t i = 0; i < places.size(); i += 2) {
+    for (std::size_t j = 0; j < i; j += 2) {
+      EXPECT_TRUE(std::abs(places[i] - places[j]) > 40.0 ||
+                  std::abs(places[i + 1] - places[j + 1]) > 25.0)
+          << i << " and " << j;
+    }
+  }
+}
+
 /// A label of a page: where it stands, and its text.
 struct Label {
   double x = 0.0;
