@@ -91,7 +91,7 @@ bool has_many_inside(const ContourIndex& hull, const std::vector<Eigen::Vector2d
 void warn(double length_of_twice, double gap, bool are_many_inside, Girth& girth) {
   girth.warnings.push_back("a hull of points knows no skin: contact is given as stretched");
   if (gap > kNotableGapOfHull * girth.stretched_mm) {
-    girth.warnings.emplace_back(kHullBridgedWarning);
+    girth.warnings.emplace_back(kBridgedWarning);
   }
   if (length_of_twice > (1.0 + kSteadyGrowth) * girth.stretched_mm) {
     girth.warnings.push_back("the hull of the points up to twice as far from the plane is " +

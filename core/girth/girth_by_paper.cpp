@@ -214,7 +214,7 @@ void warn(const Ring& ring, std::size_t initial, std::size_t met, Girth& girth) 
     girth.warnings.push_back("the surface swells beyond all points near the plane");
   }
   if (ring.gap > kNotableGapOfHull * ring.length) {
-    girth.warnings.emplace_back(kHullBridgedWarning);
+    girth.warnings.emplace_back(kBridgedWarning);
   }
   if (girth.contact_mm > kJumping * girth.stretched_mm) {
     girth.warnings.push_back(

@@ -12,11 +12,9 @@ namespace instep {
 inline constexpr double kWidestBridge = 0.25;
 /// What is said of a stretch without seen points that is worth a warning.
 inline constexpr const char* kBridgedWarning =
-    "a part of the section that no camera saw was bridged";
-/// Part of a hull of points without points under it that is worth one too, and the warning.
+    "a part of the section that the scan does not show was bridged";
+/// Part of a hull of points without points under it that is worth it too.
 inline constexpr double kNotableGapOfHull = 0.1;
-inline constexpr const char* kHullBridgedWarning =
-    "a part of the section without points was bridged";
 
 /// The longest stretch between neighbours among places on a closed line of that `length`, each
 /// given by the way to it, in order; the length itself when there are none.
