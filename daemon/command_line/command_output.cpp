@@ -38,7 +38,11 @@ void print_warning(std::string_view text) {
 Result<void> print_text(std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return {};
-  return fail(errno == ENOSPC ? ErrorCode::kNoSpace : ErrorCode::kIo,
+  if (errno == ENOSPC) {
+    return fail(ErrorCode::kNoSpace, "cannot write the result: the disk that it goes to is full",
+                "make room there");
+  }
+  return fail(ErrorCode::kIo,
               fmt::format("cannot write the result ({})", std::generic_category().message(errno)),
               "check where the output goes");
 }

@@ -109,6 +109,11 @@ fs::path end_of_links(fs::path path) {
 }
 
 Error file_error(int error_number, const std::string& doing, const std::filesystem::path& path) {
+  if (path.empty()) {
+    return fail(ErrorCode::kInvalidInput, "the name of what to " + doing + " is empty",
+                "give a name")
+        .value();
+  }
   ErrorCode code = ErrorCode::kIo;
   std::string advice = "check the disk";
   switch (error_number) {

@@ -100,7 +100,7 @@ TEST_F(BadInput, OutputThatNobodyTakesIsOne) {
   const auto cloud = file("c.xyz", cylinder());
   for (const auto& arguments : std::vector<std::vector<std::string>>{
            {"--help"}, {"--version"}, {"girth", "--help"}, {"girth", cloud, "--plane", kPlane}}) {
-    expect_failure(arguments, 1, "No space left", test::Stdout::kFullDisk);
+    expect_failure(arguments, 1, "is full: make room", test::Stdout::kFullDisk);
     expect_failure(arguments, 1, "Bad file descriptor", test::Stdout::kClosed);
   }
 }
@@ -253,6 +253,13 @@ TEST_F(BadInput, SimulateRefusesAFolderThatHoldsSomething) {
   file("mine.txt", "x");
   expect_failure({"simulate", "--out", folder_.path(), "--subject", "cylinder", "--frames", "1"}, 1,
                  "new folder");
+}
+
+TEST_F(BadInput, AnEmptyNameIsCalledSo) {
+  expect_failure({"simulate", "--out", "", "--subject", "cylinder", "--frames", "1"}, 1,
+                 "the name of what to make is empty");
+  expect_failure({"girth", "", "--plane=0,0,0,1,0,0,0,1,0"}, 1,
+                 "the name of what to read is empty");
 }
 
 // With other settings than those that were meant a station measures otherwise.
