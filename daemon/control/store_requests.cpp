@@ -55,6 +55,8 @@ json files_in(const std::filesystem::path& folder) {
 }
 
 Result<json> answer(ResultStore& store, const Request& request, const ResultStore::OnDay& on_day) {
+  // A folder in the place of the results' own would be shown as one without results.
+  if (const auto there = store.check_root(); !there) return tl::make_unexpected(there.error());
   if (request.verb == "list") return list(store, on_day);
   const auto id = store.find(request.id);
   if (!id) return tl::make_unexpected(id.error());

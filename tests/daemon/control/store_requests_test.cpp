@@ -57,6 +57,21 @@ TEST_F(StoreRequest, DeletingTellsOfNoneForOneFootNorForADamagedResult) {
   }
 }
 
+/// As a scan says it; of an empty folder there it said that there were no scans.
+TEST_F(StoreRequest, AreRefusedWhereTheResultsFolderIsGoneOrAnother) {
+  std::filesystem::rename(store.root(), folder.path() / "taken-away");
+  for (const char* verb : {"list", "show", "export", "delete"}) {
+    const std::string said = answer(verb, kLeft).dump();
+    EXPECT_NE(said.find("is gone"), std::string::npos) << said;
+    EXPECT_NE(said.find("mount its disk again"), std::string::npos) << said;
+  }
+  std::filesystem::create_directory(store.root());
+  for (const char* verb : {"list", "show", "export", "delete"}) {
+    const std::string said = answer(verb, kLeft).dump();
+    EXPECT_NE(said.find("is another folder"), std::string::npos) << said;
+  }
+}
+
 TEST_F(StoreRequest, ShowingTellsOfAResultThatIsNone) {
   put(kAlone, R"({"measures":5})");
   EXPECT_NE(answer("show", kAlone).dump().find("is damaged"), std::string::npos);
