@@ -1,6 +1,9 @@
 #include "daemon/command_line/surface_command.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <chrono>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,6 +44,19 @@ std::string check_cube(const std::string& text) {
   return cube && *cube >= 0.001 && *cube <= 1000.0 ? "" : "needs a number from 0.001 to 1000";
 }
 
+/// Cubes that are no longer small against the body cut corners and lose what is thin.
+std::optional<std::string> doubt_of_cubes(const SurfaceCommand& command, const PointCloud& cloud) {
+  constexpr double kLargestShare = 0.1;
+  Eigen::AlignedBox3d box;
+  for (const auto& position : cloud.positions) box.extend(position);
+  const double smallest_mm = box.sizes().minCoeff();
+  if (!command.cube_mm || *command.cube_mm <= kLargestShare * smallest_mm) return std::nullopt;
+  return fmt::format(
+      "the cubes of {:g} mm are too large for a body of {:.0f} mm in its smallest extent, whose "
+      "shape they lose: give a --cube-mm of at most a tenth of that",
+      *command.cube_mm, smallest_mm);
+}
+
 Result<void> run(const SurfaceCommand& command) {
   const auto start = Clock::now();
   if (auto spared = spare_input(command.out, "--out", command.cloud.file, "the cloud"); !spared) {
@@ -56,12 +72,14 @@ Result<void> run(const SurfaceCommand& command) {
   });
   if (!mesh) return tl::make_unexpected(with_what_was_noticed(mesh.error(), file->notes));
   if (auto written = write_mesh_ply(*mesh, command.out); !written) return written;
+  auto warnings = file->notes;
+  if (const auto doubt = doubt_of_cubes(command, file->cloud)) warnings.push_back(*doubt);
   const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
   return print_json({{"file", command.out},
                      {"points", file->cloud.size()},
                      {"corners", mesh->positions.size()},
                      {"triangles", mesh->triangles.size()},
-                     {"warnings", file->notes},
+                     {"warnings", warnings},
                      {"elapsed_ms", elapsed.count()}});
 }
 

@@ -191,7 +191,11 @@ TEST_F(BadInput, SurfaceIsWrittenWholeOrNotAtAll) {
   expect_failure({"surface", cloud, "--out", folder_.path() / "mesh.stl"}, 2, "ends in .ply");
   EXPECT_FALSE(fs::exists(out));
 
+  const auto coarse =
+      test::run_program("instep", {"surface", cloud, "--out", out, "--cube-mm", "25"});
+  EXPECT_NE(coarse.output.find("too large for a body"), std::string::npos) << coarse.output;
   const auto made = test::run_program("instep", {"surface", cloud, "--out", out});
+  EXPECT_EQ(made.output.find("too large for a body"), std::string::npos) << made.output;
   EXPECT_EQ(made.exit_code, 0) << made.errors;
   EXPECT_EQ(made.errors, "");
   const auto girth =
