@@ -72,8 +72,6 @@ bool shows(const FootView& view, const Landmark& landmark) {
   return landmark.position_mm.allFinite() && !view.hides(landmark.position_mm);
 }
 
-using Landmarks = decltype(FootScan::landmarks);
-
 /// Those that one of the views shows, which are numbered from 1 on.
 Landmarks shown_by(const FootView& one, const FootView& other, Landmarks landmarks) {
   std::erase_if(landmarks, [&](const auto& named) {
