@@ -24,9 +24,9 @@ struct CloudFile {
   std::vector<std::string> notes;             ///< what the user should know, sentences
 };
 
-/// Reads PLY (ASCII, binary of both byte orders), XYZ or CSV text, PCD (ASCII, binary, compressed), OBJ and
-/// STL. The content decides, then the extension. sigma_mm and shared errors are taken from PLY and
-/// always mean millimetres. Points without coordinates are left out, with a note
+/// Reads PLY (ASCII, binary of both byte orders), XYZ or CSV text, PCD (ASCII, binary, compressed),
+/// OBJ and STL. The content decides, then the extension. sigma_mm and shared errors are taken from
+/// PLY and always mean millimetres. Points without coordinates are left out, with a note
 /// (leave_out_unseen()).
 ///
 /// Every fault is an error with its file's name and advice: files that are missing, empty, cut
