@@ -51,21 +51,29 @@ struct Work {
   }
 };
 
-/// Checks and cleans each view; the first that is not sound fails all. They come by name: where
-/// points are thinned or matched some go before others, which must not hang on which camera spoke
-/// first.
-Result<std::vector<WorkingView>> open_views(const std::vector<View>& views, const Work& work) {
+/// By name: where points are thinned or matched some go before others, which must not hang on which
+/// camera spoke first.
+std::vector<const View*> in_order(const std::vector<View>& views) {
+  std::vector<const View*> ordered;
+  for (const auto& view : views) ordered.push_back(&view);
+  std::stable_sort(ordered.begin(), ordered.end(), [](const View* one, const View* other) {
+    return one->geometry.id < other->geometry.id;
+  });
+  return ordered;
+}
+
+/// Checks and cleans each view; the first that is not sound fails all.
+Result<std::vector<WorkingView>> open_views(const std::vector<const View*>& views,
+                                            const Work& work) {
   std::vector<std::optional<Result<WorkingView>>> opened(views.size());
   const bool done =
-      work.for_each_view(views.size(), [&](std::size_t i) { opened[i] = open_view(views[i]); });
+      work.for_each_view(views.size(), [&](std::size_t i) { opened[i] = open_view(*views[i]); });
   if (!done) return cancelled();
   std::vector<WorkingView> working;
   for (auto& view : opened) {
     if (!*view) return tl::make_unexpected(view->error());
     working.push_back(std::move(**view));
   }
-  std::sort(working.begin(), working.end(),
-            [](const auto& a, const auto& b) { return a.id < b.id; });
   return working;
 }
 
@@ -265,7 +273,7 @@ Result<FusedScene> fuse(const std::vector<View>& views, const FusionSettings& se
                         const Work& work, std::optional<Contradiction>& contradiction) {
   const auto& [workers, go_on] = work;
   FusedScene scene;
-  auto opened = open_views(views, work);
+  auto opened = open_views(in_order(views), work);
   if (!opened) return tl::make_unexpected(opened.error());
   auto& working = *opened;
   drop_blind_views(working, settings, scene);

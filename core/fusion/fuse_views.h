@@ -65,9 +65,9 @@ struct FusedScene {
 /// directions, origins, where overlaps show that depths are bent the errors that neighbours share
 /// (LocalErrors) and, where the views were refined, those that are left of their poses and lenses
 /// (PointCloud::shared_errors_mm). Pure computation; the same views give the same bytes, in
-/// whatever order (they are taken by name). What concerns one view alone is a job of its own for
-/// `workers`, the rest runs on the calling thread. `go_on` hears of each view, each iteration of
-/// the registration, and each stage.
+/// whatever order (they are taken by name, which differ). What concerns one view alone is a job of
+/// its own for `workers`, the rest runs on the calling thread. `go_on` hears of each view, each
+/// iteration of the registration, and each stage.
 ///
 /// Fails with kInvalidInput where a pose or lens is not sound or there is no view, kCorruptData
 /// where a depth image does not fit its camera, kInsufficientData where no camera saw anything,

@@ -197,9 +197,10 @@ bool counts_before(const ToldGirth& one, const ToldGirth& all) {
 Result<Girth> with_shared_doubt(Girth girth, const TapePlane& plane, const PointCloud& cloud) {
   const auto shared = shared_doubt_of(girth.contour, plane, cloud);
   if (!(shared.contact_u95 > 0.0)) return girth;
+  const bool is_wide = is_too_doubtful(girth);  // told all the same, over an opening
   girth.stretched_u95_mm = std::hypot(*girth.stretched_u95_mm, shared.stretched_u95);
   girth.contact_u95_mm = std::hypot(*girth.contact_u95_mm, shared.contact_u95);
-  if (is_too_doubtful(girth)) {
+  if (!is_wide && is_too_doubtful(girth)) {
     return fail(ErrorCode::kInsufficientData,
                 "the errors that the points share, as of the cameras that saw them, leave nothing "
                 "to be told of the girth",

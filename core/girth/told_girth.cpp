@@ -78,13 +78,7 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
                          const std::vector<SectionLoop>& loops, const BlendedSurface& surface,
                          const SectionEvidence& evidence) {
   const Contour& contour = loops.front().contour;
-  const LengthDoubt doubt = doubt_of(contour, surface, band.sigma);
-  MeasuredSection patches{contour,
-                          contour.length() + doubt.waves,
-                          contour.tape_length() + doubt.waves,
-                          doubt.contact_u95,
-                          doubt.stretched_u95,
-                          {}};
+  MeasuredSection patches = section_by_patches(contour, surface, band.sigma);
   if (loops.size() > 1) return patches;
   const bool is_bridged = has_notable_gap(band, evidence);
   auto smooth = smooth_section(slabs, band, contour, is_bridged);
@@ -311,6 +305,17 @@ ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOp
 }
 
 }  // namespace
+
+MeasuredSection section_by_patches(const Contour& contour, const BlendedSurface& surface,
+                                   double sigma) {
+  const LengthDoubt doubt = doubt_of(contour, surface, sigma);
+  return {contour,
+          contour.length() + doubt.waves,
+          contour.tape_length() + doubt.waves,
+          doubt.contact_u95,
+          doubt.stretched_u95,
+          {}};
+}
 
 Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
                const SectionEvidence& evidence) {

@@ -11,6 +11,7 @@
 #include "core/girth/tape_plane.h"
 #include "core/girth/unfollowed_skin.h"
 #include "core/result.h"
+#include "core/surface/blended_surface.h"
 
 namespace instep {
 
@@ -38,6 +39,11 @@ struct ToldGirth {
   /// A section that closes over seen points, all of them, with little doubt.
   bool is_plain() const;
 };
+
+/// What the patches of a surface tell of a contour on it (doubt_of()), whose points are `sigma`
+/// off.
+MeasuredSection section_by_patches(const Contour& contour, const BlendedSurface& surface,
+                                   double sigma);
 
 /// What a section of that band tells, in millimetres and on the plane; without the number of the
 /// cloud's points, and without warnings.
