@@ -9,7 +9,8 @@
 namespace instep {
 namespace {
 
-constexpr std::chrono::milliseconds kOpeningGrace{1000};
+/// Of a call of start() (DepthCamera), and a little for the threads.
+constexpr std::chrono::milliseconds kOpeningGrace{2500};
 
 }  // namespace
 
@@ -59,6 +60,7 @@ bool CameraLooks::is_under_way() const {
 void CameraLooks::begin() {
   const auto round = ++round_;
   unanswered_.assign(cameras_->size(), true);
+  found_.assign(cameras_->size(), std::nullopt);
   next_.clear();
   deadline_.set(2 * settings_.frame_limit + kOpeningGrace);
   cameras_->check(settings_, zero_frames_,
@@ -72,7 +74,7 @@ void CameraLooks::begin() {
 void CameraLooks::answered(std::uint64_t round, std::size_t camera, const Result<void>& outcome) {
   if (round != round_ || !unanswered_[camera]) return;
   unanswered_[camera] = false;
-  troubles_[camera] = outcome ? std::nullopt : std::optional(outcome.error());
+  found_[camera] = outcome ? std::nullopt : std::optional(outcome.error());
   if (!is_under_way()) end();
 }
 
@@ -85,8 +87,9 @@ void CameraLooks::close() {
 void CameraLooks::end() {
   const auto told = cameras_->descriptions();
   for (std::size_t i = 0; i < unanswered_.size(); ++i) {
-    if (unanswered_[i]) troubles_[i] = silent_camera(told[i].geometry.id);
+    if (unanswered_[i]) found_[i] = silent_camera(told[i].geometry.id);
   }
+  troubles_ = found_;
   close();
   if (all_answer()) back_off_.reset();
   next_.set(all_answer() ? std::chrono::nanoseconds(settings_.check_every) : back_off_.next());

@@ -36,7 +36,7 @@ class CameraLooks {
   /// It has ended. Looks at once if that is wanted, or a look was given up or asked for meanwhile.
   void resume(bool at_once);
 
-  /// What was wrong when the camera last answered, or did not.
+  /// What was wrong with the camera in the last look that was not given up.
   const std::optional<Error>& trouble(std::size_t camera) const { return troubles_[camera]; }
   bool all_answer() const;
 
@@ -54,7 +54,8 @@ class CameraLooks {
   CameraSet::ZeroFrames zero_frames_;
   std::function<void()> on_end_;
   std::vector<std::optional<Error>> troubles_;
-  std::vector<bool> unanswered_;  ///< of the look that is under way
+  std::vector<bool> unanswered_;             ///< of the look that is under way
+  std::vector<std::optional<Error>> found_;  ///< by those of it that answered
   std::uint64_t round_ = 0;
   bool is_paused_ = false;
   bool is_wanted_ = false;  ///< after the pause

@@ -115,8 +115,11 @@ Result<void> look_at(DepthCamera& camera, FrameTally& tally, const CaptureSettin
   FrameFault fault = FrameFault::kNone;
   tally.begin_stream();
   for (int i = 0; i < settings.warmup_frames + kMostBadFramesForEach; ++i) {
-    if (i > 0 && steady_clock::now() >= deadline) break;
-    const auto frame = camera.next_frame(settings.frame_limit);
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - steady_clock::now());
+    if (i > 0 && left <= std::chrono::milliseconds(0)) break;
+    const auto frame = camera.next_frame(i > 0 ? left : settings.frame_limit);
+    // What came before the limit tells more than that it was reached.
+    if (!frame && i > 0 && frame.error().code == ErrorCode::kTimeout) break;
     if (!frame) return tl::make_unexpected(without_frame(frame.error()));
     (void)go_on();
     fault = tally.count(*frame);

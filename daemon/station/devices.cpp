@@ -110,13 +110,20 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
   return {};
 }
 
-using Cameras = std::vector<std::unique_ptr<DepthCamera>>;
+/// One that could be opened when another could not, and where it was on USB then: it may have left
+/// meanwhile, and is to be noticed when it comes back.
+struct OpenSensor {
+  std::unique_ptr<DepthCamera> camera;
+  std::optional<UsbAddress> usb;
+};
 
-Result<std::unique_ptr<DepthCamera>> open_openni(const OpenniSettings& chosen, Cameras& kept) {
-  const auto open_still = std::find_if(kept.begin(), kept.end(), [&](const auto& camera) {
-    return camera && camera->description().geometry.id == chosen.placement.name;
-  });
-  if (open_still != kept.end()) return std::move(*open_still);
+using OpenSensors = std::map<std::string, OpenSensor>;
+
+Result<OpenSensor> open_openni(const OpenniSettings& chosen, OpenSensors& kept) {
+  auto usb = usb_address_of(chosen, {});
+  if (const auto still = kept.find(chosen.placement.name); still != kept.end()) {
+    return OpenSensor{std::move(still->second.camera), usb ? usb : still->second.usb};
+  }
   OpenniCamera::Settings settings;
   settings.name = chosen.placement.name;
   settings.serial = chosen.serial;
@@ -129,17 +136,34 @@ Result<std::unique_ptr<DepthCamera>> open_openni(const OpenniSettings& chosen, C
     error.message = "camera " + chosen.placement.name + ": " + error.message;
     return tl::make_unexpected(error);
   }
-  return std::move(*camera);
+  return OpenSensor{std::move(*camera), usb};
 }
 
 /// `kept`: those that are open still.
-Result<void> add_openni(const OpenniSettings& chosen, Cameras& kept, Devices& devices) {
-  auto camera = open_openni(chosen, kept);
-  if (!camera) return tl::make_unexpected(camera.error());
-  devices.simulated = devices.simulated || (*camera)->description().simulated;
-  if (const auto usb = usb_address_of(chosen, {})) devices.usb[chosen.placement.name] = *usb;
-  devices.cameras.push_back(std::move(*camera));
+Result<void> add_openni(const OpenniSettings& chosen, OpenSensors& kept, Devices& devices) {
+  auto sensor = open_openni(chosen, kept);
+  if (!sensor) return tl::make_unexpected(sensor.error());
+  devices.simulated = devices.simulated || sensor->camera->description().simulated;
+  if (sensor->usb) devices.usb[chosen.placement.name] = *sensor->usb;
+  devices.cameras.push_back(std::move(sensor->camera));
   return {};
+}
+
+/// The OpenNI2 sensors among them.
+OpenSensors sensors_of(const Settings& settings, Devices devices) {
+  OpenSensors sensors;
+  for (const auto& source : settings.cameras) {
+    if (source.kind != CameraKind::kOpenni) continue;
+    const std::string& name = source.openni.placement.name;
+    const auto camera = std::find_if(
+        devices.cameras.begin(), devices.cameras.end(),
+        [&](const auto& one) { return one && one->description().geometry.id == name; });
+    if (camera == devices.cameras.end()) continue;
+    OpenSensor& sensor = sensors[name];
+    sensor.camera = std::move(*camera);
+    if (const auto usb = devices.usb.find(name); usb != devices.usb.end()) sensor.usb = usb->second;
+  }
+  return sensors;
 }
 
 DepthFormat format_of(V4l2Format format) {
@@ -193,8 +217,8 @@ Error with_waiting(Error trouble, const Devices& devices) {
   return trouble;
 }
 
-/// Leaves in `kept` those that it could open, if it fails, for the next time.
-Result<Devices> open_all(Cameras& kept, const Settings& settings) {
+/// Leaves in `kept` the sensors that it could open, if it fails, for the next time.
+Result<Devices> open_all(OpenSensors& kept, const Settings& settings) {
   Devices devices;
   std::optional<Error> trouble;
   for (const auto& camera : settings.cameras) {
@@ -224,9 +248,10 @@ Result<Devices> open_all(Cameras& kept, const Settings& settings) {
   }
   if (trouble) {
     const Error error = with_waiting(*trouble, devices);
-    kept = std::move(devices.cameras);
+    kept = sensors_of(settings, std::move(devices));
     return tl::make_unexpected(error);
   }
+  kept.clear();
   if (const auto distinct = check_names(devices); !distinct) {
     return tl::make_unexpected(distinct.error());
   }
@@ -296,7 +321,7 @@ Result<Devices> open_devices(const Settings& settings) {
 }
 
 OpenDevices open_devices_at_last() {
-  return [kept = std::make_shared<Cameras>()](const Settings& settings) {
+  return [kept = std::make_shared<OpenSensors>()](const Settings& settings) {
     return open_all(*kept, settings);
   };
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/loop_thread.h"
@@ -19,17 +20,25 @@ using namespace std::chrono_literals;
 using test::ScriptedCamera;
 using Step = ScriptedCamera::Step;
 
-/// Looks at one camera, and what each of them found.
+/// Looks at cameras, and what each of them found at the first.
 class LooksAtOneCamera : public testing::Test {
  protected:
   ~LooksAtOneCamera() override { loop_.stop(); }
 
   /// Where they do not end before, no look comes by itself, and none has to be over soon.
   void begin(std::deque<Step> script, std::chrono::milliseconds frame_limit = 1h) {
-    auto owned = std::make_unique<ScriptedCamera>("left", std::move(script));
-    camera_ = owned.get();
+    begin_all({std::move(script)}, frame_limit);
+  }
+
+  /// The last of two is called right.
+  void begin_all(std::vector<std::deque<Step>> scripts, std::chrono::milliseconds frame_limit) {
     std::vector<std::unique_ptr<DepthCamera>> all;
-    all.push_back(std::move(owned));
+    for (auto& script : scripts) {
+      auto owned =
+          std::make_unique<ScriptedCamera>(all.empty() ? "left" : "right", std::move(script));
+      camera_ = owned.get();
+      all.push_back(std::move(owned));
+    }
     set_ = std::make_shared<CameraSet>(std::move(all));
     CaptureSettings settings;
     settings.warmup_frames = 0;
@@ -74,6 +83,21 @@ TEST_F(LooksAtOneCamera, CountForNothingWhereAScanComesBetweenAndAreMadeAgainAft
   loop_.call([&] { EXPECT_TRUE(found_.empty()); });
   loop_.call([&] { looks_->resume(false); });
   EXPECT_TRUE(has_found({""}));
+}
+
+/// What one of them had answered left a trouble beside a station that is ready.
+TEST_F(LooksAtOneCamera, ThatAreGivenUpCountForNothingOfThoseThatHadAnswered) {
+  begin_all({{Step::kGone}, {Step::kHang}}, 1h);
+  camera_->wait_until_asked();
+  for (int i = 0; i < 100; ++i) {
+    loop_.call([&] { EXPECT_TRUE(looks_->all_answer()); });
+    std::this_thread::sleep_for(1ms);
+  }
+  loop_.call([&] {
+    looks_->pause();
+    EXPECT_TRUE(looks_->all_answer());
+  });
+  camera_->release();
 }
 
 TEST_F(LooksAtOneCamera, AreMadeAfterAScanIfTheyAreAskedForMeanwhile) {
