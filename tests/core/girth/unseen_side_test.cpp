@@ -63,17 +63,17 @@ TEST(UnseenSide, IsAllRoundWithoutPoints) {
   EXPECT_EQ(widest_unseen_side(band_of_grain(0.01)).angle, 2.0 * std::numbers::pi);
 }
 
-/// Of a cylinder of radius 40, 80 degrees of which no camera saw: 51 mm straight across.
+/// Of a cylinder of radius 40, 150 degrees of which no camera saw: 77 mm straight across.
 TEST(UnseenSide, IsToldOfASectionThatDoesNotClose) {
   const PointCloud whole = test::cylinder(4000, 0.0);
   std::vector<std::size_t> seen;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const auto& place = whole.positions[i];
-    if (std::abs(std::atan2(place.y(), place.x())) > 40 * kDegree) seen.push_back(i);
+    if (std::abs(std::atan2(place.y(), place.x())) > 75 * kDegree) seen.push_back(i);
   }
   const auto girth = girth_by_rbf(whole.subset(seen), test::level_plane());
   ASSERT_FALSE(girth);
-  EXPECT_NE(girth.error().line().find("no points over some 5"), std::string::npos)
+  EXPECT_NE(girth.error().line().find("no points over some 7"), std::string::npos)
       << girth.error().line();
 }
 

@@ -33,7 +33,7 @@ class GatedCamera final : public DepthCamera {
   /// Ends the call before, and returns once the camera is in this one.
   void go_on_to(Call call) {
     std::unique_lock lock(mutex_);
-    ended_ = now_;
+    if (now_ != call) ended_ = now_;
     changed_.notify_all();
     changed_.wait(lock, [&] { return now_ == call; });
   }
