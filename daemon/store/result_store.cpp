@@ -41,16 +41,19 @@ ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path
     : storage_(storage), root_(std::move(storage), std::move(root)) {}
 
 Result<Prepared> ResultStore::prepare() {
+  // To the end: a put() between two days would share the hold, and what another program then makes
+  // would pass for a leftover.
   const std::lock_guard lock(clearing_);
   const auto is_ours = root_.take();
   if (!is_ours) return tl::make_unexpected(is_ours.error());
+  // Before the clearing, which reads every day: a scan that begins meanwhile asks time_of_next().
+  find_newest();
   Result<Prepared> prepared;
   if (*is_ours) {
     prepared = clear_leftovers();
   } else {
     prepared->is_shared = true;
   }
-  find_newest();
   root_.mark();
   root_.share();
   return prepared;

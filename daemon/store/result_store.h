@@ -56,8 +56,9 @@ class ResultStore {
   const std::filesystem::path& root() const { return root_.path(); }
 
   /// Takes the root, see StoreRoot, and clears what an earlier run left half-done, unless another
-  /// program works on the same results. Once, before anything else; a put() that comes from another
-  /// thread meanwhile waits for it.
+  /// program works on the same results. Reads the folders of all days. Nothing else but expect(),
+  /// time_of_next() and put() may come from another thread meanwhile: a put() waits for it, and
+  /// until the root is taken time_of_next() knows of no earlier run.
   Result<Prepared> prepare();
 
   /// Whether the root is the one that prepare() took: see StoreRoot. What puts or takes away
@@ -92,8 +93,9 @@ class ResultStore {
   Result<std::string> find(const std::string& id, std::chrono::system_clock::time_point now =
                                                       std::chrono::system_clock::now()) const;
 
-  /// From when on ids sort behind those that prepare() has found and this has stored: `now`, or
-  /// where the clock was set back a little, just after the newest. Looks at no disk.
+  /// From when on ids sort behind those that were found when the root was taken and those that this
+  /// has stored: `now`, or where the clock was set back a little, just after the newest. Looks at
+  /// no disk.
   std::chrono::system_clock::time_point time_of_next(
       std::chrono::system_clock::time_point now) const;
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <new>
 #include <thread>
 
 #include "daemon/machine/folder_rights.h"
@@ -187,6 +188,21 @@ TEST_F(ResultStoreOnDisk, DatesWhatComesNextWithoutALookAtTheDisk) {
   ResultStore after_restart(std::make_shared<PosixStorage>(), store.root());
   ASSERT_TRUE(after_restart.prepare());
   std::filesystem::remove_all(store.root());
+  EXPECT_EQ(after_restart.time_of_next(*time_of_scan_id("20261121T090000000Z-aaaa")),
+            *time_of_scan_id("20261121T090320418Z-aaaa"));
+}
+
+/// Clearing reads all days, and may break off; a scan may begin meanwhile.
+TEST_F(ResultStoreOnDisk, KnowsTheNewestBeforeItClears) {
+  class Memoryless : public PosixStorage {
+   public:
+    Result<void> remove_folder(const std::filesystem::path&) override { throw std::bad_alloc(); }
+  };
+  const auto root = folder.path() / "of an earlier run";
+  std::filesystem::create_directories(root / "2026/11/21/20261121T090320417Z-aaaa");
+  std::filesystem::create_directory(root / "2026/11/21/.writing-20261121T090330000Z-aaaa");
+  ResultStore after_restart(std::make_shared<Memoryless>(), root);
+  EXPECT_THROW((void)after_restart.prepare(), std::bad_alloc);
   EXPECT_EQ(after_restart.time_of_next(*time_of_scan_id("20261121T090000000Z-aaaa")),
             *time_of_scan_id("20261121T090320418Z-aaaa"));
 }
