@@ -377,6 +377,7 @@ TEST(Station, NamesAFullDiskAndRecoversFromIt) {
   EXPECT_THAT(full.text, HasSubstr("make room on the disk")) << station.log();
   ASSERT_TRUE(station.wait_for("STATUS=fault", kLong)) << station.log();
   const std::string log = station.log();
+  ASSERT_NE(log.find("make room on the disk"), std::string::npos) << log;
   EXPECT_EQ(log.find("make room on the disk"), log.rfind("make room on the disk")) << log;
   std::filesystem::remove(disk / "filler");
   // It would look by itself within a minute.
