@@ -33,8 +33,18 @@ constexpr std::chrono::seconds kLongestSweep{1};
 constexpr std::chrono::seconds kStoreLook{10};
 /// Then it is tried out: a disk gets room again.
 constexpr std::chrono::seconds kStoreLookInTrouble{60};
+/// A look at the store that makes no step for so long waits for its disk. Less than kStoreLook, so
+/// that the next look tells of it.
+constexpr std::chrono::seconds kStoreSilent{5};
+/// Mostly a scan is stored within a second.
+constexpr std::chrono::seconds kLongStoring{30};
 /// Results grow old without a scan.
 constexpr std::chrono::seconds kSweep{3600};
+
+Error silent_store() {
+  return {ErrorCode::kTimeout, Remedy::kOperator, "the disk of the results does not answer",
+          "see to its cable or network, and if that does not help, restart the station"};
+}
 
 /// Of a store whose disk was taken away nobody can tell.
 bool is_missing(ResultStore& store, const std::string& id) {
@@ -89,6 +99,7 @@ Result<void> StationService::open(MeasureCapture measure) {
   station_ = std::make_unique<Station>(*loop_, settings_, std::move(measure), store_, listener);
 
   store_timer_ = loop_->timer([this] { look_at_store(); });
+  storing_timer_ = loop_->timer([this] { storing_takes_long(); });
   sweep_timer_ = loop_->timer([this] { sweep_store(); });
   watchdog_timer_ = loop_->timer([this] { feed_watchdog(); });
   shutdown_timer_ = loop_->timer([this] { loop_->leave(); });
@@ -122,13 +133,15 @@ bool StationService::end_threads() {
 void StationService::prepare_store() {
   store_timer_.set(kStoreLook);
   sweep_timer_.set(kSweep);
-  archive_->post([this, store = store_, looks = archive_looks_,
-                  post = loop_->poster()](TaskProgress&) {
-    *looks = true;
-    const auto prepared = caught("the preparation of the store", [&] { return store->prepare(); });
-    *looks = false;
-    post([this, prepared] { store_prepared(prepared); });
-  });
+  archive_->post(
+      [this, store = store_, looked = archive_looked_, post = loop_->poster()](TaskProgress&) {
+        *looked = EventLoop::monotonic_now();
+        const auto prepared = caught("the preparation of the store", [&] {
+          return store->prepare([&] { *looked = EventLoop::monotonic_now(); });
+        });
+        *looked = std::chrono::nanoseconds(0);
+        post([this, prepared] { store_prepared(prepared); });
+      });
 }
 
 void StationService::store_prepared(const Result<Prepared>& prepared) {
@@ -146,23 +159,38 @@ void StationService::store_prepared(const Result<Prepared>& prepared) {
 }
 
 void StationService::look_at_store() {
+  tell_of_silent_store();
   const auto trouble = station_->store_trouble();
   store_timer_.set(trouble ? kStoreLookInTrouble : kStoreLook);
   if (trouble) sweep_store();  // it may make room
   if (is_looking_at_store_) return;
   is_looking_at_store_ = true;
-  archive_->post([this, trouble, store = store_, looks = archive_looks_,
+  archive_->post([this, trouble, store = store_, looked = archive_looked_,
                   post = loop_->poster()](TaskProgress&) {
-    *looks = true;
+    *looked = EventLoop::monotonic_now();
     const auto outcome = caught("a look at the store",
                                 [&] { return trouble ? store->try_out() : store->check_root(); });
-    *looks = false;
+    *looked = std::chrono::nanoseconds(0);
     post([this, trouble, outcome] {
       is_looking_at_store_ = false;
       if (trouble) return station_->store_tried_out(*trouble, outcome);
-      if (!outcome) station_->store_failed(outcome.error());
+      if (!outcome) return station_->store_failed(outcome.error());
+      // It took so long that trouble was told meanwhile, which may be over.
+      if (station_->store_trouble()) look_at_store();
     });
   });
+}
+
+void StationService::tell_of_silent_store() {
+  const std::chrono::nanoseconds looked = *archive_looked_;
+  const bool is_silent = looked.count() != 0 && EventLoop::monotonic_now() - looked >= kStoreSilent;
+  // To tell it again would make another trouble of it, which the look that waits does not end.
+  if (is_silent && !station_->store_trouble()) station_->store_failed(silent_store());
+}
+
+void StationService::storing_takes_long() {
+  storing_takes_long_ = station_->state() == StationState::kStoring;
+  station_changed();
 }
 
 void StationService::sweep_store() {
@@ -241,6 +269,12 @@ void StationService::tell_of(const Swept& swept) {
 StationStatus StationService::status() const {
   auto status = station_->status();
   if (!settings_fault_.empty()) status.warnings.push_back(settings_fault_);
+  // No trouble of the store, which would end the scan for the station while it can yet be stored.
+  if (storing_takes_long_ && status.state == StationState::kStoring) {
+    status.warnings.push_back("the scan is not stored yet, as " + silent_store().message +
+                              ": see to its cable or network; the scan is kept until it does, and "
+                              "a restart of the station would lose it");
+  }
   return status;
 }
 
@@ -257,7 +291,11 @@ void StationService::station_changed() {
   if (!station_) return;
   const auto now = status();
   const std::string state = to_string(now.state);
-  if (said_.is_news("state", state)) log_info("station is " + state);
+  if (said_.is_news("state", state)) {
+    log_info("station is " + state);
+    storing_takes_long_ = false;
+    if (now.state == StationState::kStoring) storing_timer_.set(kLongStoring);
+  }
   const bool was_in_trouble = !troubles_.empty();
   for (const auto& trouble : troubles_.news(now.troubles)) log_warning(trouble);
   if (was_in_trouble && troubles_.empty()) log_info("all is well again");
@@ -377,7 +415,8 @@ void StationService::feed_watchdog() {
   station_->note_progress(progress_);
   // An ailing disk is what it tries out, and to be started again mends none. Nor while a scan is
   // being stored, which shares the disk and would be lost.
-  const bool may_stall = *archive_looks_ || station_->state() == StationState::kStoring;
+  const bool may_stall =
+      archive_looked_->load().count() != 0 || station_->state() == StationState::kStoring;
   progress_.note("archive", archive_->is_busy() && !may_stall, archive_->progress());
   if (progress_.all_moved()) manager_.feed_watchdog();
   if (const auto hung = progress_.newly_hung(); !hung.empty()) {

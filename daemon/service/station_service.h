@@ -55,6 +55,9 @@ class StationService {
   void serve_from_store(ControlServer::Client client, const Request& request);
   /// Sees whether results can be stored, again and again.
   void look_at_store();
+  /// If there is one: a look, or the preparation, hangs on a disk that does not answer.
+  void tell_of_silent_store();
+  void storing_takes_long();
   /// Removes old results: every hour, when there is a new one, and when none can be stored.
   void sweep_store();
   /// In short parts, between which the archive answers those who ask.
@@ -86,16 +89,20 @@ class StationService {
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
   bool store_in_trouble_ = false;     ///< as station_changed() knows
+  bool storing_takes_long_ = false;   ///< that of the scan which is being stored
   bool is_looking_at_store_ = false;  ///< or is going to: one look at a time
   bool is_sweeping_ = false;
   bool sweeps_again_ = false;  ///< asked for while it was sweeping
   ClockWatch clock_{ClockWatch::read()};
   EventLoop::Timer store_timer_;
+  EventLoop::Timer storing_timer_;
   EventLoop::Timer sweep_timer_;
   EventLoop::Timer watchdog_timer_;
   EventLoop::Timer shutdown_timer_;
-  /// The archive's thread is in the middle of a look at the store, or of its preparation.
-  std::shared_ptr<std::atomic<bool>> archive_looks_ = std::make_shared<std::atomic<bool>>(false);
+  /// When the archive's thread made its last step in a look at the store, or in its preparation;
+  /// zero while it is in the middle of neither.
+  std::shared_ptr<std::atomic<std::chrono::nanoseconds>> archive_looked_ =
+      std::make_shared<std::atomic<std::chrono::nanoseconds>>(std::chrono::nanoseconds(0));
   std::shared_ptr<std::atomic<bool>> leaving_ = std::make_shared<std::atomic<bool>>(false);
 };
 

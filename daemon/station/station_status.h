@@ -37,7 +37,7 @@ struct StationStatus {
   StationState state = StationState::kStarting;
   /// What is wrong and what to do, a line each: cameras, store, pedal.
   std::vector<std::string> troubles;
-  std::vector<std::string> warnings;  ///< what makes measures wrong and stops no scan
+  std::vector<std::string> warnings;  ///< what spoils measures or holds up a scan, and stops none
   std::string stage;                  ///< of the scan that runs; empty if none does
   double done = 0.0;                  ///< of that scan, 0 to 1
   std::vector<CameraStatus> cameras;

@@ -40,7 +40,7 @@ bool is_number(const std::string& name, std::size_t digits) {
 ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path root)
     : storage_(storage), root_(std::move(storage), std::move(root)) {}
 
-Result<Prepared> ResultStore::prepare() {
+Result<Prepared> ResultStore::prepare(const OnDay& on_day) {
   // To the end: a put() between two days would share the hold, and what another program then makes
   // would pass for a leftover.
   const std::lock_guard lock(clearing_);
@@ -50,7 +50,7 @@ Result<Prepared> ResultStore::prepare() {
   find_newest();
   Result<Prepared> prepared;
   if (*is_ours) {
-    prepared = clear_leftovers();
+    prepared = clear_leftovers(on_day);
   } else {
     prepared->is_shared = true;
   }
@@ -59,11 +59,12 @@ Result<Prepared> ResultStore::prepare() {
   return prepared;
 }
 
-Result<Prepared> ResultStore::clear_leftovers() {
+Result<Prepared> ResultStore::clear_leftovers(const OnDay& on_day) {
   Prepared prepared;
   const auto all_days = days();
   if (!all_days) return tl::make_unexpected(all_days.error());
   for (const auto& day : *all_days) {
+    on_day();
     const auto entries = storage_->list(day);
     if (!entries) {
       keep_first(entries.error(), prepared.trouble);

@@ -55,11 +55,15 @@ class ResultStore {
 
   const std::filesystem::path& root() const { return root_.path(); }
 
+  /// Called before the folder of each day is read, so that who counts the calls can tell many
+  /// folders on a slow disk from a disk that hangs.
+  using OnDay = std::function<void()>;
+
   /// Takes the root, see StoreRoot, and clears what an earlier run left half-done, unless another
   /// program works on the same results. Reads the folders of all days. Nothing else but expect(),
   /// time_of_next() and put() may come from another thread meanwhile: a put() waits for it, and
   /// until the root is taken time_of_next() knows of no earlier run.
-  Result<Prepared> prepare();
+  Result<Prepared> prepare(const OnDay& on_day = [] {});
 
   /// Whether the root is the one that prepare() took: see StoreRoot. What puts or takes away
   /// results fails if not, so that nothing is put on the disk beneath nor taken from a foreign one.
@@ -77,10 +81,6 @@ class ResultStore {
   /// Stores a result and returns its folder. On failure nothing is left but, if the cleaning up
   /// fails too, a leftover that prepare() clears.
   Result<std::filesystem::path> put(const std::string& id, const ResultContent& content);
-
-  /// Called before the folder of each day is read, so that who counts the calls can tell many
-  /// folders on a slow disk from a disk that hangs.
-  using OnDay = std::function<void()>;
 
   /// All ids, newest first; without those in folders that cannot be read. It reads the folders of
   /// all days: 0.3 s for 20,000 results.
@@ -112,7 +112,7 @@ class ResultStore {
       const GoOn& go_on = always, const OnDay& on_day = [] {});
 
  private:
-  Result<Prepared> clear_leftovers();
+  Result<Prepared> clear_leftovers(const OnDay& on_day);
   Result<void> make_day_folder(const std::string& id);
   Result<void> write_files(const std::filesystem::path& folder, const ResultContent& content);
   Result<void> move_away(const std::string& id);

@@ -1,5 +1,6 @@
 #include "daemon/service/station_service.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <signal.h>
@@ -293,9 +294,18 @@ TEST_F(MeasuringService, FeedsTheWatchdogWhileTheDiskStallsWithAMeasuredScanInHa
   const auto deleted = std::async(std::launch::async, [&] { return ask("delete", last); });
   ASSERT_TRUE(disk.has_waiting(2)) << "with the archive too";
   notifications_.forget();
-  for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient)) << i;
+  // Half a minute, and what a busy machine takes.
+  const auto deadline = steady_clock::now() + 2 * kLong;
+  nlohmann::json status;
+  do {
+    EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient));
+    status = ask("status");
+  } while (status["warnings"].empty() && steady_clock::now() < deadline);
+  EXPECT_THAT(status["warnings"].dump(), testing::HasSubstr("the scan is not stored yet"));
+  EXPECT_EQ(status["state"], "storing") << "and is not given up";
   disk.release();
   EXPECT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+  EXPECT_TRUE(ask("status")["warnings"].empty());
   deleted.wait();
   EXPECT_EQ(end(), true);
   EXPECT_TRUE(stored_anything());
@@ -309,8 +319,13 @@ TEST_F(MeasuringService, IsReadyAndFedThoughTheDiskOfItsResultsHangsFromTheStart
   start([](const Capture&, const PipelineSettings&, const ScanProgress&) { return one_foot(); });
   EXPECT_TRUE(notifications_.wait_for("READY=1", kLong));
   ASSERT_TRUE(disk.has_waiting(1));
+  EXPECT_TRUE(notifications_.wait_for("STATUS=fault", kLong)) << "a look later";
+  const auto status = ask("status");
+  EXPECT_THAT(status["troubles"].dump(), testing::HasSubstr("disk of the results does not answer"));
+  EXPECT_EQ(status["store"]["trouble"], status["trouble"]);
   for (int i = 0; i < 8; ++i) EXPECT_TRUE(notifications_.wait_for("WATCHDOG=1", kPatient)) << i;
   disk.release();
+  EXPECT_TRUE(notifications_.wait_for("STATUS=ready", kLong)) << "tried out as soon as it answers";
   EXPECT_EQ(ask("list")["scans"].size(), 0U);
   EXPECT_EQ(end(), true);
 }
