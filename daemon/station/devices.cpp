@@ -121,8 +121,10 @@ using OpenSensors = std::map<std::string, OpenSensor>;
 
 Result<OpenSensor> open_openni(const OpenniSettings& chosen, OpenSensors& kept) {
   auto usb = usb_address_of(chosen, {});
-  if (const auto still = kept.find(chosen.placement.name); still != kept.end()) {
-    return OpenSensor{std::move(still->second.camera), usb ? usb : still->second.usb};
+  if (auto still = kept.extract(chosen.placement.name)) {
+    OpenSensor& sensor = still.mapped();
+    if (usb) sensor.usb = usb;
+    return std::move(sensor);
   }
   OpenniCamera::Settings settings;
   settings.name = chosen.placement.name;
