@@ -51,6 +51,11 @@ constexpr double kManyWithStrays = 0.4;
 /// Of what zigzags add: lengths that differ by less without some points are the same. Sharp edges
 /// lose some too. Set by eye, as the next is, over some clumps of strays and some ribs and fins.
 constexpr double kSameLength = 0.03;
+/// The shares of a section between which it turns to and fro by what lies beside the body rather
+/// than by fins, ribs or lobes: of bodies with some of these only prisms of few columns of points,
+/// unsure anyway, are between; of 13 boxes whose section took in a strip of floor 8 are.
+constexpr double kMoreThanFins = 0.3;
+constexpr double kAllRound = 0.9;
 /// A section that leaves so many more points beside it may have lost a part that they are of.
 constexpr std::size_t kFewestOfAPart = 8;
 constexpr const char* kStraysLeftOutWarning =
@@ -291,11 +296,22 @@ void widen_by_lost_parts(const ToldGirth& before, ToldGirth& told) {
         std::max(before.skin.stretched - told.skin.stretched, 0.0), told);
 }
 
+/// Whether a section that zigzags may have taken in what lies beside its body, as a strip of floor
+/// that it stands on, rather than be of a body that turns so.
+bool may_have_taken_in(const ToldGirth& told) {
+  if (told.refusal) return false;
+  const double share = told.zigzags.way / told.girth.contact_mm;
+  return told.has_others_beside || (share > kMoreThanFins && share < kAllRound);
+}
+
 /// Of a section that zigzags, without the points off its skin where it is the surer one then.
 /// Nothing speaks for strays where no section is told without these, or the same one.
 ToldGirth girth_without_zigzags(ToldGirth told, SlabSource& slabs, const GirthOptions& options) {
   auto cleaned = girth_at(slabs, options, true);
-  if (!is_told(cleaned) || are_same(told, *cleaned)) return told;
+  if (!is_told(cleaned) || are_same(told, *cleaned)) {
+    if (may_have_taken_in(told)) widen_by_zigzags(told);
+    return told;
+  }
   widen_by_lost_parts(told, *cleaned);
   widen_by_zigzags(*cleaned);
   widen_by_zigzags(told);

@@ -125,6 +125,27 @@ TEST(GirthBesideAWall, DoesNotGoOutToIt) {
   }
 }
 
+/// A strip that is hardly wider than the body that touches it closes with it, all corners. Of 60
+/// such clouds 17 were told, 14 of these girths longer than their intervals allow by half and more.
+TEST(GirthBesideAWall, IsNotSureRoundAStrip) {
+  int missed = 0;
+  for (const double apart_mm : {0.0, 1.0, 3.0}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      PointCloud cloud = body(30.0, 33.0, 730, 0.3, seed);
+      add_wall(30.0, apart_mm, 82.0, 300, cloud);
+      std::erase_if(cloud.positions, [](const Eigen::Vector3d& position) {
+        return position.x() < -30.0 && std::abs(position.y()) < 22.0;
+      });
+      const auto girth = girth_by_rbf(cloud, test::level_plane(0.0));
+      if (!girth) continue;
+      const double truth =
+          test::true_girth(test::elliptic_cylinder(30.0, 33.0), test::level_plane(0.0));
+      missed += std::abs(girth->stretched_mm - truth) > kThreeSigmas * *girth->stretched_u95_mm;
+    }
+  }
+  EXPECT_LE(missed, 1);
+}
+
 /// A body with a gap that has to be bridged, and a clean pole: with a wall beside them both are
 /// looked at alone, and the pole must not count because it is the surer.
 TEST(GirthBesideAWall, IsNotThatOfASmallerBody) {
