@@ -114,7 +114,11 @@ std::optional<Place> turn_corner(BlendedSurface& surface, const Place& from, dou
   };
   const double step = 2.0 * kSharpestCrease / kCreaseAngles;
   double outside = kFirstCreaseAngle;
-  if (!(value_at(outside) > 0.0)) return std::nullopt;
+  // Where the body is hollow by a right angle or more, the line goes on that way, or short of it.
+  while (!(value_at(outside) > 0.0)) {
+    outside -= step;
+    if (outside < -0.5 * std::numbers::pi) return std::nullopt;
+  }
   double inside = outside;
   while (inside < 0.5 * std::numbers::pi + kSharpestCrease && value_at(inside) > 0.0) {
     outside = inside;

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
@@ -116,6 +119,45 @@ TEST(ContourTrace, MeetsThePerimeterOfASquarePrism) {
     EXPECT_NEAR(contour->length(), 4.0, sigma == 0.0 ? 2e-3 : 1e-2) << sigma;
     EXPECT_NEAR(area_of(contour->points), 1.0, 5e-3) << sigma;
   }
+}
+
+/// A corner of the line where the body is hollow by a right angle, of patches that go on straight
+/// behind it: the line leaves it just in the direction that pointed outwards before.
+TEST(ContourTrace, TurnsRoundTheCornersOfAGroove) {
+  // Random places on the sides of a square of 1 that a square of 0.4 is cut out of.
+  const std::vector<Vector2d> corners = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5},  {0.2, 0.5},
+                                         {0.2, 0.1},   {-0.2, 0.1}, {-0.2, 0.5}, {-0.5, 0.5}};
+  const double length = polygon_length(corners);
+  int closed = 0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    test::RandomNumbers random(seed);
+    OrientedPoints points;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector2d& from = corners[i];
+      const Vector2d along = corners[(i + 1) % corners.size()] - from;
+      const Vector3d outward(along.y(), -along.x(), 0.0);
+      const int count = static_cast<int>(3000.0 * along.norm());
+      for (int k = 0; k < count; ++k) {
+        const Vector2d place = from + random.uniform(0.0, 1.0) * along;
+        points.push_back(
+            {{place.x(), place.y(), random.uniform(-0.2, 0.2)}, outward.normalized(), 1e-6});
+      }
+    }
+    for (const double turn : {0.0, 0.3, 0.7, 1.1}) {
+      auto turned = points;
+      const Eigen::Rotation2Dd rotation(turn);
+      for (auto& point : turned) {
+        point.position.head<2>() = (rotation * point.position.head<2>()).eval();
+        point.normal.head<2>() = (rotation * point.normal.head<2>()).eval();
+      }
+      auto surface = surface_of(turned);
+      const auto contour = trace(surface, rotation * Vector2d(-0.5, 0.1));
+      if (!contour) continue;
+      ++closed;
+      EXPECT_NEAR(contour->length(), length, 0.02);
+    }
+  }
+  EXPECT_EQ(closed, 16);
 }
 
 TEST(ContourTrace, SpansAHoleWithinReachOnly) {
