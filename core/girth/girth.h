@@ -116,6 +116,9 @@ struct Girth {
 /// so; the interval reaches what other points beside it say it may have lost. A fin or a rib only a
 /// few points wide may be cut short with those that are left out.
 ///
+/// A girth that leaves doubt is read once more with the plane's u and v turned (girth_of_all()):
+/// its interval reaches that reading too, and where that one closes but is refused, so is it.
+///
 /// Intervals also know that noise may lie along normals or along a camera's rays, and that a noisy
 /// cloud's edge beside the plane bends the skin (doubt_of_direction(), doubt_of_edge()).
 ///

@@ -11,6 +11,7 @@
 #include "core/girth/bodies_apart.h"
 #include "core/girth/control_points.h"
 #include "core/girth/girth.h"
+#include "core/girth/girth_of_all.h"
 #include "core/girth/open_section.h"
 #include "core/girth/section_warnings.h"
 #include "core/girth/shared_length_doubt.h"

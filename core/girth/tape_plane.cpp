@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "core/geometry/point_cloud.h"
 
@@ -37,6 +38,13 @@ Result<TapePlane> TapePlane::through(const Eigen::Vector3d& c1, const Eigen::Vec
   plane.normal_ = cross.normalized();
   plane.u_ = (c2 - c1).normalized();
   plane.v_ = plane.normal_.cross(plane.u_);
+  return plane;
+}
+
+TapePlane TapePlane::turned(double radians) const {
+  TapePlane plane = *this;
+  plane.u_ = std::cos(radians) * u_ + std::sin(radians) * v_;
+  plane.v_ = normal_.cross(plane.u_);
   return plane;
 }
 

@@ -41,6 +41,9 @@ class TapePlane {
     return origin() + in_plane.x() * u_ + in_plane.y() * v_;
   }
 
+  /// The same plane and points, with u and v turned about the normal, from u towards v.
+  TapePlane turned(double radians) const;
+
   /// The same plane seen from another frame.
   TapePlane transformed(const RigidTransform& target_from_source) const;
 

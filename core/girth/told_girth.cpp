@@ -109,10 +109,6 @@ std::string waist_warning(double width_mm) {
          " between two wide parts: if these are two bodies, give the points of one alone";
 }
 
-bool is_told(const Result<ToldGirth>& girth) {
-  return girth && !girth->refusal;
-}
-
 /// A section that closes but is not to be told: nothing but its course.
 ToldGirth refused(const PlaneBand& band, const Contour& contour, tl::unexpected<Error> why) {
   ToldGirth told;
@@ -125,7 +121,7 @@ ToldGirth refused(const PlaneBand& band, const Contour& contour, tl::unexpected<
 Result<ToldGirth> girth_without_normals(PointCloud cloud, const TapePlane& plane,
                                         const GirthOptions& options) {
   cloud.drop_normals();
-  auto told = girth_of_all(cloud, plane, options);
+  auto told = girth_in_frame(cloud, plane, options);
   if (told) {
     told->zigzags = {};  // that was looked at
     told->girth.warnings.emplace_back(
@@ -267,17 +263,9 @@ bool are_same(const ToldGirth& zigzagging, const ToldGirth& other) {
          std::abs(zigzagging.girth.stretched_mm - other.girth.stretched_mm) < same;
 }
 
-/// Refuses one that too little is known of then.
+/// By what zigzags leave open.
 void widen(double contact, double stretched, ToldGirth& told) {
-  if (told.refusal || !(contact > 0.0 || stretched > 0.0)) return;
-  Girth& girth = told.girth;
-  *girth.contact_u95_mm += contact;
-  *girth.stretched_u95_mm += stretched;
-  if (!is_too_doubtful(girth)) return;
-  Girth course;
-  course.contour = std::move(girth.contour);
-  girth = std::move(course);
-  told.refusal = too_many_zigzags().value();
+  widen(contact, stretched, too_many_zigzags(), told);
 }
 
 /// By all that zigzags add, where they may be made by strays.
@@ -348,6 +336,22 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
   return girth;
 }
 
+bool is_told(const Result<ToldGirth>& girth) {
+  return girth && !girth->refusal;
+}
+
+void widen(double contact, double stretched, const tl::unexpected<Error>& why, ToldGirth& told) {
+  if (told.refusal || !(contact > 0.0 || stretched > 0.0)) return;
+  Girth& girth = told.girth;
+  *girth.contact_u95_mm += contact;
+  *girth.stretched_u95_mm += stretched;
+  if (!is_too_doubtful(girth)) return;
+  Girth course;
+  course.contour = std::move(girth.contour);
+  girth = std::move(course);
+  told.refusal = why.value();
+}
+
 bool is_too_doubtful(const Girth& girth) {
   return !(*girth.stretched_u95_mm <= kMostDoubt * girth.stretched_mm &&
            *girth.contact_u95_mm <= kMostFolded * girth.contact_mm);
@@ -372,8 +376,8 @@ bool ToldGirth::is_doubtful() const {
          girth.contact_mm > kWinding * girth.stretched_mm;
 }
 
-Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
-                               const GirthOptions& options) {
+Result<ToldGirth> girth_in_frame(const PointCloud& cloud, const TapePlane& plane,
+                                 const GirthOptions& options) {
   SlabSource slabs(cloud, plane, options.sigma_mm);
   auto told = girth_at(slabs, options);
   // What patches leave out has spoilt the noise and the normals that their points show.

@@ -53,10 +53,14 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
 /// Whether the intervals of a girth that has both leave nothing to be told.
 bool is_too_doubtful(const Girth& girth);
 
-/// The girth of a cloud that passed check_cloud(), all points near the plane taken together: as
-/// girth_by_rbf(), but that looks at bodies alone, and adds what the points' shared errors leave
-/// open.
-Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
-                               const GirthOptions& options);
+/// Adds to both intervals, mm; `why` it is not to be told if too little is known of it then.
+void widen(double contact, double stretched, const tl::unexpected<Error>& why, ToldGirth& told);
+
+bool is_told(const Result<ToldGirth>& girth);
+
+/// The girth of a cloud that passed check_cloud(), all points near the plane taken together, as the
+/// plane's u and v let a surface through them run; see girth_of_all().
+Result<ToldGirth> girth_in_frame(const PointCloud& cloud, const TapePlane& plane,
+                                 const GirthOptions& options);
 
 }  // namespace instep

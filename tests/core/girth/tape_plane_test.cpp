@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 namespace instep {
 namespace {
@@ -51,6 +52,16 @@ TEST(TapePlane, RefusesWhatIsNoNumberOrAbsurd) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(TapePlane::through({nan, 0, 0}, {1, 0, 0}, {0, 1, 0}));
   EXPECT_FALSE(TapePlane::through({1e30, 0, 0}, {1, 0, 0}, {0, 1, 0}));
+}
+
+TEST(TapePlane, TurnsOnItself) {
+  const auto plane = TapePlane::through({1, 2, 3}, {4, 2, 3}, {1, 7, 3});
+  ASSERT_TRUE(plane);
+  const auto turned = plane->turned(std::numbers::pi / 2.0);
+  EXPECT_LT((turned.u() - Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LT((turned.v() + Vector3d::UnitX()).norm(), 1e-15);
+  EXPECT_EQ(turned.normal(), plane->normal());
+  EXPECT_EQ(turned.control_points(), plane->control_points());
 }
 
 TEST(TapePlane, MovesWithItsFrame) {
