@@ -53,16 +53,19 @@ class RoundedView {
   double step_;
 };
 
-/// As they come.
-PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width) {
+/// As they come: those of `some` points of the cloud that lie as near.
+PlaneSlab unordered_slab(const PointCloud& cloud, const TapePlane& plane, double half_width,
+                         const std::vector<std::size_t>& some) {
   PlaneSlab slab;
+  slab.indices.reserve(some.size());
+  slab.places.reserve(some.size());
   const RoundedView view(plane);
-  const std::span<const Eigen::Vector3d> points(cloud.positions);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double height = plane.distance(points[i]);
+  for (const std::size_t i : some) {
+    const Eigen::Vector3d& point = cloud.positions[i];
+    const double height = plane.distance(point);
     if (std::abs(height) > half_width) continue;
     slab.indices.push_back(i);
-    slab.places.push_back(view.of(points[i], height));
+    slab.places.push_back(view.of(point, height));
   }
   return slab;
 }
@@ -114,25 +117,6 @@ PlaneSlab ordered_slab(const PointCloud& cloud, const PlaneSlab& found) {
   return slab;
 }
 
-/// From the least to the most of what a cloud measures along a direction; taken of two points at a
-/// time, which costs no more than of one.
-class Reach {
- public:
-  explicit Reach(const Eigen::Vector3d& along) : along_(along) {}
-
-  void add(const Eigen::Array2d& x, const Eigen::Array2d& y, const Eigen::Array2d& z) {
-    const Eigen::Array2d measures = along_.x() * x + along_.y() * y + along_.z() * z;
-    least_ = measures.min(least_);
-    most_ = measures.max(most_);
-  }
-  double length() const { return most_.maxCoeff() - least_.minCoeff(); }
-
- private:
-  Eigen::Vector3d along_;
-  Eigen::Array2d least_ = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Array2d most_ = Eigen::Array2d::Constant(-std::numeric_limits<double>::infinity());
-};
-
 }  // namespace
 
 double rounding_step(const TapePlane& plane) {
@@ -146,7 +130,12 @@ std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, doubl
 }
 
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width) {
-  return ordered_slab(cloud, unordered_slab(cloud, plane, half_width));
+  return slab_of(cloud, plane, half_width, PlaneHeights(cloud, plane));
+}
+
+PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width,
+                  const PlaneHeights& heights) {
+  return ordered_slab(cloud, unordered_slab(cloud, plane, half_width, heights.about(half_width)));
 }
 
 PlaneSlab within(const PlaneSlab& slab, double half_width) {
@@ -207,22 +196,7 @@ double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_w
 }
 
 double size_of(const PointCloud& cloud, const TapePlane& plane) {
-  if (cloud.empty()) return 0.0;
-  Reach along(plane.u());
-  Reach across(plane.v());
-  Reach above(plane.normal());
-  const std::span<const Eigen::Vector3d> points(cloud.positions);
-  for (std::size_t i = 0; i < points.size(); i += 2) {
-    const Eigen::Vector3d& one = points[i];
-    const Eigen::Vector3d& other = points[std::min(i + 1, points.size() - 1)];
-    const Eigen::Array2d x(one.x(), other.x());
-    const Eigen::Array2d y(one.y(), other.y());
-    const Eigen::Array2d z(one.z(), other.z());
-    along.add(x, y, z);
-    across.add(x, y, z);
-    above.add(x, y, z);
-  }
-  return std::hypot(along.length(), across.length(), above.length());
+  return PlaneHeights(cloud, plane).size();
 }
 
 double tape_about(const PointCloud& cloud, const TapePlane& plane, double size) {

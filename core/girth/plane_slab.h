@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/point_cloud.h"
+#include "core/girth/plane_heights.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {
@@ -33,6 +34,10 @@ std::vector<Eigen::Vector3d> in_steps(std::vector<Eigen::Vector3d> places, doubl
 /// Those at most `half_width` from the plane. O(n), and m log m for the m that are found.
 PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width);
 
+/// The same, for one whose heights are known.
+PlaneSlab slab_of(const PointCloud& cloud, const TapePlane& plane, double half_width,
+                  const PlaneHeights& heights);
+
 /// Those of a slab that lie at most `half_width` from the plane, in the same order.
 PlaneSlab within(const PlaneSlab& slab, double half_width);
 
@@ -43,8 +48,7 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab);
 /// or beyond it.
 bool is_cut(const std::vector<Eigen::Vector3d>& places);
 
-/// Size of the cloud as the plane sees it, so that it turns with the two: the diagonal of its box
-/// there, 0 without points. O(n).
+/// Size of the cloud as the plane sees it (PlaneHeights). O(n).
 double size_of(const PointCloud& cloud, const TapePlane& plane);
 
 /// Length of the shortest tape round all points at most `half_width` from the plane, by the mean of

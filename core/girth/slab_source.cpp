@@ -17,12 +17,12 @@ constexpr double kWiderThanOthers = 1.2;
 
 SlabSource::SlabSource(const PointCloud& cloud, const TapePlane& plane,
                        std::optional<double> sigma_mm)
-    : cloud_(cloud), plane_(plane), sigma_mm_(sigma_mm), size_(size_of(cloud, plane)) {}
+    : cloud_(cloud), plane_(plane), sigma_mm_(sigma_mm), heights_(cloud, plane) {}
 
 PlaneSlab SlabSource::slab(double half_width) {
   if (half_width > half_width_) {
     half_width_ = (half_width_ < 0.0 ? kWiderThanFirst : kWiderThanOthers) * half_width;
-    widest_ = slab_of(cloud_, plane_, half_width_);
+    widest_ = slab_of(cloud_, plane_, half_width_, heights_);
     if (level_) level_widest();
     if (apart_) thin_widest();
   }

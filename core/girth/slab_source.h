@@ -25,7 +25,7 @@ class SlabSource {
   std::optional<double> sigma_mm() const { return sigma_mm_; }
 
   /// size_of() the cloud.
-  double size() const { return size_; }
+  double size() const { return heights_.size(); }
 
   /// As slab_of() gives it, or thinned.
   PlaneSlab slab(double half_width);
@@ -50,7 +50,7 @@ class SlabSource {
   const PointCloud& cloud_;
   TapePlane plane_;
   std::optional<double> sigma_mm_;
-  double size_ = 0.0;
+  PlaneHeights heights_;
   std::optional<double> apart_;     ///< of lines that are thinned
   std::optional<PileLevel> level_;  ///< in rounding steps
   double stray_share_ = 0.0;
