@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/geometry/ordered_spacing.h"
 #include "core/geometry/point_index.h"
-#include "core/geometry/point_spacing.h"
 #include "core/geometry/scan_lines.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_box.h"
@@ -77,7 +77,7 @@ std::optional<SectionProbe> probe_of(SlabSource& slabs, double half_width, doubl
     found.reach = reach / unit;
     found.stray_share = 1.0 - static_cast<double>(slab.places.size()) / all;
   }
-  const double spacing = usual_spacing(PointIndex(std::move(slab.places)), kSpacingSample);
+  const double spacing = usual_spacing_in_order(slab.places, kSpacingSample);
   // What is narrower than its points are apart is a line or a speck.
   if (half_width < spacing || !(spacing < unit)) return std::nullopt;
   found.spacing = spacing / unit;
