@@ -8,6 +8,7 @@
 #include "core/geometry/polygon.h"
 #include "core/girth/contour_index.h"
 #include "core/girth/girth.h"
+#include "core/girth/plane_heights.h"
 #include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
@@ -41,9 +42,10 @@ struct Neighbourhood {
 
 /// Widens the slab until it is wider than any band.
 Result<Neighbourhood> neighbourhood_of(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = size_of(cloud, plane);
+  const PlaneHeights heights(cloud, plane);
+  const double size = heights.size();
   for (double half_width = kThinnest * size; half_width < size; half_width *= 1.4) {
-    PlaneSlab slab = slab_of(cloud, plane, half_width);
+    PlaneSlab slab = slab_of(cloud, plane, half_width, heights);
     if (slab.places.size() < kFewestBandPoints) continue;
     const double spacing = median_nearest_distance(PointIndex(slab.places));
     if (half_width >= kWidestBandInSpacings * spacing) {

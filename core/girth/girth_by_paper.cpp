@@ -9,6 +9,7 @@
 #include "core/geometry/polygon.h"
 #include "core/geometry/principal_frame.h"
 #include "core/girth/girth.h"
+#include "core/girth/plane_heights.h"
 #include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
 #include "core/girth/section_gaps.h"
@@ -58,15 +59,17 @@ struct PartialCloud {
 
 /// Widens the band until it is as many spacings wide as it has to be.
 Result<PartialCloud> partial_cloud(const PointCloud& cloud, const TapePlane& plane) {
-  const double size = size_of(cloud, plane);
+  const PlaneHeights heights(cloud, plane);
+  const double size = heights.size();
   const double thinnest = kUsualSlab * std::pow(kSlabGrowth, -kThinnerSlabs);
   for (double half_width = thinnest * size; half_width < 0.5 * size; half_width *= kSlabGrowth) {
-    const PlaneSlab slab = slab_of(cloud, plane, half_width);
+    const PlaneSlab slab = slab_of(cloud, plane, half_width, heights);
     if (slab.places.size() < kFewestPoints) continue;
     const double wanted = kBandInSpacings * usual_spacing(PointIndex(slab.places), kSpacingPlaces);
     if (!(half_width >= wanted && wanted > 0.0)) continue;
     if (!is_cut(slab.places)) return only_touched();
-    return PartialCloud{slab_of(cloud, plane, wanted), wanted, tape_about(cloud, plane, size)};
+    return PartialCloud{slab_of(cloud, plane, wanted, heights), wanted,
+                        tape_about(cloud, plane, size)};
   }
   return too_few_near_plane();
 }
