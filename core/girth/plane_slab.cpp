@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
 
@@ -193,10 +192,6 @@ double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_w
     most = most.max(reaches);
   }
   return least[0] < kInfinity ? std::numbers::pi * (most - least).mean() : 0.0;
-}
-
-double size_of(const PointCloud& cloud, const TapePlane& plane) {
-  return PlaneHeights(cloud, plane).size();
 }
 
 double tape_about(const PointCloud& cloud, const TapePlane& plane, double size) {

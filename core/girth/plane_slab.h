@@ -48,9 +48,6 @@ PlaneSlab without(const std::vector<bool>& marked, const PlaneSlab& slab);
 /// or beyond it.
 bool is_cut(const std::vector<Eigen::Vector3d>& places);
 
-/// Size of the cloud as the plane sees it (PlaneHeights). O(n).
-double size_of(const PointCloud& cloud, const TapePlane& plane);
-
 /// Length of the shortest tape round all points at most `half_width` from the plane, by the mean of
 /// its widths (Cauchy), to a hundredth. O(n), no memory.
 double tape_round(const PointCloud& cloud, const TapePlane& plane, double half_width);

@@ -24,7 +24,7 @@ class SlabSource {
   const TapePlane& plane() const { return plane_; }
   std::optional<double> sigma_mm() const { return sigma_mm_; }
 
-  /// size_of() the cloud.
+  /// Of the cloud, as the plane sees it (PlaneHeights).
   double size() const { return heights_.size(); }
 
   /// As slab_of() gives it, or thinned.
