@@ -14,7 +14,9 @@ struct PedalEdge {
   std::chrono::nanoseconds time{0};  ///< on the clock of the event source (CLOCK_MONOTONIC)
 };
 
-/// A foot pedal as a source of edges for an event loop. One thread owns it.
+/// A foot pedal as a source of edges. One thread owns it and makes all calls; another may wait for
+/// its descriptor. No call waits for a foot, but each takes as long as the device's bus takes, to
+/// open and to close it too: microseconds on the board, perhaps for ever behind a cable.
 class Pedal {
  public:
   virtual ~Pedal() = default;
@@ -23,8 +25,8 @@ class Pedal {
   /// until reopen().
   virtual int descriptor() const = 0;
 
-  /// The edges that wait, oldest first; empty if none. Never blocks, and returns though more come
-  /// without end: the descriptor is readable then. Fails with kDeviceGone if the pedal left.
+  /// The edges that wait, oldest first; empty if none. Returns though more come without end: the
+  /// descriptor is readable then. Fails with kDeviceGone if the pedal left.
   virtual Result<std::vector<PedalEdge>> read_edges() = 0;
 
   /// The contact as it is now. After a burst this settles what lost edges leave open.

@@ -9,6 +9,16 @@
 #include <utility>
 
 namespace instep {
+namespace {
+
+/// Never none, as one that has ended is to be found so.
+std::chrono::milliseconds time_until(std::chrono::steady_clock::time_point deadline) {
+  const auto left =
+      std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
+  return std::max(left, std::chrono::milliseconds(1));
+}
+
+}  // namespace
 
 struct TaskThread::Shared {
   std::mutex mutex;
@@ -66,14 +76,16 @@ bool TaskThread::stop(std::chrono::milliseconds limit) {
 }
 
 bool TaskThread::stop_by(std::chrono::steady_clock::time_point deadline) {
-  const auto left =
-      std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
-  return stop(std::max(left, std::chrono::milliseconds(1)));
+  return stop(time_until(deadline));
 }
 
 bool TaskThread::finish(std::chrono::milliseconds limit) {
   if (!thread_.joinable()) return true;
   return leave(std::unique_lock(shared_->mutex), limit);
+}
+
+bool TaskThread::finish_by(std::chrono::steady_clock::time_point deadline) {
+  return finish(time_until(deadline));
 }
 
 bool TaskThread::leave(std::unique_lock<std::mutex> lock, std::chrono::milliseconds limit) {

@@ -47,6 +47,8 @@ class TaskThread {
   /// the thread is then abandoned with them, and does them yet if it can. No call but the
   /// destructor may follow.
   bool finish(std::chrono::milliseconds limit);
+  /// As stop_by() is to stop().
+  bool finish_by(std::chrono::steady_clock::time_point deadline);
 
   /// A task runs or waits.
   bool is_busy() const;

@@ -1,6 +1,5 @@
 #include "daemon/station/output_keeper.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "daemon/station/cause_of_trouble.h"
@@ -44,9 +43,7 @@ OutputKeeper::~OutputKeeper() {
 
 bool OutputKeeper::finish() {
   put_off();
-  const auto left = std::chrono::ceil<std::chrono::milliseconds>(*last_moment_ -
-                                                                 std::chrono::steady_clock::now());
-  return thread_.finish(std::max(left, std::chrono::milliseconds(1)));
+  return thread_.finish_by(*last_moment_);
 }
 
 void OutputKeeper::put_off() {

@@ -4,9 +4,18 @@
 
 #include <utility>
 
+#include "daemon/loop/caught.h"
 #include "daemon/station/cause_of_trouble.h"
 
 namespace instep {
+namespace {
+
+Error silent_pedal() {
+  return {ErrorCode::kTimeout, Remedy::kOperator, "the pedal does not answer",
+          "unplug it, or the board that has its line, and plug it in again"};
+}
+
+}  // namespace
 
 Error stuck_pedal() {
   return {ErrorCode::kBusy, Remedy::kOperator, "the pedal is held down or stuck",
@@ -18,11 +27,29 @@ Error chattering_pedal() {
           "check its plug and its cable, or try another pedal"};
 }
 
-PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener)
-    : loop_(loop), settings_(settings), open_(std::move(open)), listener_(std::move(listener)) {
-  settle_timer_ = loop_.timer([this] { settle(); });
+PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener,
+                       std::chrono::milliseconds patience)
+    : loop_(loop),
+      settings_(settings),
+      open_(std::move(open)),
+      listener_(std::move(listener)),
+      patience_(patience),
+      pedal_(std::make_shared<std::unique_ptr<Pedal>>()) {
+  settle_timer_ = loop_.timer([this] { look(true); });
   reopen_timer_ = loop_.timer([this] { this->open(); });
+  patience_timer_ = loop_.timer([this] { fell_silent(); });
   reopen_timer_.set(std::chrono::nanoseconds(0));
+}
+
+PedalWatch::~PedalWatch() {
+  end_by(std::chrono::steady_clock::now() + kLastMoment);
+}
+
+bool PedalWatch::end_by(std::chrono::steady_clock::time_point deadline) {
+  watch_ = {};
+  // To close it may hang as any call of it.
+  thread_.post([pedal = pedal_](TaskProgress&) { pedal->reset(); });
+  return thread_.finish_by(deadline);
 }
 
 void PedalWatch::set(const PedalSettings& settings) {
@@ -33,46 +60,83 @@ void PedalWatch::set(const PedalSettings& settings) {
 }
 
 void PedalWatch::open() {
-  if (!pedal_) {
-    auto opened = open_();
-    if (!opened) return lost(opened.error());
-    pedal_ = std::move(*opened);
-    if (!pedal_) return;
-  } else if (const auto reopened = pedal_->reopen(); !reopened) {
-    return lost(reopened.error());
-  }
-  begin();
+  patience_timer_.set(patience_);
+  thread_.post([this, pedal = pedal_, open = open_, afresh = std::exchange(is_silent_, false),
+                post = loop_.poster()](TaskProgress&) {
+    const auto opened = caught("the opening of the pedal", [&] {
+      if (afresh) pedal->reset();
+      return bring_up(*pedal, open);
+    });
+    post([this, opened] {
+      patience_timer_.clear();
+      is_silent_ = false;
+      if (!opened) return lost(opened.error());
+      if (*opened) begin(**opened);
+    });
+  });
 }
 
-void PedalWatch::begin() {
-  const auto pressed = pedal_->is_pressed();
-  if (!pressed) return lost(pressed.error());
-  auto watching = loop_.watch(pedal_->descriptor(), EPOLLIN, [this](std::uint32_t) { read(); });
+/// Nothing if there is no pedal.
+Result<std::optional<PedalWatch::Opened>> PedalWatch::bring_up(std::unique_ptr<Pedal>& pedal,
+                                                               const Open& open) {
+  if (!pedal) {
+    auto opened = open();
+    if (!opened) return tl::make_unexpected(opened.error());
+    pedal = std::move(*opened);
+    if (!pedal) return std::nullopt;
+  } else if (const auto reopened = pedal->reopen(); !reopened) {
+    return tl::make_unexpected(reopened.error());
+  }
+  const auto pressed = pedal->is_pressed();
+  if (!pressed) return tl::make_unexpected(pressed.error());
+  return Opened{pedal->descriptor(), *pressed};
+}
+
+void PedalWatch::begin(const Opened& opened) {
+  auto watching = loop_.watch(opened.descriptor, EPOLLIN, [this](std::uint32_t) { look(false); });
   if (!watching) return lost(watching.error());
   watch_ = std::move(*watching);
-  debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, *pressed,
+  debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, opened.pressed,
                      EventLoop::monotonic_now());
   back_off_.reset();
   if (std::exchange(trouble_, std::nullopt)) listener_.on_returned();
   pass_on();
 }
 
-void PedalWatch::read() {
-  const auto edges = pedal_->read_edges();
-  if (!edges) return lost(edges.error());
-  for (const auto& edge : *edges) debouncer_->on_edge(edge);
-  pass_on();
+/// One at a time: what is due meanwhile is due still when that is over.
+void PedalWatch::look(bool asks_level) {
+  if (std::exchange(is_looking_, true)) return;
+  watch_.set_events(0);
+  patience_timer_.set(patience_);
+  thread_.post([this, asks_level, pedal = pedal_, post = loop_.poster()](TaskProgress&) {
+    const auto seen = caught("a look at the pedal", [&] { return look_at(**pedal, asks_level); });
+    post([this, seen] { take(seen); });
+  });
 }
 
-void PedalWatch::settle() {
-  if (!debouncer_) return;
+Result<PedalWatch::Seen> PedalWatch::look_at(Pedal& pedal, bool asks_level) {
+  Seen seen;
   // Edges that wait are older than the level and come first.
-  const auto edges = pedal_->read_edges();
-  if (!edges) return lost(edges.error());
-  for (const auto& edge : *edges) debouncer_->on_edge(edge);
-  const auto pressed = pedal_->is_pressed();
-  if (!pressed) return lost(pressed.error());
-  debouncer_->on_level(*pressed, EventLoop::monotonic_now());
+  auto edges = pedal.read_edges();
+  if (!edges) return tl::make_unexpected(edges.error());
+  seen.edges = std::move(*edges);
+  if (!asks_level) return seen;
+  const auto pressed = pedal.is_pressed();
+  if (!pressed) return tl::make_unexpected(pressed.error());
+  seen.pressed = *pressed;
+  seen.time = EventLoop::monotonic_now();
+  return seen;
+}
+
+void PedalWatch::take(const Result<Seen>& seen) {
+  is_looking_ = false;
+  patience_timer_.clear();
+  if (!seen) return lost(seen.error());
+  // What it brought is of the time before it was told to be silent.
+  if (is_silent_) return lost(silent_pedal());
+  watch_.set_events(EPOLLIN);
+  for (const auto& edge : seen->edges) debouncer_->on_edge(edge);
+  if (seen->pressed) debouncer_->on_level(*seen->pressed, seen->time);
   pass_on();
 }
 
@@ -85,14 +149,24 @@ void PedalWatch::pass_on() {
   }
 }
 
+void PedalWatch::fell_silent() {
+  is_silent_ = true;
+  tell(silent_pedal());
+}
+
 void PedalWatch::lost(const Error& error) {
+  tell(error);
+  reopen_timer_.set(back_off_.next());
+}
+
+/// Until it is opened again it is not listened to.
+void PedalWatch::tell(const Error& error) {
   watch_ = {};
   settle_timer_.clear();
   debouncer_.reset();
   const bool is_news = cause_of(error) != cause_of(trouble_);
   trouble_ = error;
   if (is_news) listener_.on_lost(error);
-  reopen_timer_.set(back_off_.next());
 }
 
 }  // namespace instep

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "config/settings.h"
 #include "core/result.h"
 #include "daemon/loop/event_loop.h"
+#include "daemon/loop/task_thread.h"
 #include "daemon/station/back_off.h"
 #include "daemon/station/pedal_debouncer.h"
 #include "drivers/pedal.h"
@@ -17,8 +20,11 @@ namespace instep {
 Error stuck_pedal();
 Error chattering_pedal();
 
-/// A pedal on the event loop: reads its edges, lets the debouncer judge them, opens it again when
-/// it was lost. Lives on the loop's thread.
+/// A pedal on the event loop: lets the debouncer judge its edges, opens it again when it was lost.
+/// A pedal may hang in any call, so it is touched on a thread of its own. One that does not answer
+/// is a trouble; once it does, it is opened afresh, so that what came meanwhile starts no scan.
+///
+/// Lives on the loop's thread, where no call but end_by() waits, and longer than the loop runs.
 class PedalWatch {
  public:
   /// What the owner is told.
@@ -27,33 +33,68 @@ class PedalWatch {
     std::function<void(const Error&)> on_lost;  ///< and again when the cause is another one
     std::function<void()> on_returned;
   };
-  /// Opens the pedal; asked again with growing pauses as long as it fails.
+  /// Opens the pedal, on its thread; asked again with growing pauses as long as it fails.
   using Open = std::function<Result<std::unique_ptr<Pedal>>()>;
 
-  PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener);
+  /// A pedal that has not done what it was asked for so long hangs.
+  static constexpr std::chrono::milliseconds kPatience{5000};
+  /// What its closing has at the end.
+  static constexpr std::chrono::milliseconds kLastMoment{200};
+
+  PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener,
+             std::chrono::milliseconds patience = kPatience);
+  /// end_by() kLastMoment from now.
+  ~PedalWatch();
+  PedalWatch(const PedalWatch&) = delete;
+  PedalWatch& operator=(const PedalWatch&) = delete;
 
   /// New times hold at once, for a press that is under way too.
   void set(const PedalSettings& settings);
 
+  /// Closes the pedal; false if it hangs and had to be left behind. The loop has ended, and no call
+  /// but the destructor may follow.
+  bool end_by(std::chrono::steady_clock::time_point deadline);
+
  private:
+  /// Of a pedal that is open.
+  struct Opened {
+    int descriptor = -1;
+    bool pressed = false;
+  };
+  /// What a look at it brought.
+  struct Seen {
+    std::vector<PedalEdge> edges;
+    std::optional<bool> pressed;
+    std::chrono::nanoseconds time{0};  ///< of `pressed`
+  };
+
+  static Result<std::optional<Opened>> bring_up(std::unique_ptr<Pedal>& pedal, const Open& open);
+  static Result<Seen> look_at(Pedal& pedal, bool asks_level);
   void open();
-  void begin();
-  void read();
-  void settle();
+  void begin(const Opened& opened);
+  void look(bool asks_level);
+  void take(const Result<Seen>& seen);
   void pass_on();
+  void fell_silent();
   void lost(const Error& error);
+  void tell(const Error& error);
 
   EventLoop& loop_;
   PedalSettings settings_;
   Open open_;
   Listener listener_;
-  std::unique_ptr<Pedal> pedal_;
+  std::chrono::milliseconds patience_;
   std::optional<PedalDebouncer> debouncer_;
   EventLoop::Watch watch_;
   EventLoop::Timer settle_timer_;
   EventLoop::Timer reopen_timer_;
+  EventLoop::Timer patience_timer_;
   BackOff back_off_;
   std::optional<Error> trouble_;
+  bool is_looking_ = false;
+  bool is_silent_ = false;  ///< what it was asked last took longer than patience_
+  std::shared_ptr<std::unique_ptr<Pedal>> pedal_;  ///< the thread's, to its end
+  TaskThread thread_{"pedal"};
 };
 
 }  // namespace instep

@@ -117,6 +117,7 @@ std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point d
   note("a camera", !cameras_ || cameras_->end_by(deadline));
   note("the scan", scan_thread_.stop_by(deadline));
   note("the truth of the simulation", truth_thread_.stop_by(deadline));
+  note("the pedal", !pedal_ || pedal_->end_by(deadline));
   note("the reset of a camera", !care_ || care_->end_by(deadline));
   note("a lamp or the projector", !signals_ || signals_->finish());
   return left_behind;
