@@ -167,18 +167,18 @@ Result<bool> PosixStorage::take_hold(const std::filesystem::path& path) {
   const std::lock_guard lock(mutex_);
   held_ = Descriptor();  // else what it locked itself would look like another's
   held_ = open_to_read(path, O_DIRECTORY);
-  is_shared_ = false;
+  has_lock_ = false;
   if (!held_.is_open()) return folder_failed("open", path);
   was_held_ = true;
   // Where the file system knows no locks, nothing tells of others.
-  if (is_locked(held_, LOCK_EX) || errno != EWOULDBLOCK) return true;
-  is_shared_ = is_locked(held_, LOCK_SH);
-  return false;
+  const bool is_alone = is_locked(held_, LOCK_EX) || errno != EWOULDBLOCK;
+  has_lock_ = is_alone || is_locked(held_, LOCK_SH);
+  return is_alone;
 }
 
 void PosixStorage::share_hold() {
   const std::lock_guard lock(mutex_);
-  if (held_.is_open()) is_shared_ = is_locked(held_, LOCK_SH);
+  if (held_.is_open()) has_lock_ = is_locked(held_, LOCK_SH);
 }
 
 Result<void> PosixStorage::keep_hold(const std::filesystem::path& path) {
@@ -200,8 +200,8 @@ Result<void> PosixStorage::keep_hold(const std::filesystem::path& path) {
                       path.string() + " is another folder than the one the results were kept in",
                       advice);
   }
-  if (is_shared_ || is_locked(held_, LOCK_SH) || errno != EWOULDBLOCK) {
-    is_shared_ = true;
+  if (has_lock_ || is_locked(held_, LOCK_SH) || errno != EWOULDBLOCK) {
+    has_lock_ = true;
     return {};
   }
   return fail(ErrorCode::kBusy, "another program clears the results' folder " + path.string(),

@@ -29,8 +29,8 @@ class PosixStorage : public Storage {
  private:
   std::mutex mutex_;  ///< of what follows
   Descriptor held_;
-  bool was_held_ = false;   ///< once; by now the folder may be gone
-  bool is_shared_ = false;  ///< the lock that others see is there, or none can be
+  bool was_held_ = false;  ///< once; by now the folder may be gone
+  bool has_lock_ = false;  ///< that others see, alone or shared; or none can be had
 };
 
 /// file_error() of drivers/files/file_bytes.h, with the advice that fits the results' disk; `doing`

@@ -1,6 +1,8 @@
 #include "daemon/store/result_store.h"
 
 #include <algorithm>
+#include <mutex>
+#include <shared_mutex>
 #include <utility>
 
 #include <unistd.h>
@@ -41,11 +43,13 @@ ResultStore::ResultStore(std::shared_ptr<Storage> storage, std::filesystem::path
     : storage_(storage), root_(std::move(storage), std::move(root)) {}
 
 Result<Prepared> ResultStore::prepare(const OnDay& on_day) {
-  // To the end: a put() between two days would share the hold, and what another program then makes
-  // would pass for a leftover.
-  const std::lock_guard lock(clearing_);
-  const auto is_ours = root_.take();
+  const auto is_ours = take_root();
   if (!is_ours) return tl::make_unexpected(is_ours.error());
+  // Whatever comes of the rest: who has the root alone keeps all others out.
+  const struct Sharing {
+    StoreRoot& root;
+    ~Sharing() { root.share(); }
+  } sharing{root_};
   // Before the clearing, which reads every day: a scan that begins meanwhile asks time_of_next().
   find_newest();
   Result<Prepared> prepared;
@@ -54,9 +58,14 @@ Result<Prepared> ResultStore::prepare(const OnDay& on_day) {
   } else {
     prepared->is_shared = true;
   }
-  root_.mark();
-  root_.share();
+  // Where it was lost meanwhile, another's mark would be taken for its own.
+  if (prepared) root_.mark();
   return prepared;
+}
+
+Result<bool> ResultStore::take_root() {
+  const std::unique_lock nobody_writes(clearing_);
+  return root_.take();
 }
 
 Result<Prepared> ResultStore::clear_leftovers(const OnDay& on_day) {
@@ -65,24 +74,28 @@ Result<Prepared> ResultStore::clear_leftovers(const OnDay& on_day) {
   if (!all_days) return tl::make_unexpected(all_days.error());
   for (const auto& day : *all_days) {
     on_day();
-    const auto entries = storage_->list(day);
-    if (!entries) {
-      keep_first(entries.error(), prepared.trouble);
-      continue;
-    }
-    for (const auto& entry : *entries) {
-      if (!is_leftover(entry)) continue;
-      const auto leftover = day / entry.name;
-      const auto gone =
-          entry.is_folder ? remove_whole(*storage_, leftover) : storage_->remove_file(leftover);
-      if (gone) {
-        prepared.cleared += entry.is_folder ? 1 : 0;
-      } else {
-        keep_first(gone.error(), prepared.trouble);
-      }
-    }
+    // Of each day anew: a scan that is to be stored waits for one at most.
+    const std::unique_lock nobody_writes(clearing_);
+    if (const auto there = check_root(); !there) return tl::make_unexpected(there.error());
+    clear_day(day, prepared);
   }
   return prepared;
+}
+
+void ResultStore::clear_day(const std::filesystem::path& day, Prepared& prepared) {
+  const auto entries = storage_->list(day);
+  if (!entries) return keep_first(entries.error(), prepared.trouble);
+  for (const auto& entry : *entries) {
+    if (!is_leftover(entry)) continue;
+    const auto leftover = day / entry.name;
+    const auto gone =
+        entry.is_folder ? remove_whole(*storage_, leftover) : storage_->remove_file(leftover);
+    if (gone) {
+      prepared.cleared += entry.is_folder ? 1 : 0;
+    } else {
+      keep_first(gone.error(), prepared.trouble);
+    }
+  }
 }
 
 Result<void> ResultStore::check_root() {
@@ -121,7 +134,7 @@ Result<std::filesystem::path> ResultStore::put(const std::string& id,
   if (!is_scan_id(id)) {
     return fail(ErrorCode::kInvalidInput, "\"" + id + "\" is not the id of a scan", "");
   }
-  const std::lock_guard lock(clearing_);
+  const std::shared_lock nobody_clears(clearing_);
   if (const auto there = check_root(); !there) return tl::make_unexpected(there.error());
   const auto day = root() / day_folder(id);
   const auto writing = day / (kWriting + id);
@@ -300,6 +313,7 @@ Result<std::string> ResultStore::read_result_json(const std::string& id) const {
 }
 
 Result<void> ResultStore::remove(const std::string& id) {
+  const std::shared_lock nobody_clears(clearing_);
   return check_root().and_then([&] { return find(id); }).and_then([&](const std::string& found) {
     return move_away(found);
   });

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 #include <vector>
 
@@ -61,8 +62,9 @@ class ResultStore {
 
   /// Takes the root, see StoreRoot, and clears what an earlier run left half-done, unless another
   /// program works on the same results. Reads the folders of all days. Nothing else but expect(),
-  /// time_of_next() and put() may come from another thread meanwhile: a put() waits for it, and
-  /// until the root is taken time_of_next() knows of no earlier run.
+  /// time_of_next(), put() and remove() may come from another thread meanwhile: the last two wait
+  /// until the root is taken, and then for the clearing of one day at most. Until the root is taken
+  /// time_of_next() knows of no earlier run.
   Result<Prepared> prepare(const OnDay& on_day = [] {});
 
   /// Whether the root is the one that prepare() took: see StoreRoot. What puts or takes away
@@ -112,7 +114,9 @@ class ResultStore {
       const GoOn& go_on = always, const OnDay& on_day = [] {});
 
  private:
+  Result<bool> take_root();
   Result<Prepared> clear_leftovers(const OnDay& on_day);
+  void clear_day(const std::filesystem::path& day, Prepared& prepared);
   Result<void> make_day_folder(const std::string& id);
   Result<void> write_files(const std::filesystem::path& folder, const ResultContent& content);
   Result<void> move_away(const std::string& id);
@@ -133,7 +137,9 @@ class ResultStore {
 
   std::shared_ptr<Storage> storage_;
   StoreRoot root_;
-  std::mutex clearing_;                        ///< what is being written is no leftover
+  /// What is being written or removed is no leftover. Those who do either share it, and who waits
+  /// for it comes before the next day's clearing.
+  std::shared_mutex clearing_;
   std::atomic<std::size_t> largest_scan_ = 0;  ///< in bytes; see expect()
   mutable std::mutex mutex_;                   ///< of what follows
   std::string newest_found_;  ///< by newest(), when the root was taken; empty if there was none

@@ -6,7 +6,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <future>
 #include <new>
 #include <thread>
 
@@ -94,6 +96,63 @@ TEST_F(ResultStoreOnDisk, ClearsWhatAnEarlierRunLeft) {
   EXPECT_EQ(store.prepare()->cleared, 2U);
   EXPECT_EQ(store.prepare()->cleared, 0U);
   EXPECT_THAT(*store.list(), ElementsAre("20261121T091502417Z-k3f9"));
+}
+
+/// A scan came with its result only once the folders of all days were read and cleared; and what
+/// stored it let others in, whose half-made results were cleared then.
+TEST_F(ResultStoreOnDisk, StoresAndRemovesBetweenTwoDaysOfTheClearingAndKeepsOthersOut) {
+  const ResultContent content{"{}", "ply", "<svg/>", "<svg/>"};
+  const std::string removed = "20261123T000000000Z-aaaa";
+  const auto root = folder.path() / "of an earlier run";
+  for (const auto* day : {"20", "21", "22"}) {
+    std::filesystem::create_directories(root / "2026/11" / day /
+                                        (std::string(".writing-202611") + day));
+  }
+  ResultStore after_restart(std::make_shared<PosixStorage>(), root);
+  std::future<void> storing;
+  int days = 0;
+  const auto prepared = after_restart.prepare([&] {
+    if (++days != 2) return;
+    storing = std::async(std::launch::async, [&] {
+      EXPECT_TRUE(after_restart.put("20261122T000000000Z-aaaa", content));
+      EXPECT_TRUE(after_restart.put(removed, content));
+      EXPECT_TRUE(after_restart.remove(removed));
+    });
+    ASSERT_EQ(storing.wait_for(std::chrono::seconds(30)), std::future_status::ready);
+    PosixStorage other;
+    EXPECT_EQ(other.take_hold(root), false);
+    EXPECT_EQ(other.keep_hold(root).error().code, ErrorCode::kBusy);
+  });
+  EXPECT_EQ(prepared->cleared, 3U);
+  EXPECT_THAT(*after_restart.list(), ElementsAre("20261122T000000000Z-aaaa"));
+  PosixStorage other;
+  EXPECT_EQ(other.take_hold(root), false);
+  EXPECT_TRUE(other.keep_hold(root)) << "others are let in at its end";
+}
+
+/// Another folder in its place was cleared, and its mark taken for the store's own.
+TEST_F(ResultStoreOnDisk, ClearsNothingInAFolderThatTookItsPlaceMeanwhile) {
+  const auto root = folder.path() / "of an earlier run";
+  const auto leftover = root / "2026/11/21/.writing-20261121";
+  std::filesystem::create_directories(leftover);
+  ResultStore after_restart(std::make_shared<PosixStorage>(), root);
+  const auto prepared = after_restart.prepare([&] {
+    std::filesystem::rename(root, folder.path() / "aside");
+    std::filesystem::create_directories(leftover);
+  });
+  ASSERT_FALSE(prepared);
+  EXPECT_EQ(prepared.error().code, ErrorCode::kDeviceGone);
+  EXPECT_TRUE(std::filesystem::exists(leftover));
+  EXPECT_FALSE(std::filesystem::exists(root / "store-id"));
+}
+
+/// Nobody else could store anything, until the daemon that had been short of memory was ended.
+TEST_F(ResultStoreOnDisk, LetsOthersInThoughItsClearingBrokeOff) {
+  put("20261121T091502417Z-k3f9");
+  ASSERT_THROW((void)store.prepare([] { throw std::bad_alloc(); }), std::bad_alloc);
+  PosixStorage other;
+  EXPECT_EQ(other.take_hold(store.root()), false);
+  EXPECT_TRUE(other.keep_hold(store.root()));
 }
 
 TEST_F(ResultStoreOnDisk, PassesOverWhatIsNotItsOwn) {
