@@ -31,8 +31,8 @@ constexpr std::chrono::microseconds kWatchdogTick{1000000};
 constexpr std::chrono::seconds kLongestSweep{1};
 /// Between two looks whether the store is where it was, which cost next to nothing.
 constexpr std::chrono::seconds kStoreLook{10};
-/// Then it is tried out: a disk gets room again.
-constexpr std::chrono::seconds kStoreLookInTrouble{60};
+/// Then it is tried out: whoever makes room on a disk, or plugs it in again, waits to be told so.
+constexpr std::chrono::seconds kStoreLookInTrouble{5};
 /// A look at the store that makes no step for so long waits for its disk. Less than kStoreLook, so
 /// that the next look tells of it.
 constexpr std::chrono::seconds kStoreSilent{5};
@@ -40,6 +40,8 @@ constexpr std::chrono::seconds kStoreSilent{5};
 constexpr std::chrono::seconds kLongStoring{30};
 /// Results grow old without a scan.
 constexpr std::chrono::seconds kSweep{3600};
+/// It may make room; and lists all results, so that it does not come with every look.
+constexpr std::chrono::seconds kSweepInTrouble{60};
 
 Error silent_store() {
   return {ErrorCode::kTimeout, Remedy::kOperator, "the disk of the results does not answer",
@@ -162,7 +164,6 @@ void StationService::look_at_store() {
   tell_of_silent_store();
   const auto trouble = station_->store_trouble();
   store_timer_.set(trouble ? kStoreLookInTrouble : kStoreLook);
-  if (trouble) sweep_store();  // it may make room
   if (is_looking_at_store_) return;
   is_looking_at_store_ = true;
   archive_->post([this, trouble, store = store_, looked = archive_looked_,
@@ -194,7 +195,7 @@ void StationService::storing_takes_long() {
 }
 
 void StationService::sweep_store() {
-  sweep_timer_.set(kSweep);
+  sweep_timer_.set(station_->store_trouble() ? kSweepInTrouble : kSweep);
   sweeps_again_ = is_sweeping_;
   if (is_sweeping_) return;
   is_sweeping_ = true;
@@ -309,7 +310,10 @@ void StationService::station_changed() {
     trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
   }
   const bool store_failed = station_->store_trouble().has_value();
-  if (store_failed && !store_in_trouble_) store_timer_.set(kStoreLookInTrouble);
+  if (store_failed && !store_in_trouble_) {
+    store_timer_.set(kStoreLookInTrouble);
+    sweep_timer_.set(kSweepInTrouble);
+  }
   store_in_trouble_ = store_failed;
   manager_.status(status_text());
   if (server_ && server_->has_watchers()) {

@@ -330,6 +330,20 @@ TEST_F(MeasuringService, IsReadyAndFedThoughTheDiskOfItsResultsHangsFromTheStart
   EXPECT_EQ(end(), true);
 }
 
+/// It was said to be gone for up to a minute after it was there again, and no scan could begin.
+TEST_F(MeasuringService, IsReadySoonAfterTheDiskOfItsResultsIsBack) {
+  start([](const Capture&, const PipelineSettings&, const ScanProgress&) { return one_foot(); });
+  ASSERT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+  const auto root = folder_.path() / "scans";
+  const auto aside = folder_.path() / "aside";
+  ASSERT_EQ(ask("list")["scans"].size(), 0U) << "it is prepared";
+  std::filesystem::rename(root, aside);
+  ASSERT_TRUE(notifications_.wait_for("STATUS=fault", kLong));
+  std::filesystem::rename(aside, root);
+  EXPECT_TRUE(notifications_.wait_for("STATUS=ready", kLong));
+  EXPECT_EQ(end(), true);
+}
+
 /// A look at the store that waited behind it passed for the one that takes so long.
 TEST_F(MeasuringService, LeavesTheWatchdogHungryWhenADeletionHangsThoughALookWaits) {
   begin_and_store();
