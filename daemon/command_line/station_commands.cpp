@@ -20,6 +20,7 @@ struct Options {
   std::string out = ".";
   std::string format = "text";
   bool no_wait = false;
+  bool in_detail = false;
   int wait_ready_s = -1;
   int until_result_s = -1;
 
@@ -92,8 +93,14 @@ void add_scan_commands(const StationCommands& commands) {
 
 void add_result_commands(const StationCommands& commands) {
   Options& options = *commands.options;
-  auto* list = commands.add("list", "List the scans, newest first", "instep list",
-                            [](const Options& o) { return list_scans(o.as_json()); });
+  auto* list = commands.add(
+      "list",
+      "List the scans, newest first: to a terminal with what they are known by, else the ids alone",
+      "instep list --long | grep left", [](const Options& o) {
+        return list_scans(o.as_json(), o.in_detail || stdout_is_terminal());
+      });
+  list->add_flag("--long", options.in_detail,
+                 "As to a terminal: time, side, length, ball girth, what is in doubt");
   add_format(*list, options);
 
   auto* show = commands.add("show", "Print the measures of a scan", "instep show latest",

@@ -10,6 +10,7 @@
 
 #include "config/settings_search.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/list_text.h"
 #include "daemon/command_line/result_text.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/command_line/status_text.h"
@@ -122,6 +123,21 @@ Result<void> tell(const json& line, bool in_terminal) {
                                 : line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
+/// Line by line, as there may be thousands, and the newest are what is mostly looked for.
+Result<void> list_in_detail(ControlClient& client, const json& scans) {
+  for (const auto& scan : scans) {
+    const std::string id = string_at(scan, "id");
+    const auto result = stored_result(client, id);
+    if (!result && result.error().code == ErrorCode::kNotFound) continue;  // deleted meanwhile
+    const bool is_damaged = !result && result.error().code == ErrorCode::kCorruptData;
+    if (!result && !is_damaged) return tl::make_unexpected(result.error());
+    const auto printed = print_text(
+        is_damaged ? list_line_without_result(id, result.error().message) : list_line(id, *result));
+    if (!printed) return printed;
+  }
+  return {};
+}
+
 /// Of a file in a scan's folder, and never of one elsewhere.
 Result<std::string> name_of(const json& file) {
   if (!file.is_string()) return tl::make_unexpected(answer_not_understood());
@@ -212,11 +228,14 @@ Result<void> watch_station(std::optional<seconds> until_result) {
   }
 }
 
-Result<void> list_scans(bool as_json) {
-  const auto answer = ask_daemon("list");
+Result<void> list_scans(bool as_json, bool with_details) {
+  auto client = reach_daemon();
+  if (!client) return tl::make_unexpected(client.error());
+  const auto answer = client->ask("list");
   if (!answer) return tl::make_unexpected(answer.error());
   const json scans = list_at(*answer, "scans");
   if (as_json) return print_json({{"scans", scans}});
+  if (with_details) return list_in_detail(*client, scans);
   std::string ids;
   for (const auto& scan : scans) ids += string_at(scan, "id") + "\n";
   return print_text(ids);

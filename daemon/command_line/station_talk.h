@@ -17,7 +17,8 @@ Result<void> show_station_status(std::optional<std::chrono::seconds> wait_ready,
 /// Follows the station: a live line in a terminal, else JSON lines. Ends with the next result if
 /// `until_result` is given (kTimeout if there is none by then), else never.
 Result<void> watch_station(std::optional<std::chrono::seconds> until_result);
-Result<void> list_scans(bool as_json);
+/// The ids, one a line; `with_details` what list_line() tells of each.
+Result<void> list_scans(bool as_json, bool with_details);
 /// `format`: text, json or csv.
 Result<void> show_scan(const std::string& id, const std::string& format);
 /// Copies the files of a scan into the folder <out>/<id>, which must not be there yet.

@@ -22,7 +22,7 @@ class OddDaemon : public testing::Test {
     ::setenv("INSTEP_SOCKET", socket_.c_str(), 1);
     loop_.call([this] {
       const auto serve = [this](ControlServer::Client client, const Request& request) {
-        server_->answer(client, answer_);
+        server_->answer(client, request.verb == "show" && !shown_.empty() ? shown_ : answer_);
         if (request.verb == "scan") server_->send_event(client, event_);
       };
       server_ = ControlServer::listen(loop_.loop(), socket_, serve).value();
@@ -44,6 +44,7 @@ class OddDaemon : public testing::Test {
   test::LoopThread loop_;
   std::unique_ptr<ControlServer> server_;
   std::string answer_;
+  std::string shown_;  ///< to show alone; as the others are answered if empty
   std::string event_;
 };
 
@@ -84,9 +85,24 @@ TEST_F(StationTalk, OutlivesListsAndEventsOfAnotherShape) {
   for (const auto* scans : {"3", R"("scan")", "[3, []]", R"({"id": 3})"}) {
     say(std::string(R"({"ok": true, "scans": )") + scans + "}",
         std::string(R"({"event": "result", "scans": )") + scans + "}");
-    EXPECT_NO_THROW(static_cast<void>(list_scans(false))) << scans;
+    EXPECT_NO_THROW(static_cast<void>(list_scans(false, false))) << scans;
+    EXPECT_NO_THROW(static_cast<void>(list_scans(false, true))) << scans;
     EXPECT_NO_THROW(static_cast<void>(scan_on_station(true, false))) << scans;
   }
+}
+
+// One result that is damaged, or was just deleted, would hide all that come after it.
+TEST_F(StationTalk, ListsInDetailPastAScanThatCannotBeRead) {
+  say(R"({"ok": true, "scans": [{"id": "20261121T091502417Z-k3f9"}]})");
+  const auto outcome_where_shown = [&](const Error& error) {
+    loop_.call([&] { shown_ = error_answer(error); });
+    return list_scans(false, true);
+  };
+  EXPECT_TRUE(outcome_where_shown({ErrorCode::kCorruptData, Remedy::kOperator, "damaged", ""}));
+  EXPECT_TRUE(outcome_where_shown({ErrorCode::kNotFound, Remedy::kOperator, "no such", ""}));
+  const auto gone = outcome_where_shown({ErrorCode::kDeviceGone, Remedy::kOperator, "gone", ""});
+  ASSERT_FALSE(gone) << "the disk, and with it the rest of the list";
+  EXPECT_EQ(gone.error().message, "gone");
 }
 
 // The daemon may run on the socket that those settings name.
