@@ -102,6 +102,7 @@ json to_json(const StationStatus& status) {
   const auto with_trouble = [](json part, const std::optional<Error>& trouble) {
     part["ok"] = !trouble.has_value();
     part["trouble"] = trouble ? trouble->line() : "";
+    part["advice"] = trouble ? trouble->advice : "";  // with which that line ends
     return part;
   };
   json cameras = json::array();

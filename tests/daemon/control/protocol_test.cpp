@@ -115,7 +115,9 @@ TEST(Protocol, TellsHowEachPartIsInTheStatus) {
   EXPECT_EQ(json.at("troubles"), nlohmann::json(status.troubles));
   EXPECT_EQ(json.at("pedal").at("ok"), false);
   EXPECT_EQ(json.at("pedal").at("trouble"), "it is stuck: take the foot off it");
-  EXPECT_EQ(json.at("store"), (nlohmann::json{{"root", "/scans"}, {"ok", true}, {"trouble", ""}}));
+  EXPECT_EQ(json.at("pedal").at("advice"), "take the foot off it");
+  EXPECT_EQ(json.at("store"),
+            (nlohmann::json{{"root", "/scans"}, {"ok", true}, {"trouble", ""}, {"advice", ""}}));
 }
 
 TEST(Protocol, SurvivesTextThatIsNoUnicode) {
