@@ -113,7 +113,7 @@ Result<void> StationService::open(MeasureCapture measure) {
 Result<bool> StationService::run() {
   prepare_store();
   station_->begin();
-  manager_.ready(status_text());
+  manager_.ready(text_of(status()));
   if (ServiceManager::watchdog_limit()) feed_watchdog();
   const auto ended = loop_->run();
   const bool all_ended = end_threads();
@@ -279,8 +279,7 @@ StationStatus StationService::status() const {
   return status;
 }
 
-std::string StationService::status_text() const {
-  const auto now = station_->status();
+std::string StationService::text_of(const StationStatus& now) const {
   std::string text = to_string(now.state);
   if (!now.stage.empty()) text += ": " + now.stage;
   if (!now.troubles.empty()) text += ": " + now.trouble();
@@ -315,7 +314,7 @@ void StationService::station_changed() {
     sweep_timer_.set(kSweepInTrouble);
   }
   store_in_trouble_ = store_failed;
-  manager_.status(status_text());
+  manager_.status(text_of(now));
   if (server_ && server_->has_watchers()) {
     server_->broadcast(event_line("status", to_json(now)));
   }
@@ -403,7 +402,7 @@ void StationService::reload() {
     sweep_store();
   }
   station_changed();
-  manager_.ready(status_text());
+  manager_.ready(text_of(status()));
 }
 
 void StationService::shut_down() {

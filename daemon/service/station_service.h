@@ -71,7 +71,7 @@ class StationService {
   bool end_threads();
   /// The station's, and what is wrong with its settings.
   StationStatus status() const;
-  std::string status_text() const;
+  std::string text_of(const StationStatus& now) const;
 
   Settings settings_;
   ReadSettings read_settings_;

@@ -126,13 +126,13 @@ std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point d
 StationStatus Station::status() const {
   StationStatus status;
   status.state = machine_.state();
-  for (const auto& trouble : troubles()) status.troubles.push_back(trouble.line());
-  status.warnings = pose_warnings();
+  status.cameras = camera_status();
+  for (const auto& one : troubles(status.cameras)) status.troubles.push_back(one.line());
+  status.warnings = pose_warnings(status.cameras);
   const std::string late = warning_of_short_deadline(settings_);
   if (!late.empty()) status.warnings.push_back(late);
   status.stage = stage_;
   status.done = done_;
-  status.cameras = camera_status();
   if (settings_.pedal.kind != PedalKind::kNone) status.pedal = {pedal_trouble_};
   status.store = {store_->root(), store_trouble_};
   if (signals_) status.outputs = signals_->status();
@@ -289,12 +289,12 @@ void Station::remark_missing_light() {
 }
 
 void Station::remark_poses() {
-  for (const auto& warning : pose_warnings()) remarks_->note(warning);
+  for (const auto& warning : pose_warnings(camera_status())) remarks_->note(warning);
 }
 
-std::vector<std::string> Station::pose_warnings() const {
+std::vector<std::string> Station::pose_warnings(const std::vector<CameraStatus>& cameras) const {
   ToldSerials told;
-  for (const auto& camera : camera_status()) told[camera.id] = camera.serial;
+  for (const auto& camera : cameras) told[camera.id] = camera.serial;
   return warnings_of_poses(settings_, told);
 }
 
@@ -347,7 +347,7 @@ void Station::scan_ended(const ScanOutcome& outcome) {
 
 Error Station::refusal() const {
   if (machine_.is_leaving()) return stopping();
-  const auto all = troubles();
+  const auto all = troubles(camera_status());
   // There is none while the look goes on by which the last one has just ended.
   if (state() == StationState::kStarting || all.empty()) {
     return {ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
@@ -356,13 +356,13 @@ Error Station::refusal() const {
   return all.front();
 }
 
-std::vector<Error> Station::troubles() const {
+std::vector<Error> Station::troubles(const std::vector<CameraStatus>& cameras) const {
   std::vector<Error> all;
   const auto add = [&](const std::optional<Error>& trouble) {
     if (trouble) all.push_back(*trouble);
   };
   add(open_trouble_);
-  for (const auto& camera : camera_status()) add(camera.trouble);
+  for (const auto& camera : cameras) add(camera.trouble);
   add(store_trouble_);
   add(pedal_trouble_);
   return all;

@@ -95,12 +95,12 @@ class Station {
   void remark_missing_light();
   /// Nor do cameras that are not where a calibration found them, whatever comes of their poses.
   void remark_poses();
-  std::vector<std::string> pose_warnings() const;
+  std::vector<std::string> pose_warnings(const std::vector<CameraStatus>& cameras) const;
   std::vector<CameraStatus> camera_status() const;
   void scan_ended(const ScanOutcome& outcome);
   void note_store_failure(const Error& error);
   ScanTools tools() const;
-  std::vector<Error> troubles() const;
+  std::vector<Error> troubles(const std::vector<CameraStatus>& cameras) const;
   /// Why a scan cannot begin now.
   Error refusal() const;
 
