@@ -40,7 +40,8 @@ class DepthCamera {
   /// back), kCancelled after interrupt(), kInvalidInput if not started.
   virtual Result<DepthFrame> next_frame(std::chrono::milliseconds limit) = 0;
 
-  /// Ends streaming and drops frames that wait. Stopping a stopped camera is a no-op.
+  /// Ends streaming, or a start that goes on by itself, and drops frames that wait. Stopping a
+  /// stopped camera is a no-op.
   virtual void stop() = 0;
 
   /// Makes a waiting next_frame(), and the next one if none waits, return kCancelled at once. Safe

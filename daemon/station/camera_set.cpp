@@ -48,19 +48,23 @@ class ToldDescription {
   CameraDescription told_;
 };
 
-/// What `use` makes of the stream of a camera, which is stopped whatever comes of it. Takes down
-/// what the camera has learnt of itself at its start. `doing` as in caught().
+/// What `use` makes of the stream of a camera, which is stopped whatever comes of it; but a start
+/// that is late and goes on by itself is left to whoever looks next, for it would be late again.
+/// Takes down what the camera has learnt of itself at its start. `doing` as in caught().
 template <class Use>
 std::invoke_result_t<const Use&> with_stream(DepthCamera& camera, ToldDescription& description,
                                              std::string_view doing,
                                              steady_clock::time_point start_deadline,
                                              const GoOn& go_on, const Use& use) {
+  bool is_late = false;
   auto outcome = caught(doing, [&] {
     const auto started = start_by(camera, start_deadline, go_on);
+    is_late = !started && is_on_its_way(started.error());
     if (started) description.take(camera.description());
     return started.and_then(use);
   });
   (void)go_on();
+  if (is_late) return outcome;
   const auto stopped = caught(doing, [&]() -> Result<void> {
     camera.stop();
     return {};

@@ -126,7 +126,7 @@ Result<void> OpenniCamera::start() {
 }
 
 /// It may be opening, starting or stopping still after an earlier call, or stream since one that
-/// gave up waiting for that.
+/// waited no longer for that.
 Result<void> OpenniCamera::bring_to_stream() {
   if (child_->phase() == Phase::kStreaming) {
     child_->drop_frames();
@@ -185,9 +185,10 @@ DepthFrame OpenniCamera::to_frame(RingFrame from) {
 }
 
 void OpenniCamera::stop() {
-  if (!started_) return;
   started_ = false;
-  if (child_->phase() == Phase::kStreaming) child_->stop();
+  if (!child_) return;
+  const Phase phase = child_->phase();
+  if (phase == Phase::kStreaming || phase == Phase::kStarting) child_->stop();
 }
 
 void OpenniCamera::interrupt() {

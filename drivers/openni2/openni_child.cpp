@@ -161,7 +161,8 @@ Result<void> OpenniChild::obey(const ChildMessage& message) {
     opened_ = *opened;
     enter(Phase::kOpen);
   }
-  if (std::holds_alternative<CameraStarted>(message)) enter(Phase::kStreaming);
+  const bool has_started = std::holds_alternative<CameraStarted>(message);
+  if (has_started && phase_ == Phase::kStarting) enter(Phase::kStreaming);
   if (std::holds_alternative<CameraStopped>(message)) enter(Phase::kOpen);
   return {};
 }

@@ -47,7 +47,7 @@ class OpenniChild {
 
   void start();        ///< in Phase::kOpen
   void drop_frames();  ///< those that wait, in Phase::kStreaming
-  void stop();         ///< in Phase::kStreaming
+  void stop();         ///< in Phase::kStreaming, or kStarting: as soon as it streams
 
   /// Fails with kTimeout if the phase has not come by `deadline`, kCancelled if `interrupt` is set,
   /// with what happened to the sensor, mostly kDeviceGone, and with kIo and Remedy::kReopen if the

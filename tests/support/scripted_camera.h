@@ -63,7 +63,14 @@ class ScriptedCamera : public DepthCamera {
     if (step == Step::kGone) return fail(ErrorCode::kDeviceGone, "it left", "plug it in");
     return frame_of(step);
   }
-  void stop() override {}
+  void stop() override {
+    const std::lock_guard lock(mutex_);
+    ++stops_;
+  }
+  int stops() {
+    const std::lock_guard lock(mutex_);
+    return stops_;
+  }
   /// Returns once so many frames were asked for, of which a script may keep the last waiting.
   void wait_until_asked(int times = 1) {
     std::unique_lock lock(mutex_);
@@ -108,6 +115,7 @@ class ScriptedCamera : public DepthCamera {
   std::deque<Step> script_;
   bool interrupted_ = false;
   int asked_ = 0;
+  int stops_ = 0;
   bool released_ = false;
 };
 

@@ -320,6 +320,39 @@ TEST(CameraSet, ReportsEachCameraWhenChecked) {
   EXPECT_EQ(reports.of(1), "camera right: it left");
 }
 
+/// One whose start goes on by itself for ever.
+class NeverStarted final : public ScriptedCamera {
+ public:
+  NeverStarted() : ScriptedCamera("slow", {}) {}
+  Result<void> start() override {
+    ++starts_;
+    return fail(ErrorCode::kTimeout, "it is still starting", "wait a moment");
+  }
+  int starts() const { return starts_; }
+
+ private:
+  std::atomic<int> starts_ = 0;
+};
+
+/// It streamed on, with its projector, until somebody looked or scanned again.
+TEST(CameraSet, StopsACameraWhoseStartIsGivenUpAndLeavesALateOneToTheNextLook) {
+  auto owned = std::make_unique<NeverStarted>();
+  auto& camera = *owned;
+  std::vector<std::unique_ptr<DepthCamera>> all;
+  all.push_back(std::move(owned));
+  CameraSet set(std::move(all));
+  std::promise<Result<void>> looked;
+  set.check({.frame_limit = 1ms}, CameraSet::ZeroFrames::kAreFaulty,
+            [&](std::size_t, Result<void> outcome) { looked.set_value(std::move(outcome)); });
+  EXPECT_EQ(looked.get_future().get().error().code, ErrorCode::kTimeout);
+  EXPECT_EQ(camera.stops(), 0) << "to begin anew it would be as late the next time";
+  const int before = camera.starts();
+  const auto cancelled = set.capture({.deadline = 1h}, [&] { return camera.starts() == before; });
+  EXPECT_EQ(cancelled.error().code, ErrorCode::kCancelled);
+  ASSERT_TRUE(set.end_by(std::chrono::steady_clock::now() + 1h));
+  EXPECT_EQ(camera.stops(), 1);
+}
+
 TEST(CameraSet, WaitsForACameraThatIsSlowToStart) {
   std::vector<std::unique_ptr<DepthCamera>> all;
   all.push_back(std::make_unique<test::SlowToStart>("slow", 3));

@@ -241,6 +241,23 @@ TEST_F(OpenniFault, AStartThatTookTooLongServesTheNextCall) {
   EXPECT_TRUE(camera->next_frame(kLong));
 }
 
+/// It streamed on when it had started at last, with nobody to read it.
+TEST_F(OpenniFault, AStartThatWasGivenUpIsStopped) {
+  bus_.plug_in({.faults = {"slow-start", "hang-stop"}});
+  const auto camera = bus_.camera();
+  ASSERT_EQ(camera->start().error().code, ErrorCode::kTimeout);
+  camera->stop();
+  Result<void> next = camera->start();
+  while (!next && next.error().code == ErrorCode::kTimeout) next = camera->start();
+  ASSERT_FALSE(next) << "that it was told to stop shows in that it hangs there";
+  EXPECT_THAT(next.error().line(), HasSubstr("hung while it was stopping"));
+  fail_with("slow-start");
+  ASSERT_TRUE(frame_at_last(*camera));
+  ASSERT_TRUE(start_at_last(*camera));
+  camera->stop();
+  EXPECT_TRUE(frame_at_last(*camera)) << "and can be started again after a stop";
+}
+
 TEST_F(OpenniFault, AnInterruptEndsAStart) {
   bus_.plug_in({.faults = {"hang-start"}});
   const auto camera = bus_.camera();
