@@ -167,13 +167,14 @@ Result<void> OpenniChild::obey(const ChildMessage& message) {
   return {};
 }
 
-/// Opening, starting and stopping are calls of the library that give no sign of life.
+/// Opening, starting and stopping are calls of the library that give no sign of life; waiting for a
+/// turn to open gives some, and may take as long as the others' openings.
 Result<void> OpenniChild::check_life() {
   const auto now = steady_clock::now();
   bool hangs = false;
   switch (phase_) {
     case Phase::kOpening:
-      hangs = now > phase_since_ + opening_limit_;
+      hangs = now > std::max(phase_since_, ring_.last_beat()) + opening_limit_;
       break;
     case Phase::kStarting:
     case Phase::kStopping:

@@ -19,7 +19,8 @@ namespace instep {
 struct SensorChoice {
   std::string serial;             ///< empty = the only sensor there is
   std::optional<ImageSize> size;  ///< of the image; see choose_mode()
-  /// Opening a sensor, with its firmware and those before it in the search, takes seconds.
+  /// Opening a sensor, with its firmware and those before it in the search, takes seconds; from its
+  /// turn on, see SearchTurn.
   std::chrono::milliseconds opening_limit{10000};
 };
 

@@ -55,7 +55,7 @@ class CaptureService {
 
  private:
   Result<std::unique_ptr<DepthSensor>> open(const SensorChoice& choice) {
-    auto turn = SearchTurn::wait();
+    auto turn = SearchTurn::wait([this] { ring_.beat(); });
     if (!turn) return tl::make_unexpected(turn.error());
     auto sensor = find_sensor(choice.serial);
     if (!sensor) return sensor;

@@ -47,9 +47,9 @@ std::string library_folder() {
 
 }  // namespace
 
-Result<SearchTurn> SearchTurn::wait() {
+Result<SearchTurn> SearchTurn::wait(const std::function<void()>& on_pause) {
   using std::chrono::steady_clock;
-  constexpr std::chrono::seconds kLimit{8};
+  constexpr std::chrono::seconds kLimit{60};
   constexpr std::chrono::milliseconds kPause{10};
   const auto deadline = steady_clock::now() + kLimit;
   // It needs no file of its own, and the kernel unlocks it when the process ends.
@@ -60,6 +60,7 @@ Result<SearchTurn> SearchTurn::wait() {
       return fail(ErrorCode::kTimeout, "another instep-openni hangs at opening a sensor",
                   "unplug the sensors and plug them in again");
     }
+    on_pause();
     std::this_thread::sleep_for(kPause);
   }
   return SearchTurn(std::move(lock));

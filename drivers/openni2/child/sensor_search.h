@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,8 +15,10 @@ namespace instep {
 /// look for theirs would find each other's busy. Held while the object lives.
 class SearchTurn {
  public:
-  /// Waits for it; fails with kTimeout after 8 s, when somebody hangs.
-  static Result<SearchTurn> wait();
+  /// Waits for it, and calls `on_pause` all the while. One who hangs is ended by who started him,
+  /// within SensorChoice::opening_limit, and several may be before this one; fails with kTimeout
+  /// after a minute.
+  static Result<SearchTurn> wait(const std::function<void()>& on_pause = [] {});
 
  private:
   explicit SearchTurn(Descriptor lock) : lock_(std::move(lock)) {}

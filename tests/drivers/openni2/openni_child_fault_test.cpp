@@ -1,6 +1,8 @@
 #include "drivers/openni2/openni_child.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 
 #include <fstream>
 #include <thread>
@@ -43,6 +45,31 @@ TEST(OpenniChildFault, HearsTheLastWordsOfOneThatEndsUnreadACommand) {
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error().line(), unplugged.line());
   EXPECT_EQ(started.error().code, unplugged.code);
+}
+
+/// Of several sensors that were plugged in at once, the last ones passed for hanging while the
+/// others were opened before them, and had to begin anew.
+TEST(OpenniChildFault, WaitsForItsTurnLongerThanAnOpeningMayTake) {
+  constexpr auto kOpeningLimit = 2000ms;
+  OpenniBus bus;
+  bus.plug_in({});
+  // As another process does that opens its sensor.
+  Descriptor other(::open(bus.folder().c_str(), O_RDONLY | O_CLOEXEC));
+  ASSERT_EQ(::flock(other.number(), LOCK_EX), 0);
+  SensorChoice choice;
+  choice.serial = "A1";
+  choice.opening_limit = kOpeningLimit;
+  const auto child = OpenniChild::launch(bus.program(), choice).value();
+  const WakeUp interrupt;
+  const auto waiting = child->wait_for(OpenniChild::Phase::kOpen,
+                                       steady_clock::now() + 2 * kOpeningLimit, interrupt);
+  ASSERT_FALSE(waiting);
+  EXPECT_EQ(waiting.error().code, ErrorCode::kTimeout) << waiting.error().line();
+  EXPECT_TRUE(child->is_well());
+  other = Descriptor();
+  const auto opened =
+      child->wait_for(OpenniChild::Phase::kOpen, steady_clock::now() + kLong, interrupt);
+  EXPECT_TRUE(opened) << opened.error().line();
 }
 
 }  // namespace
