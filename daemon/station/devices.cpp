@@ -8,6 +8,7 @@
 #include "config/settings_search.h"
 #include "config/source_of_poses.h"
 #include "daemon/machine/inventory.h"
+#include "daemon/station/open_sensors.h"
 #include "drivers/evdev/evdev_pedal.h"
 #include "drivers/gpio/gpio_output.h"
 #include "drivers/gpio/gpio_pedal.h"
@@ -110,21 +111,11 @@ Result<void> add_recording(const std::filesystem::path& folder, Devices& devices
   return {};
 }
 
-/// One that could be opened when another could not, and where it was on USB then: it may have left
-/// meanwhile, and is to be noticed when it comes back.
-struct OpenSensor {
-  std::unique_ptr<DepthCamera> camera;
-  std::optional<UsbAddress> usb;
-};
-
-using OpenSensors = std::map<std::string, OpenSensor>;
-
 Result<OpenSensor> open_openni(const OpenniSettings& chosen, OpenSensors& kept) {
   auto usb = usb_address_of(chosen, {});
-  if (auto still = kept.extract(chosen.placement.name)) {
-    OpenSensor& sensor = still.mapped();
-    if (usb) sensor.usb = usb;
-    return std::move(sensor);
+  if (auto still = kept.take(chosen.placement.name)) {
+    if (usb) still->usb = usb;
+    return std::move(*still);
   }
   OpenniCamera::Settings settings;
   settings.name = chosen.placement.name;
@@ -149,23 +140,6 @@ Result<void> add_openni(const OpenniSettings& chosen, OpenSensors& kept, Devices
   if (sensor->usb) devices.usb[chosen.placement.name] = *sensor->usb;
   devices.cameras.push_back(std::move(sensor->camera));
   return {};
-}
-
-/// The OpenNI2 sensors among them.
-OpenSensors sensors_of(const Settings& settings, Devices devices) {
-  OpenSensors sensors;
-  for (const auto& source : settings.cameras) {
-    if (source.kind != CameraKind::kOpenni) continue;
-    const std::string& name = source.openni.placement.name;
-    const auto camera = std::find_if(
-        devices.cameras.begin(), devices.cameras.end(),
-        [&](const auto& one) { return one && one->description().geometry.id == name; });
-    if (camera == devices.cameras.end()) continue;
-    OpenSensor& sensor = sensors[name];
-    sensor.camera = std::move(*camera);
-    if (const auto usb = devices.usb.find(name); usb != devices.usb.end()) sensor.usb = usb->second;
-  }
-  return sensors;
 }
 
 DepthFormat format_of(V4l2Format format) {
@@ -250,7 +224,7 @@ Result<Devices> open_all(OpenSensors& kept, const Settings& settings) {
   }
   if (trouble) {
     const Error error = with_waiting(*trouble, devices);
-    kept = sensors_of(settings, std::move(devices));
+    kept.keep(settings, std::move(devices));
     return tl::make_unexpected(error);
   }
   kept.clear();
