@@ -10,13 +10,14 @@
 #include "daemon/store/posix_storage.h"
 #include "tests/support/loop_thread.h"
 #include "tests/support/small_station.h"
+#include "tests/support/station_on_loop.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
 namespace {
 
 /// A station at work that notes what each of its scans was to be measured with, and fails them.
-class ReloadedStation : public testing::Test {
+class ReloadedStation : public test::StationOnLoop {
  protected:
   struct Measured {
     std::optional<double> platform_height_mm;
@@ -24,21 +25,14 @@ class ReloadedStation : public testing::Test {
   };
 
   ReloadedStation() {
-    auto store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder_.path());
-    StationListener listener;
-    listener.on_change = [] {};
-    listener.on_failure = [this](const Error&) { ++ended_; };
-    const auto measure = [this](const Capture& capture, const PipelineSettings& pipeline,
-                                const ScanProgress&) -> Result<std::vector<ScanRecord>> {
+    listener_.on_failure = [this](const Error&) { ++ended_; };
+    measure_ = [this](const Capture& capture, const PipelineSettings& pipeline,
+                      const ScanProgress&) -> Result<std::vector<ScanRecord>> {
       measured_ = {capture.platform_height_mm, pipeline.side};
       return fail(ErrorCode::kInsufficientData, "nothing stands there", "");
     };
-    loop_.call([&] {
-      station_.emplace(loop_.loop(), test::small_station(), measure, store, listener);
-      station_->begin();
-    });
+    begin(test::small_station());
   }
-  /// What is under way still tells the station of itself, on the loop.
   ~ReloadedStation() override { loop_.stop(); }
 
   void reload(const Settings& settings) {
@@ -46,7 +40,7 @@ class ReloadedStation : public testing::Test {
   }
   /// What a scan is measured with.
   Measured scan() {
-    EXPECT_TRUE(loop_.wait_until([&] { return station_->status().state == StationState::kReady; }));
+    EXPECT_TRUE(comes_to(StationState::kReady));
     const int before = ended_;
     loop_.call([&] { EXPECT_TRUE(station_->request_scan()); });
     EXPECT_TRUE(loop_.wait_until([&] { return ended_ > before; }));
@@ -64,9 +58,6 @@ class ReloadedStation : public testing::Test {
   }
 
  private:
-  test::TemporaryFolder folder_;
-  test::LoopThread loop_;
-  std::optional<Station> station_;
   Measured measured_;
   int ended_ = 0;
 };

@@ -4,17 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "daemon/scan/scan_id.h"
-#include "daemon/station/station.h"
-#include "daemon/store/posix_storage.h"
-#include "tests/support/loop_thread.h"
 #include "tests/support/small_station.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/station_on_loop.h"
 
 namespace instep {
 namespace {
@@ -22,37 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr const char* kId = "20261121T091502417Z-k3f9";
-
-/// A station whose scans give one empty result each.
-class StationTold : public testing::Test {
- protected:
-  /// What is under way still tells the station of itself, on the loop.
-  ~StationTold() override { loop_.stop(); }
-
-  void begin(const Settings& settings) {
-    auto store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), root_);
-    ASSERT_TRUE(store->prepare());
-    StationListener listener;
-    listener.on_change = [] {};
-    listener.on_failure = [](const Error&) {};
-    listener.on_result = [](const std::vector<StoredResult>&) {};
-    const auto measure = [](const Capture&, const PipelineSettings&, const ScanProgress&) {
-      std::vector<ScanRecord> records(1);
-      records[0].id = kId;
-      return Result<std::vector<ScanRecord>>(records);
-    };
-    loop_.call([&] {
-      station_.emplace(loop_.loop(), settings, measure, store, listener);
-      station_->begin();
-    });
-  }
-
-  test::TemporaryFolder folder_;
-  std::filesystem::path root_ = folder_.path() / "scans";
-  test::LoopThread loop_;
-  std::optional<Station> station_;
-};
+using StationTold = test::StationOnLoop;
 
 // A camera that never started hid a pedal that was stuck, and a disk that was full.
 TEST_F(StationTold, NamesEveryTroubleAndNotTheFirstAlone) {
@@ -80,13 +43,17 @@ TEST_F(StationTold, NamesEveryTroubleAndNotTheFirstAlone) {
 
 TEST_F(StationTold, HasNoLastResultOnceThatIsRemoved) {
   begin(test::small_station());
-  ASSERT_TRUE(loop_.wait_until([&] { return station_->status().state == StationState::kReady; }));
+  ASSERT_TRUE(comes_to(StationState::kReady));
   loop_.call([&] { EXPECT_TRUE(station_->request_scan()); });
-  ASSERT_TRUE(loop_.wait_until([&] { return station_->status().last_result == kId; }));
+  std::string id;
+  ASSERT_TRUE(loop_.wait_until([&] {
+    id = station_->status().last_result;
+    return !id.empty();
+  }));
   loop_.call([&] {
     station_->forget_result("20261121T091502417Z-aaaa");
-    EXPECT_EQ(station_->status().last_result, kId);
-    station_->forget_result(kId);
+    EXPECT_EQ(station_->status().last_result, id);
+    station_->forget_result(id);
     EXPECT_EQ(station_->status().last_result, "");
   });
 }

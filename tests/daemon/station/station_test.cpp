@@ -5,15 +5,11 @@
 #include <chrono>
 #include <deque>
 #include <memory>
-#include <optional>
-#include <vector>
+#include <utility>
 
-#include "daemon/scan/scan_id.h"
-#include "daemon/store/posix_storage.h"
-#include "tests/support/loop_thread.h"
 #include "tests/support/scripted_camera.h"
 #include "tests/support/small_station.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/station_on_loop.h"
 
 namespace instep {
 namespace {
@@ -22,11 +18,9 @@ using namespace std::chrono_literals;
 using test::ScriptedCamera;
 using Step = ScriptedCamera::Step;
 
-/// A station with one camera that does what its script says, and whose scans give one empty result.
-class ScriptedStation : public testing::Test {
+/// A station with one camera that does what its script says.
+class ScriptedStation : public test::StationOnLoop {
  protected:
-  ~ScriptedStation() override { loop_.stop(); }
-
   /// Neither a look nor a frame has to come in time, and no look comes by itself.
   static Settings patient() {
     auto settings = test::small_station();
@@ -36,44 +30,23 @@ class ScriptedStation : public testing::Test {
     return settings;
   }
 
-  void begin(const Settings& settings, std::deque<Step> script) {
-    auto store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), folder_.path());
-    ASSERT_TRUE(store->prepare());
-    StationListener listener;
-    listener.on_change = [] {};
-    listener.on_failure = [](const Error&) {};
-    listener.on_result = [](const std::vector<StoredResult>&) {};
-    const auto measure = [](const Capture&, const PipelineSettings&, const ScanProgress&) {
-      std::vector<ScanRecord> records(1);
-      records[0].id = new_scan_ids(std::chrono::system_clock::now(), 1).at(0);
-      return Result<std::vector<ScanRecord>>(records);
-    };
+  void begin_with(const Settings& settings, std::deque<Step> script) {
     auto owned = std::make_unique<ScriptedCamera>("left", std::move(script));
     camera_ = owned.get();
     const auto cameras = std::make_shared<std::unique_ptr<DepthCamera>>(std::move(owned));
-    const auto open = [cameras](const Settings&) {
+    begin(settings, [cameras](const Settings&) {
       Devices devices;
       devices.cameras.push_back(std::move(*cameras));
       return Result<Devices>(std::move(devices));
-    };
-    loop_.call([&] {
-      station_.emplace(loop_.loop(), settings, measure, store, listener, open);
-      station_->begin();
     });
   }
-  bool comes_to(StationState state) {
-    return loop_.wait_until([&] { return station_->status().state == state; });
-  }
 
-  test::TemporaryFolder folder_;
-  test::LoopThread loop_;
   ScriptedCamera* camera_ = nullptr;
-  std::optional<Station> station_;
 };
 
 /// It refused every scan for the time between two looks, though its camera had just given one.
 TEST_F(ScriptedStation, IsReadyAfterAScanThoughALookThatCameBeforeItFails) {
-  begin(patient(), {Step::kGood, Step::kHang});
+  begin_with(patient(), {Step::kGood, Step::kHang});
   ASSERT_TRUE(comes_to(StationState::kReady));
   loop_.call([&] { station_->reload(patient()); });
   camera_->wait_until_asked(2);
@@ -92,7 +65,7 @@ TEST_F(ScriptedStation, IsReadyAfterAScanThoughALookThatCameBeforeItFails) {
 
 /// Its store's trouble was told, which kept nobody from scanning, with a remedy that was no help.
 TEST_F(ScriptedStation, SaysThatItIsStartingWhateverElseIsWrong) {
-  begin(patient(), {Step::kHang});
+  begin_with(patient(), {Step::kHang});
   camera_->wait_until_asked();
   loop_.call([&] {
     station_->store_failed({ErrorCode::kNoSpace, Remedy::kOperator, "the disk is full", ""});
@@ -108,7 +81,7 @@ TEST_F(ScriptedStation, SaysThatItIsStartingWhateverElseIsWrong) {
 TEST_F(ScriptedStation, WarnsOfADeadlineThatIsTooShortForAScanForAsLongAsItIs) {
   auto settings = patient();
   settings.cameras[0].kind = CameraKind::kRecording;
-  begin(settings, {});
+  begin_with(settings, {});
   auto late = settings;
   late.capture.frames_per_camera = 120;
   late.capture.deadline = 1s;
