@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "drivers/files/folder_entries.h"
+#include "drivers/files/node_error.h"
 
 namespace instep {
 namespace {
@@ -21,22 +22,14 @@ namespace fs = std::filesystem;
 constexpr const char* kPermissionAdvice =
     "let the udev rules of Instep name it, then: sudo usermod -aG plugdev $USER";
 
-/// Of a device that cannot be opened; a pedal that is away is only one of the reasons.
 Error not_opened(int error_number, const fs::path& node) {
-  const std::string what =
-      fmt::format("{} cannot be opened: {}", node.string(), std::strerror(error_number));
-  switch (error_number) {
-    case EACCES:
-    case EPERM:
-      return fail(ErrorCode::kPermissionDenied, what, kPermissionAdvice).value();
-    case ENOENT:
-    case ENOTDIR:
-    case ENODEV:
-    case ENXIO:
-      return fail(ErrorCode::kNotFound, what, "plug the pedal in").value();
-    default:
-      return fail(ErrorCode::kIo, what, "check the limits on open files and memory").value();
+  if (auto known = node_error(error_number, node, kPermissionAdvice, "plug the pedal in")) {
+    return *known;
   }
+  return fail(ErrorCode::kIo,
+              fmt::format("{} cannot be opened: {}", node.string(), std::strerror(error_number)),
+              "check the limits on open files and memory")
+      .value();
 }
 
 /// None where there is no such folder, as on a machine without any input device.

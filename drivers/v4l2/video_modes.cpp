@@ -8,6 +8,7 @@
 #include <cstring>
 #include <utility>
 
+#include "drivers/files/node_error.h"
 #include "drivers/v4l2/depth_format.h"
 #include "drivers/v4l2/video_call.h"
 #include "drivers/v4l2/video_error.h"
@@ -51,24 +52,10 @@ Result<std::vector<VideoModes>> modes_of(VideoSystem& system, int node) {
   return modes;
 }
 
-/// Of a node that cannot be opened; a camera that is away is only one of the reasons.
 Error not_opened(int error_number, const std::filesystem::path& path) {
-  const std::string what =
-      fmt::format("{} cannot be opened: {}", path.string(), std::strerror(error_number));
-  switch (error_number) {
-    case EACCES:
-    case EPERM:
-      return fail(ErrorCode::kPermissionDenied, what,
-                  "sudo usermod -aG video $USER, then log in again")
-          .value();
-    case ENOENT:
-    case ENOTDIR:
-    case ENODEV:
-    case ENXIO:
-      return fail(ErrorCode::kNotFound, what, "plug it in again").value();
-    default:
-      return video_error(error_number, "opening " + path.string());
-  }
+  return node_error(error_number, path, "sudo usermod -aG video $USER, then log in again",
+                    "plug it in again")
+      .value_or(video_error(error_number, "opening " + path.string()));
 }
 
 }  // namespace
