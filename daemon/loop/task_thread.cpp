@@ -67,6 +67,12 @@ void TaskThread::post(Task task) {
   shared_->changed.notify_all();
 }
 
+void TaskThread::close() {
+  const std::lock_guard lock(shared_->mutex);
+  shared_->stopping = true;
+  shared_->changed.notify_all();
+}
+
 bool TaskThread::stop(std::chrono::milliseconds limit) {
   if (!thread_.joinable()) return true;
   std::deque<Task> dropped;

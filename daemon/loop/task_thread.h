@@ -34,8 +34,11 @@ class TaskThread {
   TaskThread(const TaskThread&) = delete;
   TaskThread& operator=(const TaskThread&) = delete;
 
-  /// Ignored after stop() and finish().
+  /// Ignored after close(), stop() and finish().
   void post(Task task);
+
+  /// Takes no more tasks: the thread ends after those it has, for which finish() waits.
+  void close();
 
   /// Drops waiting tasks and waits for the running one. False if it did not end within the limit;
   /// the thread is then abandoned.

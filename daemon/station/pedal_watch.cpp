@@ -45,10 +45,15 @@ PedalWatch::~PedalWatch() {
   end_by(std::chrono::steady_clock::now() + kLastMoment);
 }
 
-bool PedalWatch::end_by(std::chrono::steady_clock::time_point deadline) {
+void PedalWatch::put_off() {
   watch_ = {};
   // To close it may hang as any call of it.
   thread_.post([pedal = pedal_](TaskProgress&) { pedal->reset(); });
+  thread_.close();
+}
+
+bool PedalWatch::end_by(std::chrono::steady_clock::time_point deadline) {
+  put_off();
   return thread_.finish_by(deadline);
 }
 

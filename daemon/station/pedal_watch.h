@@ -51,8 +51,10 @@ class PedalWatch {
   /// New times hold at once, for a press that is under way too.
   void set(const PedalSettings& settings);
 
-  /// Closes the pedal; false if it hangs and had to be left behind. The loop has ended, and no call
-  /// but the destructor may follow.
+  /// Has the pedal closed; the loop has ended, and no call but end_by() may follow.
+  void put_off();
+  /// The same, and waits for it; false if it hangs and had to be left behind. No call but the
+  /// destructor may follow.
   bool end_by(std::chrono::steady_clock::time_point deadline);
 
  private:

@@ -111,6 +111,7 @@ std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point d
   if (signals_) signals_->put_off();
   if (cancelled_) *cancelled_ = true;
   std::vector<std::string> left_behind;
+  if (pedal_) pedal_->put_off();
   const auto note = [&](const char* what, bool ended) {
     if (!ended) left_behind.emplace_back(what);
   };
