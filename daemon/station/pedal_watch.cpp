@@ -94,7 +94,11 @@ Result<std::optional<PedalWatch::Opened>> PedalWatch::bring_up(std::unique_ptr<P
   }
   const auto pressed = pedal->is_pressed();
   if (!pressed) return tl::make_unexpected(pressed.error());
-  return Opened{pedal->descriptor(), *pressed};
+  // One that hangs in reading alone is not to be told there, time and again. What came while it was
+  // being opened starts no scan.
+  const auto passed_over = pedal->read_edges();
+  if (!passed_over) return tl::make_unexpected(passed_over.error());
+  return Opened{pedal->descriptor(), passed_over->empty() ? *pressed : passed_over->back().pressed};
 }
 
 void PedalWatch::begin(const Opened& opened) {
@@ -103,7 +107,6 @@ void PedalWatch::begin(const Opened& opened) {
   watch_ = std::move(*watching);
   debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, opened.pressed,
                      EventLoop::monotonic_now());
-  back_off_.reset();
   if (std::exchange(trouble_, std::nullopt)) listener_.on_returned();
   pass_on();
 }
@@ -139,6 +142,7 @@ void PedalWatch::take(const Result<Seen>& seen) {
   if (!seen) return lost(seen.error());
   // What it brought is of the time before it was told to be silent.
   if (is_silent_) return lost(silent_pedal());
+  back_off_.reset();
   watch_.set_events(EPOLLIN);
   for (const auto& edge : seen->edges) debouncer_->on_edge(edge);
   if (seen->pressed) debouncer_->on_level(*seen->pressed, seen->time);
