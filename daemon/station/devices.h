@@ -56,6 +56,8 @@ Result<void> check_fault_script(const Settings& settings);
 /// The pedal, or nullptr if the settings say that there is none.
 Result<std::unique_ptr<Pedal>> open_pedal(const Settings& settings);
 
+using OpenPedal = std::function<Result<std::unique_ptr<Pedal>>(const Settings&)>;
+
 /// A lamp or a projector, which is off then.
 Result<std::unique_ptr<OutputLine>> open_output(const GpioOutputSettings& chosen);
 /// Whether it could be opened now, without touching its line.

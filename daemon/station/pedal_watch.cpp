@@ -76,7 +76,7 @@ void PedalWatch::open() {
       patience_timer_.clear();
       is_silent_ = false;
       if (!opened) return lost(opened.error());
-      if (*opened) begin(**opened);
+      *opened ? begin(**opened) : returned();
     });
   });
 }
@@ -107,8 +107,14 @@ void PedalWatch::begin(const Opened& opened) {
   watch_ = std::move(*watching);
   debouncer_.emplace(settings_.debounce, settings_.hold_to_cancel, opened.pressed,
                      EventLoop::monotonic_now());
-  if (std::exchange(trouble_, std::nullopt)) listener_.on_returned();
+  returned();
   pass_on();
+}
+
+void PedalWatch::returned() {
+  const bool was_there = std::exchange(is_known_, true) && !trouble_;
+  trouble_.reset();
+  if (!was_there) listener_.on_returned();
 }
 
 /// One at a time: what is due meanwhile is due still when that is over.
@@ -175,6 +181,7 @@ void PedalWatch::tell(const Error& error) {
   debouncer_.reset();
   const bool is_news = cause_of(error) != cause_of(trouble_);
   trouble_ = error;
+  is_known_ = true;
   if (is_news) listener_.on_lost(error);
 }
 

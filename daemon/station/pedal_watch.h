@@ -31,6 +31,7 @@ class PedalWatch {
   struct Listener {
     std::function<void(PedalSignal)> on_signal;
     std::function<void(const Error&)> on_lost;  ///< and again when the cause is another one
+    /// It is open, or there is to be none: at first, and again after on_lost.
     std::function<void()> on_returned;
   };
   /// Opens the pedal, on its thread; asked again with growing pauses as long as it fails.
@@ -74,6 +75,7 @@ class PedalWatch {
   static Result<Seen> look_at(Pedal& pedal, bool asks_level);
   void open();
   void begin(const Opened& opened);
+  void returned();
   void look(bool asks_level);
   void take(const Result<Seen>& seen);
   void pass_on();
@@ -93,6 +95,7 @@ class PedalWatch {
   EventLoop::Timer patience_timer_;
   BackOff back_off_;
   std::optional<Error> trouble_;
+  bool is_known_ = false;  ///< the owner was told whether it is there
   bool is_looking_ = false;
   bool is_silent_ = false;  ///< what it was asked last took longer than patience_
   std::shared_ptr<std::unique_ptr<Pedal>> pedal_;  ///< the thread's, to its end

@@ -20,13 +20,15 @@ Error stopping() {
 }  // namespace
 
 Station::Station(EventLoop& loop, Settings settings, MeasureCapture measure,
-                 std::shared_ptr<ResultStore> store, StationListener listener, OpenDevices open)
+                 std::shared_ptr<ResultStore> store, StationListener listener, OpenDevices open,
+                 OpenPedal opens_pedal)
     : loop_(loop),
       settings_(std::move(settings)),
       measure_(std::move(measure)),
       store_(std::move(store)),
       listener_(std::move(listener)),
-      open_devices_(std::move(open)) {
+      open_devices_(std::move(open)),
+      open_pedal_(std::move(opens_pedal)) {
   open_timer_ = loop_.timer([this] { open_devices_again(); });
 }
 
@@ -44,7 +46,7 @@ void Station::begin() {
   signals_->show(machine_.state());
   open_devices_again();
   pedal_.emplace(
-      loop_, settings_.pedal, [settings = settings_] { return open_pedal(settings); },
+      loop_, settings_.pedal, [settings = settings_, open = open_pedal_] { return open(settings); },
       PedalWatch::Listener{[this](PedalSignal signal) { pedal_signalled(signal); },
                            [this](const Error& error) { pedal_lost(error); },
                            [this] { pedal_returned(); }});
@@ -109,9 +111,9 @@ void Station::shut_down() {
 
 std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point deadline) {
   if (signals_) signals_->put_off();
+  if (pedal_) pedal_->put_off();
   if (cancelled_) *cancelled_ = true;
   std::vector<std::string> left_behind;
-  if (pedal_) pedal_->put_off();
   const auto note = [&](const char* what, bool ended) {
     if (!ended) left_behind.emplace_back(what);
   };
@@ -262,7 +264,8 @@ void Station::pedal_lost(const Error& error) {
 }
 
 void Station::pedal_returned() {
-  if (!pedal_trouble_) return;
+  // It may tell nothing new: that a foot has left it.
+  if (!pedal_trouble_ && machine_.knows_pedal()) return;
   pedal_trouble_.reset();
   handle(StationEvent::kPedalReady);
 }

@@ -43,10 +43,10 @@ struct StationListener {
 /// the store. Lives on the loop's thread, on which all calls are made; none of them waits.
 class Station {
  public:
-  /// `open` is called on the scan's thread.
+  /// `open` is called on the scan's thread, `opens_pedal` on the pedal's.
   Station(EventLoop& loop, Settings settings, MeasureCapture measure,
           std::shared_ptr<ResultStore> store, StationListener listener,
-          OpenDevices open = open_devices_at_last());
+          OpenDevices open = open_devices_at_last(), OpenPedal opens_pedal = open_pedal);
   ~Station();
 
   /// Opens the devices; on_change tells how that goes.
@@ -110,6 +110,7 @@ class Station {
   std::shared_ptr<ResultStore> store_;
   StationListener listener_;
   OpenDevices open_devices_;
+  OpenPedal open_pedal_;
   StationMachine machine_;
 
   std::optional<StationSignals> signals_;

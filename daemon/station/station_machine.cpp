@@ -37,6 +37,7 @@ StationState StationMachine::state() const {
     case Phase::kIdle:
       break;
   }
+  if (!pedal_known_) return StationState::kStarting;
   if (pedal_fault_ || store_fault_) return StationState::kFault;
   return cameras_lost_ ? StationState::kDegraded : StationState::kReady;
 }
@@ -48,11 +49,9 @@ Actions StationMachine::handle(StationEvent event) {
     case StationEvent::kCamerasLost:
       return cameras_answered(false);
     case StationEvent::kPedalReady:
-      pedal_fault_ = false;
-      return {};
+      return pedal_answered(true);
     case StationEvent::kPedalFault:
-      pedal_fault_ = true;
-      return {};
+      return pedal_answered(false);
     case StationEvent::kScanRequested:
       return scan_requested();
     case StationEvent::kCancelRequested:
@@ -85,6 +84,12 @@ Actions StationMachine::handle(StationEvent event) {
 Actions StationMachine::cameras_answered(bool all) {
   cameras_lost_ = !all;
   if (phase_ == Phase::kStarting) phase_ = Phase::kIdle;
+  return {};
+}
+
+Actions StationMachine::pedal_answered(bool well) {
+  pedal_known_ = true;
+  pedal_fault_ = !well;
   return {};
 }
 

@@ -7,7 +7,7 @@ namespace instep {
 
 /// What the station is at, as it is shown.
 enum class StationState {
-  kStarting,  ///< the cameras have not answered yet
+  kStarting,  ///< the cameras have not answered yet, or nobody knows of the pedal
   kReady,     ///< waits for the pedal
   kCapturing,
   kMeasuring,
@@ -21,8 +21,8 @@ const char* to_string(StationState state);
 enum class StationEvent {
   kCamerasReady,     ///< every camera answered
   kCamerasLost,      ///< at least one did not
-  kPedalReady,       ///< the pedal is there and not pressed
-  kPedalFault,       ///< stuck, or unplugged
+  kPedalReady,       ///< the pedal is there and not pressed, or none is wanted
+  kPedalFault,       ///< stuck, unplugged or silent
   kScanRequested,    ///< the pedal was pressed, or somebody asked over the socket
   kCancelRequested,  ///< the pedal was held, or somebody asked
   kCaptured,
@@ -55,6 +55,8 @@ class StationMachine {
   std::uint64_t ignored_presses() const { return ignored_presses_; }
   bool is_busy() const { return phase_ >= Phase::kCapturing; }
   bool is_leaving() const { return leaving_; }
+  /// Whether anything was told of the pedal. Until then a press would be lost.
+  bool knows_pedal() const { return pedal_known_; }
 
   std::vector<StationAction> handle(StationEvent event);
 
@@ -62,6 +64,7 @@ class StationMachine {
   enum class Phase { kStarting, kIdle, kCapturing, kMeasuring, kStoring };
 
   std::vector<StationAction> cameras_answered(bool all);
+  std::vector<StationAction> pedal_answered(bool well);
   std::vector<StationAction> scan_requested();
   std::vector<StationAction> cancel_requested();
   std::vector<StationAction> shut_down();
@@ -71,6 +74,7 @@ class StationMachine {
 
   Phase phase_ = Phase::kStarting;
   bool cameras_lost_ = false;
+  bool pedal_known_ = false;
   bool pedal_fault_ = false;
   bool store_fault_ = false;
   bool cancelling_ = false;

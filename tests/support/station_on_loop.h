@@ -36,11 +36,13 @@ class StationOnLoop : public testing::Test {
     };
   }
 
-  void begin(const Settings& settings, OpenDevices open = open_devices_at_last()) {
+  void begin(const Settings& settings, OpenDevices open = open_devices_at_last(),
+             OpenPedal opens_pedal = open_pedal) {
     auto store = std::make_shared<ResultStore>(std::make_shared<PosixStorage>(), root_);
     ASSERT_TRUE(store->prepare());
     loop_.call([&] {
-      station_.emplace(loop_.loop(), settings, measure_, store, listener_, std::move(open));
+      station_.emplace(loop_.loop(), settings, measure_, store, listener_, std::move(open),
+                       std::move(opens_pedal));
       station_->begin();
     });
   }

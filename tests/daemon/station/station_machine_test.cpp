@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace instep {
@@ -14,9 +15,10 @@ using S = StationState;
 using E = StationEvent;
 using A = StationAction;
 
-/// A machine brought into a state by the events that lead there.
+/// A machine that knows of its pedal, brought into a state by the events that lead there.
 StationMachine machine_in(S state) {
   StationMachine machine;
+  machine.handle(E::kPedalReady);
   const auto play = [&](std::vector<E> events) {
     for (const auto event : events) machine.handle(event);
   };
@@ -170,6 +172,21 @@ TEST(StationMachine, FollowsItsTableInEveryStateOnEveryEvent) {
         std::string(to_string(row.from)) + ", event " + std::to_string(static_cast<int>(row.event));
     EXPECT_EQ(machine.state(), row.to) << where;
     EXPECT_EQ(actions, row.actions) << where;
+  }
+}
+
+// It was ready before its pedal was open, and a press was lost.
+TEST(StationMachine, IsStartingUntilItKnowsOfItsPedal) {
+  for (const auto& [told, state] :
+       {std::pair(E::kPedalReady, S::kReady), {E::kPedalFault, S::kFault}}) {
+    StationMachine machine;
+    for (const auto event :
+         {E::kCamerasReady, E::kStoreFailed, E::kStoreReady, E::kCamerasLost, E::kCamerasReady}) {
+      machine.handle(event);
+      EXPECT_EQ(machine.state(), S::kStarting);
+    }
+    machine.handle(told);
+    EXPECT_EQ(machine.state(), state);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "daemon/station/station.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "tests/support/contact_pedal.h"
 #include "tests/support/scripted_camera.h"
 #include "tests/support/small_station.h"
 #include "tests/support/station_on_loop.h"
@@ -16,6 +18,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::ScriptedCamera;
+using testing::Contains;
+using testing::Not;
 using Step = ScriptedCamera::Step;
 
 /// A station with one camera that does what its script says.
@@ -30,19 +34,54 @@ class ScriptedStation : public test::StationOnLoop {
     return settings;
   }
 
-  void begin_with(const Settings& settings, std::deque<Step> script) {
+  void begin_with(const Settings& settings, std::deque<Step> script,
+                  const OpenPedal& opens_pedal = open_pedal) {
     auto owned = std::make_unique<ScriptedCamera>("left", std::move(script));
     camera_ = owned.get();
     const auto cameras = std::make_shared<std::unique_ptr<DepthCamera>>(std::move(owned));
-    begin(settings, [cameras](const Settings&) {
-      Devices devices;
-      devices.cameras.push_back(std::move(*cameras));
-      return Result<Devices>(std::move(devices));
-    });
+    begin(
+        settings,
+        [cameras](const Settings&) {
+          Devices devices;
+          devices.cameras.push_back(std::move(*cameras));
+          return Result<Devices>(std::move(devices));
+        },
+        opens_pedal);
   }
 
   ScriptedCamera* camera_ = nullptr;
 };
+
+/// It was ready before its pedal was open, and a press was lost.
+TEST_F(ScriptedStation, IsStartingUntilItsPedalIsOpen) {
+  const auto contact = std::make_shared<test::Contact>();
+  contact->hang();
+  begin_with(patient(), {},
+             [contact](const Settings&) { return std::make_unique<test::ContactPedal>(contact); });
+  ASSERT_TRUE(loop_.wait_until([&] {
+    const auto cameras = station_->status().cameras;
+    return contact->holds_a_call() && !cameras.empty() && cameras[0].frames.good > 0;
+  }));
+  loop_.call([&] { EXPECT_EQ(station_->state(), StationState::kStarting); });
+  contact->let_go();
+  EXPECT_TRUE(comes_to(StationState::kReady));
+}
+
+/// Its pedal was left behind with it, as its closing began when the time for all was used up.
+TEST_F(ScriptedStation, ClosesItsPedalThoughACameraHangs) {
+  const auto contact = std::make_shared<test::Contact>();
+  begin_with(patient(), {Step::kHang},
+             [contact](const Settings&) { return std::make_unique<test::ContactPedal>(contact); });
+  camera_->wait_until_asked();
+  ASSERT_TRUE(loop_.wait_until([&] { return contact->was_read(); }));
+  loop_.stop();
+  const auto end = std::chrono::steady_clock::now() + 150ms;
+  const auto left_behind = station_->end_by(end);
+  EXPECT_THAT(left_behind, Contains("a camera"));
+  EXPECT_THAT(left_behind, Not(Contains("the pedal")));
+  EXPECT_TRUE(contact->wait_until_closed(1));
+  camera_->release();
+}
 
 /// It refused every scan for the time between two looks, though its camera had just given one.
 TEST_F(ScriptedStation, IsReadyAfterAScanThoughALookThatCameBeforeItFails) {
