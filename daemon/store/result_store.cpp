@@ -50,6 +50,9 @@ Result<Prepared> ResultStore::prepare(const OnDay& on_day) {
     StoreRoot& root;
     ~Sharing() { root.share(); }
   } sharing{root_};
+  // While it is held alone, by which it is the one that was taken: were it lost in the clearing,
+  // another's mark would be taken for its own, and without one it is never known again.
+  if (check_root()) root_.mark();
   // Before the clearing, which reads every day: a scan that begins meanwhile asks time_of_next().
   find_newest();
   Result<Prepared> prepared;
@@ -58,8 +61,6 @@ Result<Prepared> ResultStore::prepare(const OnDay& on_day) {
   } else {
     prepared->is_shared = true;
   }
-  // Where it was lost meanwhile, another's mark would be taken for its own.
-  if (prepared) root_.mark();
   return prepared;
 }
 

@@ -137,8 +137,9 @@ class ResultStore {
 
   std::shared_ptr<Storage> storage_;
   StoreRoot root_;
-  /// What is being written or removed is no leftover. Those who do either share it, and who waits
-  /// for it comes before the next day's clearing.
+  /// What is being written or removed is no leftover. Those who do either share it. Who waits for
+  /// it comes before the next day's clearing, which the standard does not promise but glibc does:
+  /// who held it alone hands it over to those who wait to share it.
   std::shared_mutex clearing_;
   std::atomic<std::size_t> largest_scan_ = 0;  ///< in bytes; see expect()
   mutable std::mutex mutex_;                   ///< of what follows

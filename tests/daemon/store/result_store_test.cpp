@@ -6,9 +6,11 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
 #include <future>
+#include <iterator>
 #include <new>
 #include <thread>
 
@@ -130,7 +132,62 @@ TEST_F(ResultStoreOnDisk, StoresAndRemovesBetweenTwoDaysOfTheClearingAndKeepsOth
   EXPECT_TRUE(other.keep_hold(root)) << "others are let in at its end";
 }
 
-/// Another folder in its place was cleared, and its mark taken for the store's own.
+/// A disk that stalls at listing one day, and sees what is stored when it lists the next one.
+class StallingStorage : public PosixStorage {
+ public:
+  Result<std::vector<Entry>> list(const std::filesystem::path& path) override {
+    if (path == stalled && stalls.exchange(false)) {
+      listing.set_value();
+      go_on.get_future().wait();
+    }
+    if (path == next) is_stored_at_next = std::filesystem::exists(result);
+    return PosixStorage::list(path);
+  }
+
+  std::filesystem::path stalled, next, result;
+  std::promise<void> listing;
+  std::promise<void> go_on;
+  std::atomic<bool> stalls = false;
+  bool is_stored_at_next = false;
+};
+
+/// Whether a thread of this process sleeps.
+bool sleeps(long thread) {
+  std::ifstream file("/proc/self/task/" + std::to_string(thread) + "/stat");
+  const std::string stat{std::istreambuf_iterator<char>(file), {}};
+  const auto name_end = stat.rfind(')');
+  return name_end != std::string::npos && stat.compare(name_end, 3, ") S") == 0;
+}
+
+/// It would wait for all days, if the clearing took them before it.
+TEST_F(ResultStoreOnDisk, StoresWhatWaitsWhileADayIsClearedBeforeTheNextOne) {
+  const std::string id = "20261122T000000000Z-aaaa";
+  const auto root = folder.path() / "of an earlier run";
+  const auto storage = std::make_shared<StallingStorage>();
+  storage->stalled = root / "2026/11/20";
+  storage->next = root / "2026/11/21";
+  storage->result = root / "2026/11/22" / id;
+  std::filesystem::create_directories(storage->stalled);
+  std::filesystem::create_directories(storage->next);
+  ResultStore after_restart(storage, root);
+  auto preparing = std::async(
+      std::launch::async, [&] { return after_restart.prepare([&] { storage->stalls = true; }); });
+  storage->listing.get_future().wait();
+  std::promise<long> thread;
+  auto storing = std::async(std::launch::async, [&] {
+    thread.set_value(::syscall(SYS_gettid));
+    return after_restart.put(id, {"{}", "ply", "<svg/>", "<svg/>"});
+  });
+  const long stores = thread.get_future().get();
+  while (!sleeps(stores)) std::this_thread::yield();
+  storage->go_on.set_value();
+  EXPECT_TRUE(storing.get());
+  EXPECT_TRUE(preparing.get());
+  EXPECT_TRUE(storage->is_stored_at_next);
+}
+
+/// Another folder in its place was cleared, and its mark taken for the store's own; or the store
+/// was not known again, once it was back.
 TEST_F(ResultStoreOnDisk, ClearsNothingInAFolderThatTookItsPlaceMeanwhile) {
   const auto root = folder.path() / "of an earlier run";
   const auto leftover = root / "2026/11/21/.writing-20261121";
@@ -144,6 +201,10 @@ TEST_F(ResultStoreOnDisk, ClearsNothingInAFolderThatTookItsPlaceMeanwhile) {
   EXPECT_EQ(prepared.error().code, ErrorCode::kDeviceGone);
   EXPECT_TRUE(std::filesystem::exists(leftover));
   EXPECT_FALSE(std::filesystem::exists(root / "store-id"));
+  EXPECT_FALSE(after_restart.try_out());
+  std::filesystem::remove_all(root);
+  std::filesystem::rename(folder.path() / "aside", root);
+  EXPECT_TRUE(after_restart.try_out());
 }
 
 /// Nobody else could store anything, until the daemon that had been short of memory was ended.
