@@ -52,10 +52,10 @@ class Storage {
   /// From now on others may take hold of it too.
   virtual void share_hold() = 0;
   /// Sees that the folder of which this took hold is there under its name; who has it alone keeps
-  /// it so. Fails with kNotFound if
-  /// it is gone, and with kDeviceGone if another has taken its place, or it was missed before:
-  /// whether it is the same nobody can tell then, so that it is let go of until take_hold(). Fails
-  /// with kBusy while another program has it alone. Fine where nothing was taken hold of.
+  /// it so. Fails with kNotFound if it is gone, and with kDeviceGone if another has taken its
+  /// place, or it was missed before: whether it is the same nobody can tell then, so that it is let
+  /// go of until take_hold(). Fails with kBusy while another program has it alone. Fine where
+  /// nothing was taken hold of.
   virtual Result<void> keep_hold(const std::filesystem::path& path) = 0;
 
   /// In the order of the names.
