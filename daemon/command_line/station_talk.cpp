@@ -123,16 +123,21 @@ Result<void> tell(const json& line, bool in_terminal) {
                                 : line.dump(-1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
+/// Of the disk or of the daemon, so that the next scan fares no better.
+bool ends_list(const Error& error) {
+  return error.code == ErrorCode::kDeviceGone || error.code == ErrorCode::kTimeout ||
+         error.code == ErrorCode::kBusy;
+}
+
 /// Line by line, as there may be thousands, and the newest are what is mostly looked for.
 Result<void> list_in_detail(ControlClient& client, const json& scans) {
   for (const auto& scan : scans) {
     const std::string id = string_at(scan, "id");
     const auto result = stored_result(client, id);
     if (!result && result.error().code == ErrorCode::kNotFound) continue;  // deleted meanwhile
-    const bool is_damaged = !result && result.error().code == ErrorCode::kCorruptData;
-    if (!result && !is_damaged) return tl::make_unexpected(result.error());
-    const auto printed = print_text(
-        is_damaged ? list_line_without_result(id, result.error().message) : list_line(id, *result));
+    if (!result && ends_list(result.error())) return tl::make_unexpected(result.error());
+    const auto printed = print_text(result ? list_line(id, *result)
+                                           : list_line_without_result(id, result.error().message));
     if (!printed) return printed;
   }
   return {};

@@ -98,8 +98,11 @@ TEST_F(StationTalk, ListsInDetailPastAScanThatCannotBeRead) {
     loop_.call([&] { shown_ = error_answer(error); });
     return list_scans(false, true);
   };
-  EXPECT_TRUE(outcome_where_shown({ErrorCode::kCorruptData, Remedy::kOperator, "damaged", ""}));
-  EXPECT_TRUE(outcome_where_shown({ErrorCode::kNotFound, Remedy::kOperator, "no such", ""}));
+  for (const auto code : {ErrorCode::kCorruptData, ErrorCode::kIo, ErrorCode::kPermissionDenied,
+                          ErrorCode::kNotFound}) {
+    EXPECT_TRUE(outcome_where_shown({code, Remedy::kOperator, "unreadable", ""}))
+        << to_string(code);
+  }
   const auto gone = outcome_where_shown({ErrorCode::kDeviceGone, Remedy::kOperator, "gone", ""});
   ASSERT_FALSE(gone) << "the disk, and with it the rest of the list";
   EXPECT_EQ(gone.error().message, "gone");
