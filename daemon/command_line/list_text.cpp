@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "daemon/json/untrusted_json.h"
 #include "daemon/scan/scan_id.h"
@@ -25,11 +27,25 @@ std::string beginning(const std::string& id) {
   return fmt::format("{}  {:%Y-%m-%d %H:%M}", id, local);
 }
 
+/// One that can be of a body, and fits its column.
+std::optional<double> length_at(const json& measure, const char* key) {
+  constexpr double kBeyondAll_mm = 1e5;
+  const auto value = number_at(measure, key);
+  const bool is_sound = value && std::isfinite(*value) && std::abs(*value) < kBeyondAll_mm;
+  return is_sound ? value : std::nullopt;
+}
+
+/// Whoever writes in the store is not to write on the terminal.
+std::string side_of(const json& result) {
+  auto side = string_at(result, "side");
+  return side == "left" || side == "right" ? side : "?";
+}
+
 std::string measure_text(const json& result, const std::string& id, const char* name) {
   for (const auto& measure : list_at(result, "measures")) {
     if (string_at(measure, "id") != id) continue;
-    const auto value = number_at(measure, "value_mm");
-    const auto interval = number_at(measure, "u95_mm");
+    const auto value = length_at(measure, "value_mm");
+    const auto interval = length_at(measure, "u95_mm");
     if (!value) break;
     return fmt::format("{} {:.1f}{} mm", name, *value,
                        interval ? fmt::format(" +-{:.1f}", *interval) : "");
@@ -56,8 +72,7 @@ std::string doubts(const json& result) {
 }  // namespace
 
 std::string list_line(const std::string& id, const json& result) {
-  const std::string side = string_at(result, "side");
-  return fmt::format("{}  {:<5}  {:<22}  {:<20}  {}\n", beginning(id), side.empty() ? "?" : side,
+  return fmt::format("{}  {:<5}  {:<22}  {:<20}  {}\n", beginning(id), side_of(result),
                      measure_text(result, "foot_length", "length"),
                      measure_text(result, "ball_girth", "ball"), doubts(result));
 }

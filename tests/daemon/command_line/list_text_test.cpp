@@ -51,9 +51,15 @@ TEST_F(ListText, TellsWhatIsMissing) {
       "20261121T231502417Z-k3f9  2026-11-22 01:15  ?      no length               no ball          "
       "     no note\n";
   for (const char* result : {"{}", "null", "[]", R"({"side":3,"measures":[7,{"id":"ball_girth"}]})",
-                             R"({"measures":{"id":1},"withheld":"x","simulated":"y"})"}) {
+                             R"({"measures":{"id":1},"withheld":"x","simulated":"y"})",
+                             R"({"side":"\u001b[2J","measures":[
+                                 {"id":"foot_length","value_mm":1e300},
+                                 {"id":"ball_girth","value_mm":-1e5}]})"}) {
     EXPECT_EQ(list_line(kId, json::parse(result)), bare) << result;
   }
+  const auto without_interval = json::parse(
+      R"({"side":"right","measures":[{"id":"foot_length","value_mm":250,"u95_mm":1e9}]})");
+  EXPECT_NE(list_line(kId, without_interval).find("right  length 250.0 mm "), std::string::npos);
   EXPECT_EQ(list_line_without_result("20261399T231502417Z-k3f9", "it is damaged"),
             "20261399T231502417Z-k3f9  no such date       it is damaged\n");
 }
