@@ -48,23 +48,28 @@ class ToldDescription {
   CameraDescription told_;
 };
 
-/// What `use` makes of the stream of a camera, which is stopped whatever comes of it; but a start
-/// that is late and goes on by itself is left to whoever looks next, for it would be late again.
+/// What becomes of a start that is late and goes on by itself. To whoever looks next it is left,
+/// for begun anew it would be late again; after a capture it would light what nobody looks at.
+enum class LateStart { kGoesOn, kIsStopped };
+
+/// What `use` makes of the stream of a camera, which is stopped whatever comes of it, but for a
+/// late start that goes on.
 /// Takes down what the camera has learnt of itself at its start. `doing` as in caught().
 template <class Use>
 std::invoke_result_t<const Use&> with_stream(DepthCamera& camera, ToldDescription& description,
                                              std::string_view doing,
                                              steady_clock::time_point start_deadline,
-                                             const GoOn& go_on, const Use& use) {
-  bool is_late = false;
+                                             LateStart late_start, const GoOn& go_on,
+                                             const Use& use) {
+  bool goes_on = false;
   auto outcome = caught(doing, [&] {
     const auto started = start_by(camera, start_deadline, go_on);
-    is_late = !started && is_on_its_way(started.error());
+    goes_on = late_start == LateStart::kGoesOn && !started && is_on_its_way(started.error());
     if (started) description.take(camera.description());
     return started.and_then(use);
   });
   (void)go_on();
-  if (is_late) return outcome;
+  if (goes_on) return outcome;
   const auto stopped = caught(doing, [&]() -> Result<void> {
     camera.stop();
     return {};
@@ -328,9 +333,9 @@ std::shared_ptr<CameraSet::Gathering> CameraSet::ask_all(const CaptureSettings& 
         return !gathering->cancelled;
       };
       const auto deadline = steady_clock::now() + settings.deadline;
-      gathering->bring(i, with_stream(*camera, *description, "the capture", deadline, go_on, [&] {
-                         return take_frames(*camera, *tally, settings, go_on);
-                       }));
+      gathering->bring(
+          i, with_stream(*camera, *description, "the capture", deadline, LateStart::kIsStopped,
+                         go_on, [&] { return take_frames(*camera, *tally, settings, go_on); }));
     });
   }
   return gathering;
@@ -380,7 +385,7 @@ void CameraSet::check(const CaptureSettings& settings, ZeroFrames zero_frames,
       };
       const auto deadline = steady_clock::now() + settings.frame_limit;
       const auto outcome =
-          with_stream(*camera, *description, "the look at it", deadline, go_on,
+          with_stream(*camera, *description, "the look at it", deadline, LateStart::kGoesOn, go_on,
                       [&] { return look_at(*camera, *tally, settings, zero_frames, go_on); });
       outcome ? tell(i, {}) : tell(i, tl::make_unexpected(named_after_camera(id, outcome.error())));
     });

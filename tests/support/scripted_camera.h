@@ -66,6 +66,11 @@ class ScriptedCamera : public DepthCamera {
   void stop() override {
     const std::lock_guard lock(mutex_);
     ++stops_;
+    changed_.notify_all();
+  }
+  void wait_until_stopped(int times) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return stops_ >= times; });
   }
   int stops() {
     const std::lock_guard lock(mutex_);

@@ -346,11 +346,15 @@ TEST(CameraSet, StopsACameraWhoseStartIsGivenUpAndLeavesALateOneToTheNextLook) {
             [&](std::size_t, Result<void> outcome) { looked.set_value(std::move(outcome)); });
   EXPECT_EQ(looked.get_future().get().error().code, ErrorCode::kTimeout);
   EXPECT_EQ(camera.stops(), 0) << "to begin anew it would be as late the next time";
+  // Whether it is the camera or the capture that comes to the deadline first.
+  const auto late = set.capture({.deadline = 1ms}, [] { return true; });
+  EXPECT_EQ(late.error().code, ErrorCode::kTimeout);
+  camera.wait_until_stopped(1);
   const int before = camera.starts();
   const auto cancelled = set.capture({.deadline = 1h}, [&] { return camera.starts() == before; });
   EXPECT_EQ(cancelled.error().code, ErrorCode::kCancelled);
   ASSERT_TRUE(set.end_by(std::chrono::steady_clock::now() + 1h));
-  EXPECT_EQ(camera.stops(), 1);
+  EXPECT_EQ(camera.stops(), 2);
 }
 
 TEST(CameraSet, WaitsForACameraThatIsSlowToStart) {
