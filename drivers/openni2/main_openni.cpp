@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <charconv>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -27,10 +28,13 @@ int wrong_usage() {
   return kWrongUsage;
 }
 
+/// Until a list may be begun: who asks for it waits for 10 s, and is to hear why there is none.
+constexpr std::chrono::seconds kLongestTurn{8};
+
 /// What was found goes to stdout, an error as an object of its own.
 int list() {
   using namespace instep;
-  const auto turn = load_openni().and_then([] { return SearchTurn::wait(); });
+  const auto turn = load_openni().and_then([] { return SearchTurn::wait(kLongestTurn); });
   const std::string text = turn ? to_text(list_sensors()) : to_text(ChildMessage(turn.error()));
   const bool written = std::puts(text.c_str()) >= 0 && std::fflush(stdout) == 0;
   return turn && written ? 0 : 1;

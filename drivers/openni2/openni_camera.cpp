@@ -50,13 +50,15 @@ Result<std::unique_ptr<OpenniCamera>> OpenniCamera::open(Settings settings) {
     return fail(ErrorCode::kIo, Remedy::kRetry, "there are no descriptors left for a camera",
                 "restart instepd");
   }
-  // Past the limit it is the child that is said to hang.
-  const auto deadline = steady_clock::now() + camera->settings_.opening_limit + kStartLimit;
-  auto done = camera->launch()
-                  .and_then([&] {
-                    return camera->child_->wait_for(Phase::kOpen, deadline, camera->interrupt_);
-                  })
-                  .and_then([&] { return camera->describe(camera->child_->opened()); });
+  // No limit of its own: a child that waits for its turn shows that it lives, and one that does not
+  // is said to hang.
+  constexpr auto kWhileItLives = steady_clock::time_point::max();
+  auto done =
+      camera->launch()
+          .and_then([&] {
+            return camera->child_->wait_for(Phase::kOpen, kWhileItLives, camera->interrupt_);
+          })
+          .and_then([&] { return camera->describe(camera->child_->opened()); });
   if (!done) return tl::make_unexpected(done.error());
   return camera;
 }

@@ -44,15 +44,16 @@ class OpenniCamera final : public DepthCamera {
     std::chrono::milliseconds opening_limit = SensorChoice().opening_limit;
   };
 
-  /// Opens the sensor, within the opening limit. Fails with kNotFound if it is not there, kBusy or
-  /// kPermissionDenied if it cannot be had, kUnsupported if it cannot be set as above or has no
-  /// field of view and no intrinsics were given, kDeviceGone if it was lost, kIo if its driver
-  /// crashed or hung.
+  /// Opens the sensor, within the opening limit from its turn on, see SearchTurn. Fails with
+  /// kNotFound if it is not there, kBusy or kPermissionDenied if it cannot be had, kUnsupported if
+  /// it cannot be set as above or has no field of view and no intrinsics were given, kDeviceGone if
+  /// it was lost, kIo if its driver crashed or hung.
   static Result<std::unique_ptr<OpenniCamera>> open(Settings settings);
 
   const CameraDescription& description() const override { return description_; }
   /// Opens the sensor again if it was lost, wherever it is plugged in now. If that takes more than
-  /// a second it fails with kTimeout and goes on by itself, up to the opening limit: call again.
+  /// a second it fails with kTimeout and goes on by itself, up to the opening limit from its turn
+  /// on: call again.
   /// What it says meanwhile is why the sensor had to be opened again, if that is known.
   Result<void> start() override;
   Result<DepthFrame> next_frame(std::chrono::milliseconds limit) override;

@@ -23,6 +23,8 @@ using std::chrono::milliseconds;
 /// Between two signs of life, with a stream and without; see OpenniChild::kSilenceLimit.
 constexpr milliseconds kBeat{50};
 constexpr milliseconds kIdleBeat{200};
+/// For this one to be opened; it shows all the while that it lives.
+constexpr std::chrono::minutes kLongestTurn{1};
 
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
@@ -55,7 +57,7 @@ class CaptureService {
 
  private:
   Result<std::unique_ptr<DepthSensor>> open(const SensorChoice& choice) {
-    auto turn = SearchTurn::wait([this] { ring_.beat(); });
+    auto turn = SearchTurn::wait(kLongestTurn, [this] { ring_.beat(); });
     if (!turn) return tl::make_unexpected(turn.error());
     auto sensor = find_sensor(choice.serial);
     if (!sensor) return sensor;

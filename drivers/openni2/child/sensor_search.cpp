@@ -47,11 +47,11 @@ std::string library_folder() {
 
 }  // namespace
 
-Result<SearchTurn> SearchTurn::wait(const std::function<void()>& on_pause) {
+Result<SearchTurn> SearchTurn::wait(std::chrono::milliseconds limit,
+                                    const std::function<void()>& on_pause) {
   using std::chrono::steady_clock;
-  constexpr std::chrono::seconds kLimit{60};
   constexpr std::chrono::milliseconds kPause{10};
-  const auto deadline = steady_clock::now() + kLimit;
+  const auto deadline = steady_clock::now() + limit;
   // It needs no file of its own, and the kernel unlocks it when the process ends.
   Descriptor lock(::open(library_folder().c_str(), O_RDONLY | O_CLOEXEC));
   // Where there is no locking (a network's file system), nobody waits.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,10 +16,11 @@ namespace instep {
 /// look for theirs would find each other's busy. Held while the object lives.
 class SearchTurn {
  public:
-  /// Waits for it, and calls `on_pause` all the while. One who hangs is ended by who started him,
-  /// within SensorChoice::opening_limit, and several may be before this one; fails with kTimeout
-  /// after a minute.
-  static Result<SearchTurn> wait(const std::function<void()>& on_pause = [] {});
+  /// Waits for it, and calls `on_pause` all the while; fails with kTimeout after `limit`. One who
+  /// hangs is ended by who started him, within SensorChoice::opening_limit, and several may be
+  /// before this one.
+  static Result<SearchTurn> wait(
+      std::chrono::milliseconds limit, const std::function<void()>& on_pause = [] {});
 
  private:
   explicit SearchTurn(Descriptor lock) : lock_(std::move(lock)) {}

@@ -1,9 +1,12 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 
 #include <atomic>
 #include <functional>
+#include <future>
 #include <thread>
 
 #include "tests/support/openni_bus.h"
@@ -83,6 +86,31 @@ class OpenniFault : public testing::Test {
 
   OpenniBus bus_;
 };
+
+// At the start of the daemon the last of several sensors were given up, and had to begin anew.
+TEST_F(OpenniFault, IsOpenedThoughItWaitsForItsTurnLongerThanItsOpeningMayTake) {
+  bus_.plug_in({});
+  // As another process does that opens its sensor.
+  Descriptor other(::open(bus_.folder().c_str(), O_RDONLY | O_CLOEXEC));
+  ASSERT_EQ(::flock(other.number(), LOCK_EX), 0);
+  auto settings = bus_.settings();
+  settings.opening_limit = 2000ms;
+  auto opening = std::async(std::launch::async, [&] { return OpenniCamera::open(settings); });
+  EXPECT_EQ(opening.wait_for(2 * settings.opening_limit), std::future_status::timeout);
+  other = Descriptor();
+  const auto opened = opening.get();
+  EXPECT_TRUE(opened) << opened.error().line();
+}
+
+// It was said to be a sensor that hangs, though none was looked at yet.
+TEST_F(OpenniFault, IsNotListedAndTheCauseToldWhileAnotherProcessHangsAtOpening) {
+  bus_.plug_in({});
+  const Descriptor other(::open(bus_.folder().c_str(), O_RDONLY | O_CLOEXEC));
+  ASSERT_EQ(::flock(other.number(), LOCK_EX), 0);
+  const auto list = list_openni_devices(bus_.program(), kLong);
+  ASSERT_FALSE(list);
+  EXPECT_THAT(list.error().message, HasSubstr("another instep-openni hangs"));
+}
 
 // After a replug the device could not be opened again.
 TEST_F(OpenniFault, ReopensAfterReplug) {
