@@ -61,6 +61,16 @@ std::vector<std::string> troubles_of(const json& status) {
   return all;
 }
 
+/// Those that no part tells.
+std::vector<std::string> its_own_troubles(const json& status) {
+  const auto all = troubles_of(status);
+  const auto of_parts = troubles_of_parts(status);
+  std::vector<std::string> its_own;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(its_own),
+               [&](const auto& trouble) { return !of_parts.contains(trouble); });
+  return its_own;
+}
+
 }  // namespace
 
 DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
@@ -69,18 +79,15 @@ DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path
     return bad_check("daemon", status.error().message,
                      hangs ? "sudo systemctl restart instepd" : status.error().advice);
   }
-  const auto all = troubles_of(*status);
-  const auto of_parts = troubles_of_parts(*status);
-  std::vector<std::string> its_own;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(its_own),
-               [&](const auto& trouble) { return !of_parts.contains(trouble); });
+  const auto its_own = its_own_troubles(*status);
   const auto state = string_at(*status, "state");
   if (!its_own.empty()) {
     return bad_check("daemon", fmt::format("{}: {}", state, fmt::join(its_own, "; ")), kMendThat);
   }
-  return good_check("daemon",
-                    fmt::format("{}{}, answers on {}", state,
-                                all.empty() ? "" : " for what is wrong here", socket.string()));
+  return good_check(
+      "daemon",
+      fmt::format("{}{}, answers on {}", state,
+                  troubles_of(*status).empty() ? "" : " for what is wrong here", socket.string()));
 }
 
 DoctorCheck check_store_of(const json& status, const std::filesystem::path& root,
@@ -114,8 +121,8 @@ DoctorCheck no_cameras() {
 std::vector<DoctorCheck> check_cameras_of(const json& status, const VideoTroubles& video) {
   std::vector<DoctorCheck> checks;
   const json cameras = list_at(status, "cameras");
-  // Why none is open is the daemon's trouble, if it is known.
-  if (cameras.empty() && troubles_of(status).empty()) return {no_cameras()};
+  // Why none is open is a trouble that no part tells, if it is known.
+  if (cameras.empty() && its_own_troubles(status).empty()) return {no_cameras()};
   std::size_t answer = 0;
   for (const auto& camera : cameras) {
     const auto shown = video.find(string_at(camera, "id"));

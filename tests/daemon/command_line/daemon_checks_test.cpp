@@ -140,6 +140,12 @@ TEST(DaemonCheck, TellsWhatNoPartTells) {
   StationStatus status;
   status.state = StationState::kDegraded;
   EXPECT_THAT(check_cameras_of(to_json(status), {})[0].finding, HasSubstr("none is open"));
+  const Error silent{ErrorCode::kTimeout, Remedy::kOperator, "the pedal does not answer", "see"};
+  status.pedal = {silent};
+  status.troubles = {silent.line()};
+  EXPECT_THAT(check_cameras_of(to_json(status), {})[0].finding, HasSubstr("none is open"))
+      << "a pedal is no reason";
+  status.pedal.reset();
   status.troubles = {"camera left: the sensor 123 is not plugged in: plug it in"};
   const auto daemon = check_daemon(to_json(status), "/run/s");
   EXPECT_FALSE(daemon.good);
