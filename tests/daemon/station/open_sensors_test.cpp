@@ -19,6 +19,18 @@ CameraSettings sensor(const std::string& name) {
   return camera;
 }
 
+/// Tells how many of its kind are open.
+class CountedCamera final : public test::ScriptedCamera {
+ public:
+  CountedCamera(const std::string& name, int& open) : ScriptedCamera(name, {}), open_(open) {
+    ++open_;
+  }
+  ~CountedCamera() override { --open_; }
+
+ private:
+  int& open_;
+};
+
 std::unique_ptr<DepthCamera> camera(const std::string& name) {
   return std::make_unique<test::ScriptedCamera>(name, std::deque<test::ScriptedCamera::Step>{});
 }
@@ -59,16 +71,19 @@ TEST(OpenSensors, KeepOneOfTwoSourcesOfOneName) {
 TEST(OpenSensors, AreClosedWhenTheyAreNotKeptAnyMore) {
   Settings settings;
   settings.cameras = {sensor("left")};
+  int open = 0;
   OpenSensors kept;
   for (const bool keeps_others : {true, false}) {
     Devices devices;
-    devices.cameras.push_back(camera("left"));
+    devices.cameras.push_back(std::make_unique<CountedCamera>("left", open));
     kept.keep(settings, std::move(devices));
+    EXPECT_EQ(open, 1);
     if (keeps_others) {
       kept.keep(settings, Devices());
     } else {
       kept.clear();
     }
+    EXPECT_EQ(open, 0);
     EXPECT_FALSE(kept.take("left"));
   }
 }
