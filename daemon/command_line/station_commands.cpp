@@ -97,6 +97,7 @@ void add_result_commands(const StationCommands& commands) {
       "list",
       "List the scans, newest first: to a terminal with what they are known by, else the ids alone",
       "instep list --long | grep left", [](const Options& o) {
+        if (o.in_detail && o.as_json()) throw CLI::ExcludesError("--long", "--format json");
         return list_scans(o.as_json(), o.in_detail || stdout_is_terminal());
       });
   list->add_flag("--long", options.in_detail,

@@ -92,6 +92,8 @@ TEST(Station, IsReachedByEveryCommand) {
   const auto in_detail = station.run_instep("list --long");
   EXPECT_EQ(in_detail.text.rfind(id + "  ", 0), 0U) << in_detail.text;
   EXPECT_THAT(in_detail.text, HasSubstr("length "));
+  EXPECT_EQ(station.run_instep("list --long --format json").exit_code, 2)
+      << "there is no such list";
   const auto out = station.folder() / "out";
   EXPECT_EQ(station.run_instep("export " + id + " --out " + out.string()).exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(out / id / "cloud.ply"));
