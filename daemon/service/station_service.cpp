@@ -31,8 +31,6 @@ constexpr std::chrono::microseconds kWatchdogTick{1000000};
 constexpr std::chrono::seconds kLongestSweep{1};
 /// Between two looks whether the store is where it was, which cost next to nothing.
 constexpr std::chrono::seconds kStoreLook{10};
-/// Then it is tried out: whoever makes room on a disk, or plugs it in again, waits to be told so.
-constexpr std::chrono::seconds kStoreLookInTrouble{5};
 /// A look at the store that makes no step for so long waits for its disk. Less than kStoreLook, so
 /// that the next look tells of it.
 constexpr std::chrono::seconds kStoreSilent{5};
@@ -163,7 +161,7 @@ void StationService::store_prepared(const Result<Prepared>& prepared) {
 void StationService::look_at_store() {
   tell_of_silent_store();
   const auto trouble = station_->store_trouble();
-  store_timer_.set(trouble ? kStoreLookInTrouble : kStoreLook);
+  store_timer_.set(trouble ? store_trials_.next() : kStoreLook);
   if (is_looking_at_store_) return;
   is_looking_at_store_ = true;
   archive_->post([this, trouble, store = store_, looked = archive_looked_,
@@ -309,15 +307,17 @@ void StationService::station_changed() {
     trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
   }
   const bool store_failed = station_->store_trouble().has_value();
-  if (store_failed && !store_in_trouble_) {
-    store_timer_.set(kStoreLookInTrouble);
-    sweep_timer_.set(kSweepInTrouble);
-  }
-  store_in_trouble_ = store_failed;
+  if (std::exchange(store_in_trouble_, store_failed) != store_failed) store_trouble_changed();
   manager_.status(text_of(now));
   if (server_ && server_->has_watchers()) {
     server_->broadcast(event_line("status", to_json(now)));
   }
+}
+
+void StationService::store_trouble_changed() {
+  store_trials_.reset();
+  store_timer_.set(store_in_trouble_ ? store_trials_.next() : kStoreLook);
+  if (store_in_trouble_) sweep_timer_.set(kSweepInTrouble);
 }
 
 void StationService::scan_succeeded(const std::vector<StoredResult>& results) {

@@ -17,6 +17,7 @@
 #include "daemon/service/clock_watch.h"
 #include "daemon/service/log.h"
 #include "daemon/service/service_manager.h"
+#include "daemon/station/back_off.h"
 #include "daemon/station/station.h"
 #include "daemon/store/result_store.h"
 
@@ -42,6 +43,9 @@ class StationService {
   Result<bool> run();
 
  private:
+  static constexpr std::chrono::seconds kFirstTrial{5};
+  static constexpr std::chrono::seconds kLongestTrial{60};
+
   StationService(Settings settings, ReadSettings read_settings);
   Result<void> open(MeasureCapture measure);
   /// On the archive's thread, as its disk may be one that hangs.
@@ -57,6 +61,7 @@ class StationService {
   void look_at_store();
   /// If there is one: a look, or the preparation, hangs on a disk that does not answer.
   void tell_of_silent_store();
+  void store_trouble_changed();
   void storing_takes_long();
   /// Removes old results: every hour, when there is a new one, and when none can be stored.
   void sweep_store();
@@ -88,7 +93,10 @@ class StationService {
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;
-  bool store_in_trouble_ = false;     ///< as station_changed() knows
+  bool store_in_trouble_ = false;  ///< as station_changed() knows
+  /// Then the store is tried out. Whoever makes room on a disk, or plugs it in again, waits to be
+  /// told so; but to write as much as a scan all the time wears out a disk that stays full.
+  BackOff store_trials_{kFirstTrial, kLongestTrial};
   bool storing_takes_long_ = false;   ///< that of the scan which is being stored
   bool is_looking_at_store_ = false;  ///< or is going to: one look at a time
   bool is_sweeping_ = false;
