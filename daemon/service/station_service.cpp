@@ -27,32 +27,8 @@ constexpr std::chrono::milliseconds kToSpare{100};
 static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment) + kToSpare <=
               kPromisedEnd);
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
-/// Who asks for a result waits about so long for old ones to be removed, and for their list.
-constexpr std::chrono::seconds kLongestSweep{1};
-/// Between two looks whether the store is where it was, which cost next to nothing.
-constexpr std::chrono::seconds kStoreLook{10};
-/// A look at the store that makes no step for so long waits for its disk. Less than kStoreLook, so
-/// that the next look tells of it.
-constexpr std::chrono::seconds kStoreSilent{5};
 /// Mostly a scan is stored within a second.
 constexpr std::chrono::seconds kLongStoring{30};
-/// Results grow old without a scan.
-constexpr std::chrono::seconds kSweep{3600};
-/// It may make room; and lists all results, so that it does not come with every look.
-constexpr std::chrono::seconds kSweepInTrouble{60};
-
-Error silent_store() {
-  return {ErrorCode::kTimeout, Remedy::kOperator, "the disk of the results does not answer",
-          "see to its cable or network, and if that does not help, restart the station"};
-}
-
-/// Of a store whose disk was taken away nobody can tell.
-bool is_missing(ResultStore& store, const std::string& id) {
-  if (!store.check_root()) return false;
-  const auto found = store.find(id);
-  return !found && found.error().code == ErrorCode::kNotFound;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<StationService>> StationService::create(Settings settings,
@@ -97,10 +73,10 @@ Result<void> StationService::open(MeasureCapture measure) {
   };
   listener.on_left = [this] { loop_->leave(); };
   station_ = std::make_unique<Station>(*loop_, settings_, std::move(measure), store_, listener);
+  store_care_.emplace(*loop_, *station_, store_, *archive_, settings_.store,
+                      [this](const std::string& id) { forget_result(id); });
 
-  store_timer_ = loop_->timer([this] { look_at_store(); });
   storing_timer_ = loop_->timer([this] { storing_takes_long(); });
-  sweep_timer_ = loop_->timer([this] { sweep_store(); });
   watchdog_timer_ = loop_->timer([this] { feed_watchdog(); });
   shutdown_timer_ = loop_->timer([this] { loop_->leave(); });
   return loop_->on_signal(SIGTERM, [this] { shut_down(); })
@@ -109,7 +85,7 @@ Result<void> StationService::open(MeasureCapture measure) {
 }
 
 Result<bool> StationService::run() {
-  prepare_store();
+  store_care_->begin();
   station_->begin();
   manager_.ready(text_of(status()));
   if (ServiceManager::watchdog_limit()) feed_watchdog();
@@ -130,139 +106,9 @@ bool StationService::end_threads() {
   return false;
 }
 
-void StationService::prepare_store() {
-  store_timer_.set(kStoreLook);
-  sweep_timer_.set(kSweep);
-  archive_->post(
-      [this, store = store_, looked = archive_looked_, post = loop_->poster()](TaskProgress&) {
-        *looked = EventLoop::monotonic_now();
-        const auto prepared = caught("the preparation of the store", [&] {
-          return store->prepare([&] { *looked = EventLoop::monotonic_now(); });
-        });
-        *looked = std::chrono::nanoseconds(0);
-        post([this, prepared] { store_prepared(prepared); });
-      });
-}
-
-void StationService::store_prepared(const Result<Prepared>& prepared) {
-  if (!prepared) return station_->store_failed(prepared.error());
-  if (prepared->is_shared) {
-    log_warning("another program works on the results in " + store_->root().string() +
-                ": give each daemon its own store.root");
-  }
-  if (prepared->cleared > 0)
-    log_info(fmt::format("cleared {} unfinished results", prepared->cleared));
-  if (prepared->trouble) {
-    log_warning("an unfinished result cannot be cleared: " + prepared->trouble->line());
-  }
-  sweep_store();
-}
-
-void StationService::look_at_store() {
-  tell_of_silent_store();
-  const auto trouble = station_->store_trouble();
-  store_timer_.set(trouble ? store_trials_.next() : kStoreLook);
-  if (is_looking_at_store_) return;
-  is_looking_at_store_ = true;
-  archive_->post([this, trouble, store = store_, looked = archive_looked_,
-                  post = loop_->poster()](TaskProgress&) {
-    *looked = EventLoop::monotonic_now();
-    const auto outcome = caught("a look at the store",
-                                [&] { return trouble ? store->try_out() : store->check_root(); });
-    *looked = std::chrono::nanoseconds(0);
-    post([this, trouble, outcome] {
-      is_looking_at_store_ = false;
-      if (trouble) return station_->store_tried_out(*trouble, outcome);
-      if (!outcome) return station_->store_failed(outcome.error());
-      // It took so long that trouble was told meanwhile, which may be over.
-      if (station_->store_trouble()) look_at_store();
-    });
-  });
-}
-
-void StationService::tell_of_silent_store() {
-  const std::chrono::nanoseconds looked = *archive_looked_;
-  const bool is_silent = looked.count() != 0 && EventLoop::monotonic_now() - looked >= kStoreSilent;
-  // To tell it again would make another trouble of it, which the look that waits does not end.
-  if (is_silent && !station_->store_trouble()) station_->store_failed(silent_store());
-}
-
 void StationService::storing_takes_long() {
   storing_takes_long_ = station_->state() == StationState::kStoring;
   station_changed();
-}
-
-void StationService::sweep_store() {
-  sweep_timer_.set(station_->store_trouble() ? kSweepInTrouble : kSweep);
-  sweeps_again_ = is_sweeping_;
-  if (is_sweeping_) return;
-  is_sweeping_ = true;
-  sweep_part(0);
-}
-
-void StationService::sweep_part(std::size_t removed_before) {
-  Retention retention{settings_.store.keep_days, settings_.store.keep_count};
-  if (retention.keep_days > 0 && clock_.was_set(ClockWatch::read())) {
-    retention.keep_days = 0;
-    if (said_.is_news("clock", "set")) {
-      log_warning(
-          "the clock was set by more than a week while the daemon runs: nothing is removed for its "
-          "age until it is started again. What was scanned before counts from then on as old as "
-          "its id says: see that the clock is right (timedatectl), and export what would be too "
-          "old");
-    }
-  }
-  archive_->post([this, retention, removed_before, last = station_->status().last_result,
-                  store = store_, leaving = leaving_,
-                  post = loop_->poster()](TaskProgress& progress) {
-    std::optional<std::chrono::nanoseconds> end;  // told once they are listed, which takes long too
-    const auto go_on = [&] {
-      progress.step();
-      const auto now = EventLoop::monotonic_now();
-      if (!end) end = now + kLongestSweep;
-      return !*leaving && now < *end;
-    };
-    const auto outcome = caught("the removal of old results", [&]() -> Result<Swept> {
-      return store->sweep(retention, std::chrono::system_clock::now(), go_on,
-                          [&] { progress.step(); });
-    });
-    Swept swept = outcome.value_or(Swept());
-    if (!outcome) swept.trouble = outcome.error();
-    const bool goes_on = swept.is_interrupted && swept.removed > 0;
-    swept.removed += removed_before;
-    const bool is_last_gone = !last.empty() && is_missing(*store, last);
-    post([this, swept, goes_on, last, is_last_gone] {
-      if (is_last_gone) forget_result(last);
-      if (goes_on && !*leaving_) return sweep_part(swept.removed);
-      tell_of(swept);
-      is_sweeping_ = false;
-      if (sweeps_again_ && !*leaving_) sweep_store();
-    });
-  });
-}
-
-void StationService::tell_of(const Swept& swept) {
-  if (swept.removed > 0) log_info(fmt::format("removed {} old results", swept.removed));
-  // The station tells it, and looks for its end.
-  if (swept.root_trouble && !station_->store_trouble()) station_->store_failed(*swept.root_trouble);
-  const std::string trouble = swept.trouble ? swept.trouble->line() : "";
-  if (said_.is_news("sweep", trouble) && swept.trouble) {
-    log_warning("an old result cannot be removed: " + trouble);
-  }
-  if (said_.is_news("later", std::to_string(swept.made_later)) && swept.made_later > 0) {
-    log_warning(
-        fmt::format("{} results are dated later than now: the clock was wrong when they were made, "
-                    "or is (timedatectl); they are kept until their time has come",
-                    swept.made_later));
-  }
-  if (said_.is_news("before all", std::to_string(swept.made_before_all)) &&
-      swept.made_before_all > 0) {
-    log_warning(fmt::format(
-        "{} results are dated before there was this program: the clock was wrong when they were "
-        "made. How old they are nobody can tell, so that they are kept until you delete them "
-        "(instep list, instep delete)",
-        swept.made_before_all));
-  }
 }
 
 StationStatus StationService::status() const {
@@ -306,18 +152,11 @@ void StationService::station_changed() {
     if (!said_.is_news(name, line)) continue;
     trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
   }
-  const bool store_failed = station_->store_trouble().has_value();
-  if (std::exchange(store_in_trouble_, store_failed) != store_failed) store_trouble_changed();
+  store_care_->station_changed();
   manager_.status(text_of(now));
   if (server_ && server_->has_watchers()) {
     server_->broadcast(event_line("status", to_json(now)));
   }
-}
-
-void StationService::store_trouble_changed() {
-  store_trials_.reset();
-  store_timer_.set(store_in_trouble_ ? store_trials_.next() : kStoreLook);
-  if (store_in_trouble_) sweep_timer_.set(kSweepInTrouble);
 }
 
 void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
@@ -325,7 +164,7 @@ void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
   last_result_event_ = event_line("result", to_json(results));
   last_result_time_ = EventLoop::monotonic_now();
   server_->broadcast(last_result_event_);
-  sweep_store();
+  store_care_->sweep();
 }
 
 void StationService::scan_failed(const Error& error) {
@@ -392,21 +231,21 @@ void StationService::reload() {
   } else {
     station_->reload(*settings);
     set_log_level(settings->log.level);
-    settings_.store.keep_days = settings->store.keep_days;
-    settings_.store.keep_count = settings->store.keep_count;
+    store_care_->set(settings->store);
     log_info(
         "read the settings again; cameras and their calibration, the pedal's kind and place, "
         "lamps, projector, "
         "simulation, store and socket change with a restart");
-    look_at_store();
-    sweep_store();
+    store_care_->look();
+    store_care_->sweep();
   }
   station_changed();
   manager_.ready(text_of(status()));
 }
 
 void StationService::shut_down() {
-  if (leaving_->exchange(true)) return;
+  if (std::exchange(leaving_, true)) return;
+  store_care_->leave();
   manager_.stopping();
   log_info("stopping");
   shutdown_timer_.set(kShutdownLimit);
@@ -418,8 +257,7 @@ void StationService::feed_watchdog() {
   station_->note_progress(progress_);
   // An ailing disk is what it tries out, and to be started again mends none. Nor while a scan is
   // being stored, which shares the disk and would be lost.
-  const bool may_stall =
-      archive_looked_->load().count() != 0 || station_->state() == StationState::kStoring;
+  const bool may_stall = store_care_->is_looking() || station_->state() == StationState::kStoring;
   progress_.note("archive", archive_->is_busy() && !may_stall, archive_->progress());
   if (progress_.all_moved()) manager_.feed_watchdog();
   if (const auto hung = progress_.newly_hung(); !hung.empty()) {
