@@ -22,7 +22,7 @@ Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
   auto other = girth_in_frame(cloud, plane.turned(kTurn), options);
   if (!other) return told;
   if (other->refusal) {
-    told->refusal = std::move(other->refusal);
+    refuse(std::move(*other->refusal), *told);
     return told;
   }
   widen(std::abs(told->girth.contact_mm - other->girth.contact_mm),

@@ -340,16 +340,19 @@ bool is_told(const Result<ToldGirth>& girth) {
   return girth && !girth->refusal;
 }
 
+void refuse(Error why, ToldGirth& told) {
+  Girth course;
+  course.contour = std::move(told.girth.contour);
+  told.girth = std::move(course);
+  told.refusal = std::move(why);
+}
+
 void widen(double contact, double stretched, const tl::unexpected<Error>& why, ToldGirth& told) {
   if (told.refusal || !(contact > 0.0 || stretched > 0.0)) return;
   Girth& girth = told.girth;
   *girth.contact_u95_mm += contact;
   *girth.stretched_u95_mm += stretched;
-  if (!is_too_doubtful(girth)) return;
-  Girth course;
-  course.contour = std::move(girth.contour);
-  girth = std::move(course);
-  told.refusal = why.value();
+  if (is_too_doubtful(girth)) refuse(why.value(), told);
 }
 
 bool is_too_doubtful(const Girth& girth) {

@@ -53,6 +53,9 @@ Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
 /// Whether the intervals of a girth that has both leave nothing to be told.
 bool is_too_doubtful(const Girth& girth);
 
+/// Leaves nothing of a girth but its course.
+void refuse(Error why, ToldGirth& told);
+
 /// Adds to both intervals, mm; `why` it is not to be told if too little is known of it then.
 void widen(double contact, double stretched, const tl::unexpected<Error>& why, ToldGirth& told);
 
