@@ -28,8 +28,8 @@ static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment
               kPromisedEnd);
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
 /// Mostly a scan is stored within a second.
-
 constexpr std::chrono::seconds kLongStoring{30};
+
 }  // namespace
 
 Result<std::unique_ptr<StationService>> StationService::create(Settings settings,
