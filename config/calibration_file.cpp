@@ -11,7 +11,7 @@
 #include "config/pose_matrix.h"
 #include "config/settings_table.h"
 #include "config/toml_reading.h"
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 
 namespace instep {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/geometry/rigid_transform.h"
 
 namespace instep {

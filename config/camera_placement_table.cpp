@@ -6,7 +6,7 @@
 
 #include "config/pose_matrix.h"
 #include "config/tape_measured_pose.h"
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 
 namespace instep {
 namespace {

@@ -1,6 +1,6 @@
 #include "config/pose_matrix.h"
 
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 #include "core/geometry/pose_rows.h"
 
 namespace instep {

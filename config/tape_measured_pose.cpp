@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/degree.h"
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 
 namespace instep {
 namespace {

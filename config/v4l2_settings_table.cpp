@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "config/camera_placement_table.h"
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 
 namespace instep {
 namespace {

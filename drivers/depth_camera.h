@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/result.h"
 
 namespace instep {

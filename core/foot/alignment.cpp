@@ -6,17 +6,17 @@
 #include <string>
 #include <utility>
 
-#include "core/foot/floor_below.h"
-#include "core/foot/foot_alone.h"
-#include "core/foot/foot_axis.h"
-#include "core/foot/normals_of_shape.h"
-#include "core/foot/open_sole.h"
-#include "core/foot/outline_axis.h"
-#include "core/foot/plane_under_foot.h"
-#include "core/foot/scanner_lines.h"
-#include "core/foot/shoe_last.h"
-#include "core/foot/side_from_shape.h"
-#include "core/foot/unseen_half.h"
+#include "core/foot/skin/unseen_half.h"
+#include "core/foot/sole/floor_below.h"
+#include "core/foot/sole/open_sole.h"
+#include "core/foot/standing/foot_alone.h"
+#include "core/foot/standing/foot_axis.h"
+#include "core/foot/standing/normals_of_shape.h"
+#include "core/foot/standing/outline_axis.h"
+#include "core/foot/standing/plane_under_foot.h"
+#include "core/foot/standing/scanner_lines.h"
+#include "core/foot/standing/shoe_last.h"
+#include "core/foot/standing/side_from_shape.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
 

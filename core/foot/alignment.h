@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/foot/foot_scan.h"
-#include "core/foot/standing_plane.h"
+#include "core/foot/standing/standing_plane.h"
 #include "core/result.h"
 
 namespace instep {

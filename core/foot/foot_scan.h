@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/foot/measuring_rules.h"
-#include "core/foot/quieted.h"
-#include "core/foot/scanner_lines.h"
 #include "core/foot/side.h"
+#include "core/foot/standing/quieted.h"
+#include "core/foot/standing/scanner_lines.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
 
@@ -36,7 +36,7 @@ struct Landmark {
 using Landmarks = std::map<std::string, Landmark>;
 
 /// The landmarks as a part of the points would have given them: how they scatter tells how sure
-/// they are (core/foot/redrawn_landmarks.h).
+/// they are (core/foot/landmarks/redrawn_landmarks.h).
 struct RedrawnLandmarks {
   Landmarks landmarks;  ///< in the frame that the part gave
   RigidTransform foot_from_redrawn = RigidTransform::Identity();

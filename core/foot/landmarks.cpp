@@ -5,15 +5,15 @@
 #include <string>
 #include <utility>
 
-#include "core/foot/ankle_points.h"
-#include "core/foot/ball_points.h"
-#include "core/foot/foot_outline.h"
-#include "core/foot/heel_points.h"
-#include "core/foot/midfoot_points.h"
-#include "core/foot/other_side.h"
-#include "core/foot/redrawn_landmarks.h"
-#include "core/foot/shoe_last.h"
-#include "core/foot/toe_points.h"
+#include "core/foot/landmarks/ankle_points.h"
+#include "core/foot/landmarks/ball_points.h"
+#include "core/foot/landmarks/heel_points.h"
+#include "core/foot/landmarks/midfoot_points.h"
+#include "core/foot/landmarks/other_side.h"
+#include "core/foot/landmarks/redrawn_landmarks.h"
+#include "core/foot/landmarks/toe_points.h"
+#include "core/foot/skin/foot_outline.h"
+#include "core/foot/standing/shoe_last.h"
 #include "core/while_wanted.h"
 
 namespace instep {

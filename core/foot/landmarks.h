@@ -43,7 +43,8 @@ namespace instep {
 /// | `toe5_contact`             | the little toe                                                |
 ///
 /// The points of the ball, the malleolus and the pternion's place across are told by one surface
-/// through all points near by (core/foot/border_crest.h), so that they wander little with noise.
+/// through all points near by (core/foot/skin/border_crest.h), so that they wander little with
+/// noise.
 ///
 /// Weighed: a millimetre further out makes up for 0.04 FL off the average place. So the place does
 /// not jump with the sampling where a border is nearly straight; how much of it the border says and

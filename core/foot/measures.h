@@ -21,7 +21,7 @@ struct MeasureOptions {
 };
 
 /// All measures of an aligned foot with its landmarks, in a fixed order: the lengths, breadths,
-/// heights and angles of core/foot/foot_lengths.h, then `ball_girth`, `waist_girth`,
+/// heights and angles of core/foot/measures/foot_lengths.h, then `ball_girth`, `waist_girth`,
 /// `instep_girth`, `short_heel_girth`, `long_heel_girth`, `ankle_girth`. Each carries the sentence
 /// that defines it and a 95 % interval with its two parts; a girth its plane and its section as
 /// well.
@@ -30,18 +30,19 @@ struct MeasureOptions {
 /// laid round the same points, widened for what all redraws share, and with what it moves by where
 /// a landmark lies each of Landmark::deviations_off_mm; where the side is not sure, it makes
 /// the interval reach as far beyond the value that the other foot would have. That of the surface
-/// is Girth's own, a length's what the cloud's shared errors do (core/foot/shared_doubt.h). Neither
-/// knows of a rule that is not what was meant.
+/// is Girth's own, a length's what the cloud's shared errors do
+/// (core/foot/measures/shared_doubt.h). Neither knows of a rule that is not what was meant.
 ///
 /// A measure that cannot be had honestly is left out, and MeasureSet::withheld says why; so is one
 /// whose interval is wider, to either side, than an eighth of it and 5 mm, or than 10 degrees: the
-/// foot's length alone says as much (core/foot/useless_measure.h). The length itself may be so too,
-/// and then there are no sizes; where the skin of the toes or the heel runs on and only the points
-/// end, or has a hole, it says so, and all intervals hold what another 10 mm of foot along its axis
-/// would change (core/foot/unseen_ends.h). One that leans on a doubtful landmark carries a warning.
-/// Fails with kInvalidInput if the foot has no pternion or acropodion. A left foot has the measures
-/// of its mirror image. The cost is that of the girths, twice where the side is not sure; `go_on`
-/// hears of each measure, and once it returns false the whole fails with kCancelled.
+/// foot's length alone says as much (core/foot/measures/useless_measure.h). The length itself may
+/// be so too, and then there are no sizes; where the skin of the toes or the heel runs on and only
+/// the points end, or has a hole, it says so, and all intervals hold what another 10 mm of foot
+/// along its axis would change (core/foot/measures/unseen_ends.h). One that leans on a doubtful
+/// landmark carries a warning. Fails with kInvalidInput if the foot has no pternion or acropodion.
+/// A left foot has the measures of its mirror image. The cost is that of the girths, twice where
+/// the side is not sure; `go_on` hears of each measure, and once it returns false the whole fails
+/// with kCancelled.
 Result<MeasureSet> measure_foot(const FootScan& foot, const MeasureOptions& options = {},
                                 const GoOn& go_on = always);
 

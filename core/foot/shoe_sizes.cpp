@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/foot/shoe_last.h"
+#include "core/foot/standing/shoe_last.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/fusion/bent_depths.h"
-#include "core/fusion/deprojector.h"
-#include "core/fusion/depth_frame.h"
-#include "core/fusion/temporal_fusion.h"
+#include "core/fusion/frames/deprojector.h"
+#include "core/fusion/frames/depth_frame.h"
+#include "core/fusion/frames/temporal_fusion.h"
+#include "core/fusion/poses/bent_depths.h"
 #include "core/geometry/point_cloud.h"
 #include "core/go_on.h"
 #include "core/result.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/fusion/lens.h"
+#include "core/fusion/frames/lens.h"
 
 namespace instep {
 namespace {

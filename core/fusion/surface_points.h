@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/fusion/deprojector.h"
-#include "core/fusion/temporal_fusion.h"
+#include "core/fusion/frames/deprojector.h"
+#include "core/fusion/frames/temporal_fusion.h"
 #include "core/geometry/point_cloud.h"
 
 namespace instep {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/fusion/lens.h"
+#include "core/fusion/frames/lens.h"
 
 namespace instep {
 

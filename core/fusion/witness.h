@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "core/fusion/depth_frame.h"
-#include "core/fusion/temporal_fusion.h"
+#include "core/fusion/frames/depth_frame.h"
+#include "core/fusion/frames/temporal_fusion.h"
 #include "core/geometry/rigid_transform.h"
 
 namespace instep {

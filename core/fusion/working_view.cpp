@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 #include "core/fusion/surface_points.h"
 
 namespace instep {

@@ -16,7 +16,7 @@ namespace instep {
 /// What is known beforehand about a girth to be measured.
 struct GirthOptions {
   /// Noise of a point along its normal. Without it the cloud's own sigma is used, and without that
-  /// what the points near the plane show (core/surface/noise_estimate.h).
+  /// what the points near the plane show (core/surface/noise/noise_estimate.h).
   ///
   /// girth_by_rbf() and girth_by_mesh() believe what is told, by this or by the cloud, unless the
   /// points plainly scatter more, all of them or those of a part of the section: then they raise it
@@ -79,9 +79,9 @@ struct Girth {
 /// in the interval. Of thin parts with noise, and of slots, many are refused.
 ///
 /// Where nothing closes, or what does leaves much doubt or many points beside it, the bodies near
-/// the plane are looked at alone (core/girth/bodies_apart.h), for a wall or a floor beside a body
-/// takes part in its noise and its normals. The one that the control points lie on counts, else
-/// that with the largest section, unless a larger one closes alone but leaves doubt; a warning
+/// the plane are looked at alone (core/girth/band/bodies_apart.h), for a wall or a floor beside a
+/// body takes part in its noise and its normals. The one that the control points lie on counts,
+/// else that with the largest section, unless a larger one closes alone but leaves doubt; a warning
 /// says so. It takes several times as long.
 ///
 /// Normals that come with exact points too far apart to tell the skin between them count with their
@@ -89,9 +89,9 @@ struct Girth {
 /// and those that do not even do that, or with which the section does not close though without them
 /// it does, are dropped with a warning (trust_in()). Where nothing is told of the noise it may
 /// differ along the section, as where one side was seen at a grazing angle
-/// (core/surface/uneven_noise.h); a stretch of less than a seventh of the section is not told
-/// apart, unless the points crowd and are exact elsewhere (core/surface/scattered_places.h), which
-/// is named in a warning, and the interval reaches as far as if it were two layers.
+/// (core/surface/noise/uneven_noise.h); a stretch of less than a seventh of the section is not told
+/// apart, unless the points crowd and are exact elsewhere (core/surface/noise/scattered_places.h),
+/// which is named in a warning, and the interval reaches as far as if it were two layers.
 ///
 /// Where the points are noisy and the skin even, the lengths and their intervals are read off one
 /// surface through far more points, laid along that contour (smooth_section()), unless the two
@@ -100,21 +100,21 @@ struct Girth {
 /// points to be independent: what is common to neighbours, such as a bent depth map, is not in
 /// them, but for the shared and local errors that the cloud tells of (shared_doubt_of()).
 ///
-/// Points in two layers (core/girth/skin_layers.h), all round as of a skin and a sock or over a
-/// good part of the section, are named in a warning, and the interval reaches both. Those of
+/// Points in two layers (core/girth/section/skin_layers.h), all round as of a skin and a sock or
+/// over a good part of the section, are named in a warning, and the interval reaches both. Those of
 /// cameras with wrong poses are where they lie plainly apart, by some five of their own deviations:
 /// they do so as the cosine of the direction, and where views overlap only. Points that lead away
-/// from the section though no skin through them was found (core/girth/unfollowed_skin.h), as of a
-/// part too thin for them or of what touches the body, are named too, and the interval reaches
-/// round them.
+/// from the section though no skin through them was found (core/girth/section/unfollowed_skin.h),
+/// as of a part too thin for them or of what touches the body, are named too, and the interval
+/// reaches round them.
 ///
-/// A section that turns to and fro within a few points (core/girth/contour_zigzags.h), as where it
-/// goes through a clump of strays that reaches the skin, or from one view to another one that does
-/// not fit it, is named, and looked at again without the points that lie off the skin of most. If
-/// it is the same, the skin is what turns, or folds or ribs too fine for the points. Else its
-/// interval reaches straight across, or the points are left out, with a warning, where it is surer
-/// so; the interval reaches what other points beside it say it may have lost. A fin or a rib only a
-/// few points wide may be cut short with those that are left out.
+/// A section that turns to and fro within a few points (core/girth/contour/contour_zigzags.h), as
+/// where it goes through a clump of strays that reaches the skin, or from one view to another one
+/// that does not fit it, is named, and looked at again without the points that lie off the skin of
+/// most. If it is the same, the skin is what turns, or folds or ribs too fine for the points. Else
+/// its interval reaches straight across, or the points are left out, with a warning, where it is
+/// surer so; the interval reaches what other points beside it say it may have lost. A fin or a rib
+/// only a few points wide may be cut short with those that are left out.
 ///
 /// A girth that leaves doubt is read once more with the plane's u and v turned (girth_of_all()):
 /// its interval reaches that reading too, and where that one closes but is refused, so is it.
@@ -160,9 +160,9 @@ Result<Girth> girth_by_hull(const PointCloud& cloud, const TapePlane& plane,
                             const GirthOptions& options = {});
 
 /// The paper's Method 2 (section 2.2): a triangle mesh grown from the points near the plane
-/// (core/surface/grown_mesh.h) and cut with it. The points are the band of girth_by_rbf(): strays
-/// and duplicates gone, crowds averaged. The mesh neither needs nor uses normals; known ones only
-/// keep the two sides of a thin part from being averaged.
+/// (core/surface/mesh/grown_mesh.h) and cut with it. The points are the band of girth_by_rbf():
+/// strays and duplicates gone, crowds averaged. The mesh neither needs nor uses normals; known ones
+/// only keep the two sides of a thin part from being averaged.
 ///
 /// Chords cut off what bulges between the points, so exact points give a girth that is too short,
 /// by about the square of their spacing; noise roughens the mesh, so noisy points give one that is

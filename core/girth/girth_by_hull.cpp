@@ -6,12 +6,12 @@
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
-#include "core/girth/contour_index.h"
+#include "core/girth/band/plane_heights.h"
+#include "core/girth/band/plane_slab.h"
+#include "core/girth/contour/contour_index.h"
 #include "core/girth/girth.h"
-#include "core/girth/plane_heights.h"
-#include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
-#include "core/girth/section_gaps.h"
+#include "core/girth/section/section_gaps.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

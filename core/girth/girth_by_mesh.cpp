@@ -4,14 +4,14 @@
 #include <utility>
 
 #include "core/geometry/polygon.h"
-#include "core/girth/crowd_average.h"
+#include "core/girth/band/crowd_average.h"
+#include "core/girth/band/plane_band.h"
+#include "core/girth/contour/loop_choice.h"
+#include "core/girth/contour/mesh_section.h"
 #include "core/girth/girth.h"
-#include "core/girth/loop_choice.h"
-#include "core/girth/mesh_section.h"
-#include "core/girth/plane_band.h"
 #include "core/girth/refusals.h"
-#include "core/girth/section_gaps.h"
-#include "core/surface/grown_mesh.h"
+#include "core/girth/section/section_gaps.h"
+#include "core/surface/mesh/grown_mesh.h"
 
 namespace instep {
 namespace {

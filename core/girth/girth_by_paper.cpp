@@ -8,13 +8,13 @@
 #include "core/geometry/point_spacing.h"
 #include "core/geometry/polygon.h"
 #include "core/geometry/principal_frame.h"
+#include "core/girth/band/plane_heights.h"
+#include "core/girth/band/plane_slab.h"
 #include "core/girth/girth.h"
-#include "core/girth/plane_heights.h"
-#include "core/girth/plane_slab.h"
 #include "core/girth/refusals.h"
-#include "core/girth/section_gaps.h"
+#include "core/girth/section/section_gaps.h"
 #include "core/mean.h"
-#include "core/surface/octree_surface.h"
+#include "core/surface/paper/octree_surface.h"
 
 namespace instep {
 namespace {

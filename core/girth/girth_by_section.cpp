@@ -8,9 +8,9 @@
 
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/polygon.h"
+#include "core/girth/contour/loop_choice.h"
+#include "core/girth/contour/mesh_section.h"
 #include "core/girth/girth.h"
-#include "core/girth/loop_choice.h"
-#include "core/girth/mesh_section.h"
 
 namespace instep {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <string>
 
-#include "core/girth/section_evidence.h"
-#include "core/girth/unseen_side.h"
+#include "core/girth/section/section_evidence.h"
+#include "core/girth/section/unseen_side.h"
 
 namespace instep {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "core/girth/loop_choice.h"
-#include "core/girth/section_gaps.h"
+#include "core/girth/contour/loop_choice.h"
+#include "core/girth/section/section_gaps.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "core/girth/plane_band.h"
-#include "core/girth/section_evidence.h"
-#include "core/girth/section_loops.h"
-#include "core/girth/section_unknowns.h"
-#include "core/girth/smooth_section.h"
+#include "core/girth/band/plane_band.h"
+#include "core/girth/section/section_evidence.h"
+#include "core/girth/section/section_loops.h"
+#include "core/girth/section/section_unknowns.h"
+#include "core/girth/section/smooth_section.h"
 #include "core/result.h"
 
 namespace instep {

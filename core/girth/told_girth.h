@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "core/geometry/point_cloud.h"
-#include "core/girth/contour_zigzags.h"
+#include "core/girth/band/plane_band.h"
+#include "core/girth/contour/contour_zigzags.h"
 #include "core/girth/girth.h"
-#include "core/girth/plane_band.h"
-#include "core/girth/section_evidence.h"
-#include "core/girth/smooth_section.h"
+#include "core/girth/section/section_evidence.h"
+#include "core/girth/section/smooth_section.h"
+#include "core/girth/section/unfollowed_skin.h"
 #include "core/girth/tape_plane.h"
-#include "core/girth/unfollowed_skin.h"
 #include "core/result.h"
 #include "core/surface/blended_surface.h"
 

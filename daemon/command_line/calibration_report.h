@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fusion/find_poses.h"
+#include "core/fusion/poses/find_poses.h"
 
 namespace instep {
 

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "core/noticed.h"
-#include "core/surface/constrained_surface.h"
+#include "core/surface/paper/constrained_surface.h"
 #include "daemon/cloud_files/mesh_ply_writer.h"
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/cloud_options.h"

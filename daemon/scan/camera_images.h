@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/fusion/frames/temporal_fusion.h"
 #include "core/fusion/fuse_views.h"
-#include "core/fusion/temporal_fusion.h"
 #include "core/go_on.h"
 #include "core/result.h"
 #include "daemon/scan/scan_pipeline.h"

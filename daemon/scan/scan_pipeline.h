@@ -12,7 +12,7 @@
 #include "core/foot/measuring_rules.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "daemon/scan/scan_record.h"
 #include "drivers/depth_camera.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/settings.h"
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/result.h"
 #include "daemon/loop/progress_watch.h"
 #include "daemon/station/frame_tally.h"

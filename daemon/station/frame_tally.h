@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/result.h"
 
 namespace instep {

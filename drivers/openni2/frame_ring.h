@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/result.h"
 #include "drivers/files/descriptor.h"
 

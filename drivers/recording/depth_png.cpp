@@ -9,7 +9,7 @@
 #include <cstring>
 #include <new>
 
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 #include "drivers/files/file_bytes.h"
 
 // libpng reports errors by a long jump. The functions between setjmp and the jump (this file's

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 #include "core/geometry/pose_rows.h"
 #include "drivers/recording/json_fields.h"
 

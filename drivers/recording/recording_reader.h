@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/result.h"
 #include "drivers/recording/recording.h"
 

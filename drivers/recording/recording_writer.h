@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "core/result.h"
 #include "drivers/files/descriptor.h"
 #include "drivers/recording/recording.h"

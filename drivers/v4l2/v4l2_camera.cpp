@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/fusion/camera_limits.h"
+#include "core/fusion/frames/camera_limits.h"
 #include "drivers/v4l2/video_error.h"
 
 namespace instep {

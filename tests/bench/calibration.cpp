@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/fusion/find_poses.h"
+#include "core/fusion/poses/find_poses.h"
 #include "daemon/scan/camera_images.h"
 #include "sim/simulated_station.h"
 #include "tests/support/random_numbers.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "core/fusion/deprojector.h"
+#include "core/fusion/frames/deprojector.h"
 
 namespace {
 

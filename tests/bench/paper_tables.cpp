@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/girth/girth.h"
-#include "core/surface/triharmonic_rbf.h"
+#include "core/surface/paper/triharmonic_rbf.h"
 #include "daemon/cloud_files/cloud_file.h"
 #include "daemon/cloud_files/cloud_ply_writer.h"
 #include "drivers/files/file_bytes.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/girth/contour.h"
+#include "core/girth/contour/contour.h"
 
 namespace instep::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/girth/plane_band.h"
+#include "core/girth/band/plane_band.h"
 
 namespace instep::test {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/fusion/temporal_fusion.h"
+#include "core/fusion/frames/temporal_fusion.h"
 
 namespace instep {
 

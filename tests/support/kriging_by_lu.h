@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/surface/height_kernel.h"
-#include "core/surface/height_samples.h"
+#include "core/surface/heights/height_kernel.h"
+#include "core/surface/heights/height_samples.h"
 
 namespace instep::test {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/surface/height_kriging.h"
+#include "core/surface/heights/height_kriging.h"
 
 namespace instep::test {
 

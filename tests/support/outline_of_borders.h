@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "core/foot/foot_outline.h"
+#include "core/foot/skin/foot_outline.h"
 
 namespace instep::test {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 
 namespace instep {
 

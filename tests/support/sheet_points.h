@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/surface/oriented_point.h"
-#include "core/surface/patch_fitter.h"
+#include "core/surface/patches/patch_fitter.h"
 
 namespace instep::test {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/fusion/depth_frame.h"
+#include "core/fusion/frames/depth_frame.h"
 #include "drivers/recording/recording.h"
 
 namespace instep::test {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/girth/section_loops.h"
-#include "core/girth/slab_source.h"
+#include "core/girth/band/slab_source.h"
+#include "core/girth/section/section_loops.h"
 #include "tests/support/cylinder_tape.h"
 
 namespace instep::test {

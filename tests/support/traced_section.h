@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/geometry/point_cloud.h"
-#include "core/girth/contour.h"
-#include "core/girth/plane_band.h"
+#include "core/girth/band/plane_band.h"
+#include "core/girth/contour/contour.h"
 #include "core/surface/blended_surface.h"
 
 namespace instep::test {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/foot/standing_girth.h"
+#include "core/foot/measures/standing_girth.h"
 #include "sim/section_contour.h"
 #include "sim/solids/foot_solid.h"
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/foot/alignment.h"
-#include "core/foot/foot_tapes.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
+#include "core/foot/measures/foot_tapes.h"
 #include "core/geometry/mesh_sampling.h"
 #include "core/median.h"
 #include "tests/bench/feet/thread_time.h"

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "core/foot/shoe_last.h"
+#include "core/foot/standing/shoe_last.h"
 #include "tests/support/foot_body.h"
 #include "tests/support/random_numbers.h"
 

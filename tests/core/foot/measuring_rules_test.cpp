@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/foot/alignment.h"
-#include "core/foot/foot_tapes.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/measures.h"
+#include "core/foot/measures/foot_tapes.h"
 #include "core/girth/girth.h"
 #include "tests/support/foot_body.h"
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "core/foot/shoe_last.h"
+#include "core/foot/standing/shoe_last.h"
 
 namespace instep {
 namespace {

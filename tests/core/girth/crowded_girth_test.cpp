@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/girth/band/plane_band.h"
 #include "core/girth/girth.h"
-#include "core/girth/plane_band.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/cases/case_bodies.h"
 #include "tests/support/cases/point_patterns.h"

@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/surface/patch_fitter.h"
-#include "core/surface/patch_points.h"
+#include "core/surface/patches/patch_fitter.h"
+#include "core/surface/patches/patch_points.h"
 #include "tests/support/bent_roof.h"
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"

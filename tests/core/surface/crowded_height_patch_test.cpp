@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/surface/height_patch.h"
+#include "core/surface/patches/height_patch.h"
 #include "tests/support/kriging_by_lu.h"
 #include "tests/support/oriented_points.h"
 

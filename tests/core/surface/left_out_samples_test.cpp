@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "core/surface/height_kriging.h"
+#include "core/surface/heights/height_kriging.h"
 #include "tests/support/kriging_models.h"
 
 namespace instep {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/surface/patch_fitter.h"
+#include "core/surface/patches/patch_fitter.h"
 #include "tests/support/oriented_points.h"
 #include "tests/support/random_numbers.h"
 

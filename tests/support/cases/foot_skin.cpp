@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "core/surface/marching_cubes.h"
+#include "core/surface/paper/marching_cubes.h"
 
 namespace instep::test {
 
