@@ -98,13 +98,15 @@ bool TaskThread::leave(std::unique_lock<std::mutex> lock, std::chrono::milliseco
   shared_->stopping = true;
   shared_->changed.notify_all();
   const bool ended = shared_->changed.wait_for(lock, limit, [&] { return shared_->ended; });
+  // On a busy machine its turn to end may be yet to come.
+  const bool is_done = !shared_->running && shared_->tasks.empty();
   lock.unlock();
   if (ended) {
     thread_.join();
   } else {
     thread_.detach();
   }
-  return ended;
+  return is_done;
 }
 
 bool TaskThread::is_busy() const {

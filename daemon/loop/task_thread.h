@@ -41,7 +41,8 @@ class TaskThread {
   void close();
 
   /// Drops waiting tasks and waits for the running one. False if it did not end within the limit;
-  /// the thread is then abandoned.
+  /// the thread is then abandoned. One that is in the middle of nothing is let go, and ends by
+  /// itself.
   bool stop(std::chrono::milliseconds limit);
   /// The same for several threads that are to end by one moment; one that has ended is never late.
   bool stop_by(std::chrono::steady_clock::time_point deadline);
@@ -60,7 +61,7 @@ class TaskThread {
  private:
   struct Shared;
   static void run(const std::shared_ptr<Shared>& shared);
-  /// Waits until the thread ends, and gives it up at the limit.
+  /// Waits until the thread ends, and gives it up at the limit. False if it has tasks still.
   bool leave(std::unique_lock<std::mutex> lock, std::chrono::milliseconds limit);
 
   std::shared_ptr<Shared> shared_;
