@@ -48,7 +48,7 @@ PedalWatch::~PedalWatch() {
 void PedalWatch::put_off() {
   watch_ = {};
   // To close it may hang as any call of it.
-  thread_.post([pedal = pedal_](TaskProgress&) { pedal->reset(); });
+  if (may_be_open_) thread_.post([pedal = pedal_](TaskProgress&) { pedal->reset(); });
   thread_.close();
 }
 
@@ -66,6 +66,7 @@ void PedalWatch::set(const PedalSettings& settings) {
 
 void PedalWatch::open() {
   patience_timer_.set(patience_);
+  may_be_open_ = true;
   thread_.post([this, pedal = pedal_, open = open_, afresh = std::exchange(is_silent_, false),
                 post = loop_.poster()](TaskProgress&) {
     const auto opened = caught("the opening of the pedal", [&] {
@@ -76,7 +77,8 @@ void PedalWatch::open() {
       patience_timer_.clear();
       is_silent_ = false;
       if (!opened) return lost(opened.error());
-      *opened ? begin(**opened) : returned();
+      may_be_open_ = opened->has_value();
+      may_be_open_ ? begin(**opened) : returned();
     });
   });
 }

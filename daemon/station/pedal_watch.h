@@ -97,7 +97,8 @@ class PedalWatch {
   std::optional<Error> trouble_;
   bool is_known_ = false;  ///< the owner was told whether it is there
   bool is_looking_ = false;
-  bool is_silent_ = false;  ///< what it was asked last took longer than patience_
+  bool is_silent_ = false;    ///< what it was asked last took longer than patience_
+  bool may_be_open_ = false;  ///< nothing is to be closed where there is none
   std::shared_ptr<std::unique_ptr<Pedal>> pedal_;  ///< the thread's, to its end
   TaskThread thread_{"pedal"};
 };

@@ -1,17 +1,12 @@
 #include "daemon/loop/task_thread.h"
 
 #include <gtest/gtest.h>
-#include <pthread.h>
-#include <signal.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <future>
 #include <memory>
-#include <thread>
 
-#include "drivers/files/descriptor.h"
+#include "tests/support/held_thread.h"
 
 namespace instep {
 namespace {
@@ -35,67 +30,23 @@ struct Hanging {
   }
 };
 
-/// Keeps a thread from running, as a busy machine may, until it is let go.
-class HeldThread {
- public:
-  explicit HeldThread(pthread_t thread) {
-    struct sigaction holding {};
-    holding.sa_handler = [](int) {
-      add_to(held_.number());
-      take_from(let_go_.number());
-      add_to(over_.number());
-    };
-    ::sigaction(SIGUSR2, &holding, &before_);
-    ::pthread_kill(thread, SIGUSR2);
-    take_from(held_.number());
-  }
-  ~HeldThread() {
-    add_to(let_go_.number());
-    take_from(over_.number());
-    ::sigaction(SIGUSR2, &before_, nullptr);
-  }
-  HeldThread(const HeldThread&) = delete;
-  HeldThread& operator=(const HeldThread&) = delete;
-
- private:
-  static void add_to(int counter) {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(counter, &one, sizeof one);
-  }
-  static void take_from(int counter) {
-    std::uint64_t count = 0;
-    while (::read(counter, &count, sizeof count) < 0) {
-    }
-  }
-
-  static inline const Descriptor held_{::eventfd(0, EFD_CLOEXEC)};
-  static inline const Descriptor let_go_{::eventfd(0, EFD_CLOEXEC)};
-  static inline const Descriptor over_{::eventfd(0, EFD_CLOEXEC)};
-  struct sigaction before_ {};
-};
-
-void wait_until_idle(const TaskThread& thread) {
-  while (thread.is_busy()) std::this_thread::yield();
+/// The number of its thread.
+pid_t thread_of(TaskThread& tasks) {
+  const auto number = std::make_shared<std::promise<pid_t>>();
+  tasks.post([number](TaskProgress&) { number->set_value(::gettid()); });
+  return number->get_future().get();
 }
 
 /// A service that had ended well was said to have failed.
 TEST(TaskThread, LeavesNothingBehindWhenAnIdleOneHasNoTurnToEnd) {
   TaskThread thread("idle");
-  std::promise<pthread_t> self;
-  thread.post([&self](TaskProgress&) { self.set_value(::pthread_self()); });
-  const auto idle = self.get_future().get();
-  wait_until_idle(thread);
-  const HeldThread held(idle);
+  const test::HeldThread held(thread_of(thread));
   EXPECT_TRUE(thread.stop_by(steady_clock::now()));
 }
 
 TEST(TaskThread, SaysThatATaskWhichHadNoTurnWasLeftBehind) {
   TaskThread thread("idle");
-  std::promise<pthread_t> self;
-  thread.post([&self](TaskProgress&) { self.set_value(::pthread_self()); });
-  const auto idle = self.get_future().get();
-  wait_until_idle(thread);
-  const HeldThread held(idle);
+  const test::HeldThread held(thread_of(thread));
   thread.post([](TaskProgress&) {});
   EXPECT_FALSE(thread.finish_by(steady_clock::now()));
 }

@@ -1,7 +1,9 @@
 #include "daemon/station/pedal_watch.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <memory>
@@ -9,6 +11,7 @@
 #include <vector>
 
 #include "tests/support/contact_pedal.h"
+#include "tests/support/held_thread.h"
 #include "tests/support/loop_thread.h"
 
 namespace instep {
@@ -211,6 +214,19 @@ TEST_F(PedalOnLoop, IsLeftBehindAtTheEndWhereItHangsInClosing) {
   watch_.reset();
   contact_->let_go();
   EXPECT_TRUE(contact_->wait_until_closed(1)) << "by its thread, once it can";
+}
+
+// A station without a pedal was said to have left it behind.
+TEST_F(PedalOnLoop, LeavesNoneBehindWhereThereIsNoneThoughItsThreadHasNoTurn) {
+  const auto thread = std::make_shared<std::atomic<pid_t>>(0);
+  begin([thread]() -> Result<std::unique_ptr<Pedal>> {
+    *thread = ::gettid();
+    return nullptr;
+  });
+  ASSERT_TRUE(loop_.wait_until([&] { return returned_ == 1; }));
+  loop_.stop();
+  const test::HeldThread held(*thread);
+  EXPECT_TRUE(watch_->end_by(std::chrono::steady_clock::now()));
 }
 
 TEST_F(PedalOnLoop, IsClosedAtTheEnd) {
