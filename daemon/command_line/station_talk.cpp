@@ -134,7 +134,12 @@ Result<void> list_in_detail(ControlClient& client, const json& scans) {
   for (const auto& scan : scans) {
     const std::string id = string_at(scan, "id");
     const auto result = stored_result(client, id);
-    if (!result && result.error().code == ErrorCode::kNotFound) continue;  // deleted meanwhile
+    if (!result && result.error().code == ErrorCode::kNotFound) {
+      // Deleted meanwhile, or it went with the folder of all results.
+      if (const auto others = client.ask("list"); !others)
+        return tl::make_unexpected(others.error());
+      continue;
+    }
     if (!result && ends_list(result.error())) return tl::make_unexpected(result.error());
     const auto printed = print_text(result ? list_line(id, *result)
                                            : list_line_without_result(id, result.error().message));

@@ -23,6 +23,7 @@ class OddDaemon : public testing::Test {
     loop_.call([this] {
       const auto serve = [this](ControlServer::Client client, const Request& request) {
         server_->answer(client, request.verb == "show" && !shown_.empty() ? shown_ : answer_);
+        if (request.verb == "show" && !afterwards_.empty()) answer_ = afterwards_;
         if (request.verb == "scan") server_->send_event(client, event_);
       };
       server_ = ControlServer::listen(loop_.loop(), socket_, serve).value();
@@ -44,7 +45,8 @@ class OddDaemon : public testing::Test {
   test::LoopThread loop_;
   std::unique_ptr<ControlServer> server_;
   std::string answer_;
-  std::string shown_;  ///< to show alone; as the others are answered if empty
+  std::string shown_;       ///< to show alone; as the others are answered if empty
+  std::string afterwards_;  ///< to all that comes after it; as before if empty
   std::string event_;
 };
 
@@ -106,6 +108,17 @@ TEST_F(StationTalk, ListsInDetailPastAScanThatCannotBeRead) {
   const auto gone = outcome_where_shown({ErrorCode::kDeviceGone, Remedy::kOperator, "gone", ""});
   ASSERT_FALSE(gone) << "the disk, and with it the rest of the list";
   EXPECT_EQ(gone.error().message, "gone");
+}
+
+// What came after it was missing from a list that passed for whole.
+TEST_F(StationTalk, SaysWhileItListsThatTheFolderOfTheResultsIsGone) {
+  say(R"({"ok": true, "scans": [{"id": "20261121T091502417Z-k3f9"}]})");
+  const auto gone =
+      error_answer({ErrorCode::kNotFound, Remedy::kOperator, "the results' folder is gone", ""});
+  loop_.call([&] { shown_ = afterwards_ = gone; });
+  const auto listed = list_scans(false, true);
+  ASSERT_FALSE(listed);
+  EXPECT_EQ(listed.error().message, "the results' folder is gone");
 }
 
 // The daemon may run on the socket that those settings name.
