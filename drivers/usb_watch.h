@@ -13,7 +13,8 @@ struct UsbChange {
 };
 
 /// A source of comings and goings for an event loop. Raw: a change may be told twice, and a loose
-/// plug tells many; making sense of them is the daemon's work. One thread owns it.
+/// plug tells many; making sense of them is the daemon's work. One thread owns it and makes all
+/// calls; another may wait for its descriptor.
 class UsbWatch {
  public:
   virtual ~UsbWatch() = default;
@@ -22,7 +23,8 @@ class UsbWatch {
   virtual int descriptor() const = 0;
 
   /// What changed since the last call, oldest first; at the first call what is plugged in already.
-  /// Never blocks.
+  /// Waits for no event, but for what is asked of each device that came: the kernel answers once
+  /// the device's driver is not at it, which with a faulty one takes seconds, or for ever.
   virtual std::vector<UsbChange> changes() = 0;
 };
 

@@ -34,7 +34,15 @@ CameraCare::CameraCare(EventLoop& loop, const std::vector<std::optional<UsbAddre
     any_on_bus = any_on_bus || address;
   }
   if (!any_on_bus) return;
-  monitor_.emplace(loop_, bus_.watch(), [this](const UsbChange& change) { bus_changed(change); });
+  monitor_.emplace(loop_, bus_.watch, [this](const UsbChange& change) { bus_changed(change); });
+}
+
+void CameraCare::put_off_watch() {
+  if (monitor_) monitor_->put_off();
+}
+
+bool CameraCare::end_watch_by(std::chrono::steady_clock::time_point deadline) {
+  return !monitor_ || monitor_->end_by(deadline);
 }
 
 void CameraCare::looked_at(std::size_t camera, const std::optional<Error>& trouble) {

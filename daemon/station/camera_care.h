@@ -35,8 +35,9 @@ class CameraCare {
   };
   /// The USB bus; another one in tests.
   struct Bus {
-    std::function<Result<std::unique_ptr<UsbWatch>>()> watch;
-    std::function<Result<void>(const UsbAddress&)> reset;  ///< called on a thread of its own
+    // Each is called on a thread of its own.
+    UsbMonitor::Open watch;
+    std::function<Result<void>(const UsbAddress&)> reset;
   };
   static Bus real_bus();
 
@@ -44,6 +45,9 @@ class CameraCare {
   CameraCare(EventLoop& loop, const std::vector<std::optional<UsbAddress>>& cameras,
              Listener listener, Bus bus = real_bus());
 
+  /// As those of UsbMonitor.
+  void put_off_watch();
+  bool end_watch_by(std::chrono::steady_clock::time_point deadline);
   /// Waits for a reset that runs; false if it had to be left behind.
   bool end_by(std::chrono::steady_clock::time_point deadline) {
     return reset_thread_.stop_by(deadline);

@@ -112,6 +112,7 @@ void Station::shut_down() {
 std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point deadline) {
   if (signals_) signals_->put_off();
   if (pedal_) pedal_->put_off();
+  if (care_) care_->put_off_watch();
   if (cancelled_) *cancelled_ = true;
   std::vector<std::string> left_behind;
   const auto note = [&](const char* what, bool ended) {
@@ -121,6 +122,7 @@ std::vector<std::string> Station::end_by(std::chrono::steady_clock::time_point d
   note("the scan", scan_thread_.stop_by(deadline));
   note("the truth of the simulation", truth_thread_.stop_by(deadline));
   note("the pedal", !pedal_ || pedal_->end_by(deadline));
+  note("the watch of the USB bus", !care_ || care_->end_watch_by(deadline));
   note("the reset of a camera", !care_ || care_->end_by(deadline));
   note("a lamp or the projector", !signals_ || signals_->finish());
   return left_behind;

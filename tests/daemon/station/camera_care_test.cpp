@@ -6,7 +6,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <condition_variable>
 #include <deque>
+#include <future>
+#include <mutex>
 
 #include "daemon/station/back_off.h"
 #include "drivers/files/descriptor.h"
@@ -17,11 +20,15 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// A bus of which the test tells what comes and goes.
+/// A bus of which the test tells what comes and goes, and which may hang.
 class FakeUsbWatch final : public UsbWatch {
  public:
   int descriptor() const override { return ready_.number(); }
   std::vector<UsbChange> changes() override {
+    std::unique_lock lock(mutex_);
+    is_in_call_ = true;
+    EXPECT_TRUE(freed_.wait_for(lock, 30s, [this] { return !hangs_; })) << "the loop waits for it";
+    is_in_call_ = false;
     std::uint64_t count = 0;
     [[maybe_unused]] const auto got = ::read(ready_.number(), &count, sizeof count);
     return std::exchange(waiting_, {});
@@ -32,12 +39,31 @@ class FakeUsbWatch final : public UsbWatch {
     change.device.link_mbps = 480;
     change.device.could_be_faster = could_be_faster;
     change.arrived = arrived;
+    const std::lock_guard lock(mutex_);
     waiting_.push_back(change);
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(ready_.number(), &one, sizeof one);
   }
 
+  void hang() {
+    const std::lock_guard lock(mutex_);
+    hangs_ = true;
+  }
+  void let_go() {
+    const std::lock_guard lock(mutex_);
+    hangs_ = false;
+    freed_.notify_all();
+  }
+  bool holds_a_call() {
+    const std::lock_guard lock(mutex_);
+    return hangs_ && is_in_call_;
+  }
+
  private:
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable freed_;
+  bool hangs_ = false;
+  bool is_in_call_ = false;
   Descriptor ready_{::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)};
   std::vector<UsbChange> waiting_;
 };
@@ -63,7 +89,7 @@ class CameraCareTest : public testing::Test {
   /// Takes one step after each news of a change, and ends with the news after the last.
   void run(std::deque<std::function<void()>> steps) {
     steps_ = std::move(steps);
-    give_up_.set(5s);
+    give_up_.set(60s);
     ASSERT_TRUE(loop_->run());
     EXPECT_TRUE(done_) << steps_.size() << " steps were not reached";
   }
@@ -86,6 +112,30 @@ class CameraCareTest : public testing::Test {
   bool done_ = false;
   std::optional<CameraCare> care_;
 };
+
+// The loop waited with it while a faulty device kept its driver busy.
+TEST_F(CameraCareTest, HoldsTheLoopUpNowhereWhereTheBusHangs) {
+  bus_->hang();
+  EventLoop::Timer look;
+  look = loop_->timer([&] { bus_->holds_a_call() ? bus_->let_go() : look.set(1ms); });
+  look.set(0ms);
+  bus_->tell(true);
+  run({});
+  EXPECT_EQ(care_->health(0).link_mbps, 480);
+}
+
+TEST(CameraCareOfABusThatHangs, HoldsNobodyUpAndIsLeftBehind) {
+  const auto loop = EventLoop::create().value();
+  const auto release = std::make_shared<std::promise<void>>();
+  CameraCare::Bus bus = CameraCare::real_bus();
+  bus.watch = [until = release->get_future().share()]() -> Result<std::unique_ptr<UsbWatch>> {
+    EXPECT_EQ(until.wait_for(30s), std::future_status::ready) << "the loop waits for it";
+    return fail(ErrorCode::kNotFound, "there is no bus", "");
+  };
+  CameraCare care(*loop, {UsbAddress{"", "A1"}}, {[] {}, [] {}}, bus);
+  EXPECT_FALSE(care.end_watch_by(std::chrono::steady_clock::now()));
+  release->set_value();
+}
 
 const Error kSilent{ErrorCode::kTimeout, Remedy::kReopen, "no frame came", "look"};
 const Error kGone{ErrorCode::kDeviceGone, Remedy::kReopen, "it left", "plug it in"};
