@@ -71,6 +71,11 @@ std::vector<std::string> its_own_troubles(const json& status) {
   return its_own;
 }
 
+/// It takes up to a minute, where several wait for each other.
+DoctorCheck cameras_that_open() {
+  return bad_check("cameras", "none is open yet", "instep status --wait-ready 60");
+}
+
 }  // namespace
 
 DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
@@ -122,7 +127,9 @@ std::vector<DoctorCheck> check_cameras_of(const json& status, const VideoTrouble
   std::vector<DoctorCheck> checks;
   const json cameras = list_at(status, "cameras");
   // Why none is open is a trouble that no part tells, if it is known.
-  if (cameras.empty() && its_own_troubles(status).empty()) return {no_cameras()};
+  if (cameras.empty() && its_own_troubles(status).empty()) {
+    return {string_at(status, "state") == "starting" ? cameras_that_open() : no_cameras()};
+  }
   std::size_t answer = 0;
   for (const auto& camera : cameras) {
     const auto shown = video.find(string_at(camera, "id"));

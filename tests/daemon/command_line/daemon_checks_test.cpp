@@ -153,6 +153,16 @@ TEST(DaemonCheck, TellsWhatNoPartTells) {
   EXPECT_THAT(check_cameras_of(to_json(status), {}), IsEmpty()) << "which that explains";
 }
 
+/// They were to be plugged in, though they were.
+TEST(DaemonCheck, HasNobodyPlugCamerasInThatAreBeingOpened) {
+  StationStatus status;
+  status.state = StationState::kStarting;
+  const auto checks = check_cameras_of(to_json(status), {});
+  ASSERT_EQ(checks.size(), 1U);
+  EXPECT_FALSE(checks[0].good);
+  EXPECT_EQ(checks[0].remedy, "instep status --wait-ready 60");
+}
+
 TEST(DaemonCheck, OutlivesAStatusOfAnotherShape) {
   for (const char* text :
        {"3", "[]", "{}", R"({"cameras":3,"pedal":[],"store":"x","troubles":[1],"outputs":{}})",
