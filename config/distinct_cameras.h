@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "config/reading/settings_table.h"
 #include "config/settings.h"
-#include "config/settings_table.h"
 
 namespace instep {
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "config/reading/settings_text.h"
+#include "config/reading/toml_reading.h"
 #include "config/settings.h"
-#include "config/settings_text.h"
-#include "config/toml_reading.h"
 
 namespace instep {
 namespace {

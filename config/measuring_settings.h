@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "config/settings_table.h"
+#include "config/reading/settings_table.h"
 #include "core/foot/measuring_rules.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/result.h"

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "config/applied_calibration.h"
-#include "config/openni_settings.h"
-#include "config/output_settings.h"
-#include "config/pedal_sources.h"
-#include "config/v4l2_settings.h"
+#include "config/calibration/applied_calibration.h"
+#include "config/devices/openni_settings.h"
+#include "config/devices/output_settings.h"
+#include "config/devices/pedal_sources.h"
+#include "config/devices/v4l2_settings.h"
 #include "core/foot/measuring_rules.h"
 #include "core/foot/shoe_sizes.h"
 #include "core/foot/side.h"

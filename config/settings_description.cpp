@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "config/warnings_of_poses.h"
+#include "config/calibration/warnings_of_poses.h"
 
 namespace instep {
 namespace {

@@ -5,12 +5,12 @@
 #include <system_error>
 #include <utility>
 
-#include "config/calibration_loader.h"
+#include "config/calibration/calibration_loader.h"
+#include "config/devices/v4l2_settings_table.h"
 #include "config/distinct_cameras.h"
 #include "config/measuring_settings.h"
-#include "config/settings_table.h"
-#include "config/toml_reading.h"
-#include "config/v4l2_settings_table.h"
+#include "config/reading/settings_table.h"
+#include "config/reading/toml_reading.h"
 
 namespace instep {
 namespace {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "config/reading/settings_text.h"
 #include "config/settings.h"
-#include "config/settings_text.h"
 #include "core/result.h"
 
 namespace instep {

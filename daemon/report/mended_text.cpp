@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/printable_text.h"
+#include "config/reading/printable_text.h"
 
 namespace instep {
 namespace {

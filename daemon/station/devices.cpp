@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "config/calibration/source_of_poses.h"
 #include "config/settings_search.h"
-#include "config/source_of_poses.h"
 #include "daemon/machine/inventory.h"
 #include "daemon/station/open_sensors.h"
 #include "drivers/evdev/evdev_pedal.h"

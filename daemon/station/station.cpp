@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/calibration/warnings_of_poses.h"
 #include "config/capture_time.h"
-#include "config/warnings_of_poses.h"
 #include "daemon/station/pipeline_settings.h"
 #include "daemon/station/truth_of_simulation.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "config/output_settings.h"
+#include "config/devices/output_settings.h"
 #include "core/result.h"
 #include "daemon/station/output_keeper.h"
 #include "daemon/station/station_machine.h"

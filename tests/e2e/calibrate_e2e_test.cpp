@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "config/calibration_file.h"
+#include "config/calibration/calibration_file.h"
 #include "core/geometry/pose_rows.h"
 #include "tests/support/background_program.h"
 #include "tests/support/openni_station.h"

@@ -1,0 +1,229 @@
+#include "daemon/command_line/doctor/doctor_checks.h"
+
+#include <fmt/format.h>
+#include <sys/statvfs.h>
+#include <Eigen/Core>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "core/built_for.h"
+#include "daemon/build_facts.h"
+#include "daemon/command_line/doctor/daemon_checks.h"
+#include "daemon/command_line/doctor/store_check.h"
+#include "daemon/command_line/station_settings.h"
+#include "daemon/control/control_client.h"
+#include "daemon/json/untrusted_json.h"
+#include "daemon/machine/device_checks.h"
+#include "daemon/station/devices.h"
+
+namespace instep {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kCalibrate = "instep calibrate";
+
+DoctorCheck check_settings(const Result<FoundSettings>& found) {
+  if (found) return good_check("settings", found->file.string() + " is sound");
+  std::string finding = found.error().line();
+  for (auto& letter : finding) letter = letter == '\n' ? ';' : letter;
+  return bad_check("settings", finding, "correct the file, then: instepd --check");
+}
+
+/// Nothing where there is no folder yet, of which check_store() tells.
+std::optional<DoctorCheck> check_free_space(const std::filesystem::path& root) {
+  constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+  struct statvfs disk {};
+  const auto folder = root.parent_path();
+  if (::statvfs(root.c_str(), &disk) != 0 && ::statvfs(folder.c_str(), &disk) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return std::nullopt;
+    return bad_check("disk", folder.string() + " cannot be looked at: " + std::strerror(errno),
+                     "check store.root");
+  }
+  const double free_gib =
+      static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize) / kGibibyte;
+  const std::string finding = fmt::format("{:.1f} GiB free for results", free_gib);
+  return free_gib >= 1.0 ? good_check("disk", finding)
+                         : bad_check("disk", finding, "make room, or set store.keep_days");
+}
+
+ToldSerials told_serials(const json& cameras) {
+  ToldSerials told;
+  for (const auto& camera : cameras) told[string_at(camera, "id")] = string_at(camera, "serial");
+  return told;
+}
+
+VideoTroubles troubles_of_video_cameras(const Settings& settings) {
+  VideoTroubles all;
+  for (const auto& camera : settings.cameras) {
+    if (camera.kind != CameraKind::kV4l2) continue;
+    all[camera.v4l2.placement.name] = trouble_of_camera(camera.v4l2, {});
+  }
+  return all;
+}
+
+/// Nothing of video cameras, which are among the devices though they be away.
+std::optional<DoctorCheck> check_opening(const Result<Devices>& devices,
+                                         const VideoTroubles& video) {
+  if (!devices) {
+    return bad_check("cameras", devices.error().message,
+                     devices.error().advice.empty() ? "instepd --check" : devices.error().advice);
+  }
+  if (devices->cameras.empty()) return no_cameras();
+  if (devices->cameras.size() <= video.size()) return std::nullopt;
+  return good_check("cameras",
+                    fmt::format("{} can be opened", devices->cameras.size() - video.size()));
+}
+
+ToldSerials told_serials(const Result<Devices>& devices) {
+  ToldSerials told;
+  if (!devices) return told;
+  for (const auto& camera : devices->cameras) {
+    told[camera->description().geometry.id] = camera->description().serial;
+  }
+  return told;
+}
+
+void add(std::vector<DoctorCheck> more, std::vector<DoctorCheck>& checks) {
+  std::move(more.begin(), more.end(), std::back_inserter(checks));
+}
+
+/// Asks the daemon, who has the cameras, or opens them if there is none and the settings are sound.
+/// Gives what they tell.
+ToldSerials look_at_cameras(const Result<json>& status, const Settings& settings, bool are_sound,
+                            std::vector<DoctorCheck>& checks) {
+  const auto video = troubles_of_video_cameras(settings);
+  ToldSerials told;
+  if (status) {
+    add(check_cameras_of(*status, video), checks);
+    told = told_serials(list_at(*status, "cameras"));
+  } else if (are_sound) {
+    const auto devices = open_devices(settings);
+    if (auto check = check_opening(devices, video)) checks.push_back(std::move(*check));
+    told = told_serials(devices);
+  }
+  add(check_video_cameras(video), checks);
+  return told;
+}
+
+void check_usb_memory(std::vector<DoctorCheck>& checks) {
+  if (const auto trouble = trouble_of_usb_memory({})) {
+    checks.push_back(bad_check("usb", trouble->finding, trouble->remedy));
+  }
+}
+
+/// Asks the daemon, who has the pedal, or opens one that is a device.
+void check_pedal(const Result<json>& status, const Settings& settings,
+                 std::vector<DoctorCheck>& checks) {
+  if (status) {
+    if (auto check = check_pedal_of(*status)) checks.push_back(std::move(*check));
+    return;
+  }
+  const auto kind = settings.pedal.kind;
+  if (kind != PedalKind::kGpio && kind != PedalKind::kEvdev) return;
+  const auto pedal = open_pedal(settings);
+  checks.push_back(pedal ? good_check("pedal", "can be opened")
+                         : bad_check("pedal", pedal.error().message, pedal.error().advice));
+}
+
+/// Asks the daemon, who has the lines, or looks whether they could be had. Touches none.
+std::vector<DoctorCheck> look_at_outputs(const Result<json>& status, const Settings& settings) {
+  if (status) return check_outputs(outputs_of(*status), "is there");
+  std::vector<OutputFinding> outputs;
+  for (const auto& [name, output] : settings.outputs.named()) {
+    const auto there = check_output(*output);
+    outputs.push_back(there ? OutputFinding{name, "", ""}
+                            : OutputFinding{name, there.error().message, there.error().advice});
+  }
+  return check_outputs(outputs, "can be opened");
+}
+
+/// Of real cameras that no calibration placed; a single one that stands as the settings say has
+/// none to fit with.
+std::optional<DoctorCheck> check_uncalibrated(const std::vector<CameraPlacement>& cameras) {
+  std::vector<std::string> rough;
+  for (const auto& camera : cameras) {
+    if (camera.is_rough) rough.push_back(camera.name);
+  }
+  if (!rough.empty()) {
+    return bad_check(
+        "calibration",
+        fmt::format("none, and placed by tape measure alone: {}", fmt::join(rough, ", ")),
+        kCalibrate);
+  }
+  if (cameras.size() < 2) return std::nullopt;
+  return good_check("calibration",
+                    fmt::format("none: {} cameras stand as the settings say; {} finds "
+                                "out where they do",
+                                cameras.size(), kCalibrate));
+}
+
+DoctorCheck library_versions() {
+  return good_check(
+      "software",
+      fmt::format("instep {} for {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, Eigen {}.{}.{}",
+                  program_version(), built_for(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+                  FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                  NLOHMANN_JSON_VERSION_PATCH, EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                  EIGEN_MINOR_VERSION));
+}
+
+/// Notes as whom the daemon that answers runs.
+Result<json> ask_status(const std::filesystem::path& socket, std::optional<uid_t>& daemon) {
+  auto client = ControlClient::connect(socket);
+  if (!client) return tl::make_unexpected(client.error());
+  auto status = client->ask("status");
+  if (status) daemon = client->daemon_user();
+  return status;
+}
+
+}  // namespace
+
+std::optional<DoctorCheck> check_calibration(const Settings& settings, const ToldSerials& told) {
+  std::vector<CameraPlacement> cameras;
+  for (const auto& camera : settings.cameras) {
+    if (camera.placement() != nullptr) cameras.push_back(*camera.placement());
+  }
+  if (!settings.calibration) return check_uncalibrated(cameras);
+  if (cameras.empty()) return std::nullopt;
+  const std::string lacking = what_is_lacking(*settings.calibration);
+  if (!lacking.empty()) return bad_check("calibration", lacking, kCalibrate);
+  const auto changes = what_has_changed(settings, told);
+  if (!changes.empty()) {
+    return bad_check("calibration",
+                     fmt::format("of another station than this: {}", fmt::join(changes, "; ")),
+                     kCalibrate);
+  }
+  return good_check("calibration", fmt::format("of all {} cameras, {}", cameras.size(),
+                                               settings.calibration->time));
+}
+
+std::vector<DoctorCheck> examine_machine() {
+  const auto found = find_station_settings();
+  const Settings settings = found ? found->settings : station_settings();
+  std::optional<uid_t> daemon;
+  const auto status = ask_status(settings.control.socket, daemon);
+  std::vector<DoctorCheck> checks;
+  checks.push_back(library_versions());
+  checks.push_back(check_settings(found));
+  const auto store = std::filesystem::absolute(settings.store.root);
+  checks.push_back(status ? check_store_of(*status, store, daemon) : check_store(store, daemon));
+  if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
+  checks.push_back(check_daemon(status, settings.control.socket));
+  const auto told = look_at_cameras(status, settings, found.has_value(), checks);
+  // Of a faulty calibration check_settings() tells.
+  auto calibration = found ? check_calibration(settings, told) : std::nullopt;
+  if (calibration) checks.push_back(std::move(*calibration));
+  check_usb_memory(checks);
+  check_pedal(status, settings, checks);
+  add(look_at_outputs(status, settings), checks);
+  return checks;
+}
+
+}  // namespace instep
