@@ -13,9 +13,11 @@
 #include <chrono>
 #include <cstring>
 #include <deque>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "drivers/files/descriptor.h"
@@ -25,6 +27,7 @@ namespace instep::test {
 namespace {
 
 using std::chrono::steady_clock;
+using namespace std::chrono_literals;
 
 // USB/IP, as the kernel's Documentation/usb/usbip_protocol.rst has it: headers of 12 big-endian
 // words, the last two of a request being the setup packet of a control transfer.
@@ -60,6 +63,17 @@ void send(int socket, const Bytes& bytes) {
     if (now <= 0) return;  // unplugged: the reader finds out
     sent += static_cast<std::size_t>(now);
   }
+}
+
+/// Whether the kernel has a device at that port of its virtual controller.
+bool is_in_socket(int port) {
+  const auto ending = std::string("-").append(std::to_string(port + 1));
+  std::error_code gone;  // as it may be by now
+  for (const auto& bus : std::filesystem::directory_iterator("/sys/bus/usb/devices")) {
+    const auto place = std::filesystem::read_symlink(bus.path(), gone).string();
+    if (place.find("vhci_hcd.0/") != std::string::npos && place.ends_with(ending)) return true;
+  }
+  return false;
 }
 
 /// The setup packet of a control transfer (USB 2.0, 9.3).
@@ -303,6 +317,11 @@ UsbDepthCamera::UsbDepthCamera(const Settings& settings, Scene scene)
 
 UsbDepthCamera::~UsbDepthCamera() {
   unplug();
+  // The kernel takes its nodes away in its own time; what comes next is to find none.
+  const auto limit = steady_clock::now() + 10s;
+  while (is_in_socket(device_->settings.port) && steady_clock::now() < limit) {
+    std::this_thread::sleep_for(5ms);
+  }
 }
 
 void UsbDepthCamera::plug() {

@@ -32,6 +32,7 @@ class UsbDepthCamera {
 
   /// Not plugged in yet.
   UsbDepthCamera(const Settings& settings, Scene scene);
+  /// Unplugs it, and waits until the kernel has taken its nodes away.
   ~UsbDepthCamera();
   UsbDepthCamera(const UsbDepthCamera&) = delete;
   UsbDepthCamera& operator=(const UsbDepthCamera&) = delete;

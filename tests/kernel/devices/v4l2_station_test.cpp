@@ -10,6 +10,7 @@
 
 #include "core/geometry/pose_rows.h"
 #include "drivers/recording/recording_reader.h"
+#include "drivers/v4l2/video_nodes.h"
 #include "tests/kernel/devices/usb_depth_camera.h"
 #include "tests/support/station_process.h"
 
@@ -126,6 +127,11 @@ std::size_t count_lines(const std::string& log, const std::string& text) {
 // The daemon is up before its cameras, and scans only when all are there.
 TEST_F(V4l2Station, WaitsForCamerasThatComeLater) {
   cameras_.usb[0]->plug();
+  // What is said of those that are missing names it, once it has come.
+  const auto limit = steady_clock::now() + kLong;
+  while (list_video_nodes({}).empty() && steady_clock::now() < limit) {
+    std::this_thread::sleep_for(20ms);
+  }
   start();
   ASSERT_TRUE(station_.wait_for("STATUS=degraded", kLong)) << station_.log();
   EXPECT_THAT(trouble_of(1), HasSubstr("waits until it is plugged in"));
