@@ -1,5 +1,6 @@
 #include "core/girth/girth_of_all.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
@@ -10,6 +11,22 @@ namespace {
 /// points are often laid.
 constexpr double kTurn = 0.7;
 
+/// A plain girth that one even skin contradicts, or the one in another frame if that agrees with
+/// such a skin there. Waves that are there contradict it in both; a patch that noise has folded is
+/// none in the other.
+ToldGirth surer_of(ToldGirth told, const PointCloud& cloud, const TapePlane& plane,
+                   const GirthOptions& options) {
+  auto other = girth_in_frame(cloud, plane.turned(kTurn), options);
+  const bool is_surer = is_told(other) && other->is_plain() && !other->is_contradicted &&
+                        other->doubt() < told.doubt();
+  if (is_surer) {
+    const Eigen::Rotation2Dd back(kTurn);
+    for (auto& point : other->girth.contour) point = back * point;
+    return std::move(*other);
+  }
+  return told;
+}
+
 }  // namespace
 
 /// Of 2,000 drawn girths 169 are read again; of 16 the readings lie further apart than an interval.
@@ -18,7 +35,10 @@ constexpr double kTurn = 0.7;
 Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
                                const GirthOptions& options) {
   auto told = girth_in_frame(cloud, plane, options);
-  if (!is_told(told) || told->is_plain()) return told;
+  if (!is_told(told)) return told;
+  if (told->is_plain()) {
+    return told->is_contradicted ? surer_of(std::move(*told), cloud, plane, options) : told;
+  }
   auto other = girth_in_frame(cloud, plane.turned(kTurn), options);
   if (!other) return told;
   if (other->refusal) {

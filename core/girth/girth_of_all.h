@@ -15,7 +15,9 @@ namespace instep {
 /// Where patches are laid and the contour is traced hangs on u and v, which the plane has by
 /// chance. Lengths that are sure do not: they differ by some millionth. One that leaves doubt is
 /// read once more with both turned. Its interval reaches that reading too, and what refuses
-/// that one refuses it. If nothing closes there, that says nothing.
+/// that one refuses it. If nothing closes there, that says nothing. A sure one that one even skin
+/// contradicts (smooth_section()) gives way to the other reading if that is of such a skin: of 800
+/// noisy smooth bodies two have a patch that noise has folded.
 Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
                                const GirthOptions& options);
 

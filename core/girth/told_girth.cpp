@@ -98,6 +98,7 @@ MeasuredSection measured(SlabSource& slabs, const PlaneBand& band,
     smooth->stretched_u95 = std::max({smooth->stretched_u95, patches.stretched_u95,
                                       std::abs(smooth->stretched - patches.stretched)});
   } else if (contradict(*smooth, patches)) {
+    patches.is_contradicted = true;
     return patches;
   }
   return *smooth;
@@ -226,6 +227,7 @@ ToldGirth girth_along(const std::vector<SectionLoop>& loops, const BlendedSurfac
   told.girth.points = slabs.cloud().size();
   told.strays_near_skin = surface.share_with_strays() > kManyWithStrays;
   told.is_bridged = has_notable_gap(band, evidence);
+  told.is_contradicted = section.is_contradicted;
   told.has_layers = unknowns.layers && unknowns.layers->are_all_round;
   told.has_others_beside =
       unknowns.skin.is_any() || unknowns.beside.contact > 0.0 || unexplained > kNotableUnexplained;
@@ -318,7 +320,8 @@ MeasuredSection section_by_patches(const Contour& contour, const BlendedSurface&
           contour.tape_length() + doubt.waves,
           doubt.contact_u95,
           doubt.stretched_u95,
-          {}};
+          {},
+          false};
 }
 
 Girth girth_of(const PlaneBand& band, const MeasuredSection& section,

@@ -27,6 +27,7 @@ struct ToldGirth {
   bool is_bridged = false;        ///< over a stretch without seen points
   bool has_layers = false;        ///< of skin, or of skin and sock
   bool is_smaller = false;        ///< another loop is larger, but does not go by the control points
+  bool is_contradicted = false;   ///< by one even skin through more points
   /// Of the points near the plane more than a fiftieth lies on no loop, or leads away from one.
   bool has_others_beside = false;
 

@@ -37,10 +37,10 @@ constexpr double kMostPoints = 20000.0;
 constexpr double kMostBending = 0.005;
 constexpr double kMostScatter = 1.15;
 constexpr double kSharpestTurn = 0.15;
-/// From so many points of a band on the line is asked first, which costs a twentieth. Of 681 even
-/// sections of tests/bench/accuracy the lines of two turn more sharply than that, of few points
-/// that noise may bend; of 1,555 others those of 1,373.
+/// From so many points of a band on the line is asked first, which costs a twentieth. A fold of
+/// patches may bend it more than the skin, so that its turns tell less.
 constexpr std::size_t kManyPoints = 3000;
+constexpr double kSharpestTurnOfLine = 0.25;
 
 constexpr double kLeast = 8e-5;
 
@@ -153,7 +153,7 @@ std::optional<MeasuredSection> smooth_section(SlabSource& slabs, const PlaneBand
   const auto knots =
       ways_along(*line, static_cast<std::size_t>(std::lround(line->length() / kKnotsApart)));
   const bool asks_line = band.points.size() >= kManyPoints;
-  if (asks_line && sharpest_turn(*line, knots) > kSharpestTurn) return std::nullopt;
+  if (asks_line && sharpest_turn(*line, knots) > kSharpestTurnOfLine) return std::nullopt;
   const auto points = ribbon_of(slabs, band, *line, is_bridged);
   const auto ribbon = RibbonSpline::through(points, line->length(), static_cast<int>(knots.size()));
   if (!ribbon || !is_even(*line, *ribbon, knots, band.sigma)) return std::nullopt;

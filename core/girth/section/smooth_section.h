@@ -17,7 +17,8 @@ struct MeasuredSection {
   double stretched = 0.0;
   double contact_u95 = 0.0;
   double stretched_u95 = 0.0;
-  MissedLength missed;  ///< by waves of the skin that it does not follow
+  MissedLength missed;           ///< by waves of the skin that it does not follow
+  bool is_contradicted = false;  ///< by one even skin through more points
 };
 
 /// The section of noisy points where the skin is even: read off one surface through all points

@@ -65,8 +65,10 @@ Cases shape_cases(std::size_t count, double sigma_mm, double hole_mm, std::uint6
                   const std::string& trial_word) {
   Cases cases = trial_shapes(trial_word);
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    // Of the body, so that planes are the same without the trial data.
+    std::uint64_t number = 0;
     for (const auto& body : smooth_bodies(seed)) {
-      RandomNumbers random(100 * seed + cases.size());
+      RandomNumbers random(100 * seed + number++);
       const TapePlane plane = tilted_plane(kMostTiltDegrees, random);
       const auto lengths = body.lengths(plane).value();
       PointCloud cloud = body.crowd(count, seed + 1);
