@@ -1,5 +1,7 @@
 #include "config/settings_file.h"
 
+#include "config/reading/settings_text.h"
+
 #include <fmt/format.h>
 
 #include <system_error>

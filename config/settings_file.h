@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "config/reading/settings_text.h"
 #include "config/settings.h"
 #include "core/result.h"
 

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "config/devices/pose_matrix.h"
+#include "config/poses/pose_matrix.h"
 #include "config/reading/settings_table.h"
 #include "config/reading/toml_reading.h"
 #include "core/fusion/frames/camera_limits.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "config/devices/camera_placement_table.h"
+#include "config/poses/camera_placement_table.h"
 #include "config/reading/settings_table.h"
 
 namespace instep {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "config/devices/camera_placement.h"
+#include "config/poses/camera_placement.h"
 
 namespace instep {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "config/devices/camera_placement.h"
+#include "config/poses/camera_placement.h"
 
 namespace instep {
 

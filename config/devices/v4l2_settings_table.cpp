@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "config/devices/camera_placement_table.h"
+#include "config/poses/camera_placement_table.h"
 #include "core/fusion/frames/camera_limits.h"
 
 namespace instep {

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "core/foot/skin/unseen_half.h"
 #include "core/foot/sole/floor_below.h"
 #include "core/foot/sole/open_sole.h"
 #include "core/foot/standing/foot_alone.h"
@@ -17,6 +16,7 @@
 #include "core/foot/standing/scanner_lines.h"
 #include "core/foot/standing/shoe_last.h"
 #include "core/foot/standing/side_from_shape.h"
+#include "core/foot/standing/unseen_half.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
 

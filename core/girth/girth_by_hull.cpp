@@ -9,9 +9,9 @@
 #include "core/girth/band/plane_heights.h"
 #include "core/girth/band/plane_slab.h"
 #include "core/girth/contour/contour_index.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/girth/girth.h"
 #include "core/girth/refusals.h"
-#include "core/girth/section/section_gaps.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

@@ -8,9 +8,9 @@
 #include "core/girth/band/plane_band.h"
 #include "core/girth/contour/loop_choice.h"
 #include "core/girth/contour/mesh_section.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/girth/girth.h"
-#include "core/girth/refusals.h"
-#include "core/girth/section/section_gaps.h"
+#include "core/girth/section/unseen_side.h"
 #include "core/surface/mesh/grown_mesh.h"
 
 namespace instep {

@@ -10,9 +10,9 @@
 #include "core/geometry/principal_frame.h"
 #include "core/girth/band/plane_heights.h"
 #include "core/girth/band/plane_slab.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/girth/girth.h"
 #include "core/girth/refusals.h"
-#include "core/girth/section/section_gaps.h"
 #include "core/mean.h"
 #include "core/surface/paper/octree_surface.h"
 

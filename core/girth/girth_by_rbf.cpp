@@ -9,12 +9,12 @@
 
 #include "core/geometry/polygon.h"
 #include "core/girth/band/bodies_apart.h"
-#include "core/girth/control_points.h"
+#include "core/girth/contour/control_points.h"
 #include "core/girth/doubt/shared_length_doubt.h"
 #include "core/girth/girth.h"
 #include "core/girth/girth_of_all.h"
 #include "core/girth/open_section.h"
-#include "core/girth/section_warnings.h"
+#include "core/girth/section/section_warnings.h"
 #include "core/girth/told_girth.h"
 
 namespace instep {

@@ -17,7 +17,7 @@ namespace instep {
 /// read once more with both turned. Its interval reaches that reading too, and what refuses
 /// that one refuses it. If nothing closes there, that says nothing. A sure one that one even skin
 /// contradicts (smooth_section()) gives way to the other reading if that is of such a skin: of 800
-/// noisy smooth bodies two have a patch that noise has folded.
+/// noisy smooth bodies one has a patch that noise has folded, and was 2.5 sigma too long.
 Result<ToldGirth> girth_of_all(const PointCloud& cloud, const TapePlane& plane,
                                const GirthOptions& options);
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/girth/band/plane_band.h"
 #include "core/result.h"
 
 namespace instep {
@@ -15,8 +14,5 @@ tl::unexpected<Error> only_touched();
 
 /// Of points near the plane that do not hang together as skin does.
 tl::unexpected<Error> no_surface();
-
-/// Of points round which no loop closes: how much of it none of them shows.
-tl::unexpected<Error> does_not_close(const PlaneBand& band);
 
 }  // namespace instep

@@ -9,18 +9,18 @@
 #include "core/girth/band/plane_band.h"
 #include "core/girth/band/section_probe.h"
 #include "core/girth/contour/contour.h"
-#include "core/girth/control_points.h"
+#include "core/girth/contour/control_points.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/girth/doubt/length_doubt.h"
-#include "core/girth/refusals.h"
 #include "core/girth/section/section_evidence.h"
-#include "core/girth/section/section_gaps.h"
 #include "core/girth/section/section_loops.h"
 #include "core/girth/section/section_neck.h"
 #include "core/girth/section/section_unknowns.h"
+#include "core/girth/section/section_warnings.h"
 #include "core/girth/section/smooth_section.h"
-#include "core/girth/section_warnings.h"
+#include "core/girth/section/unseen_side.h"
 #include "core/in_millimetres.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 namespace {

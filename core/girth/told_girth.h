@@ -11,7 +11,7 @@
 #include "core/girth/section/unfollowed_skin.h"
 #include "core/girth/tape_plane.h"
 #include "core/result.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

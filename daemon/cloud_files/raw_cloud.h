@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/geometry/point_cloud.h"
-#include "core/geometry/triangle_mesh.h"
 #include "core/result.h"
 
 namespace instep {

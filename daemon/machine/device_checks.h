@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "config/settings.h"
+#include "config/devices/v4l2_settings.h"
 #include "drivers/v4l2/video_nodes.h"
 
 namespace instep {

@@ -26,16 +26,6 @@ tl::unexpected<Error> failed(int error_number, const char* doing) {
   return tl::make_unexpected(file_error(error_number, doing, "a page of PDF"));
 }
 
-bool write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return ::lseek(file, 0, SEEK_SET) == 0;
-}
-
 Result<std::string> read_all(int file) {
   std::string bytes;
   std::array<char, 65536> part;
@@ -92,7 +82,8 @@ Result<int> wait_for(pid_t child) {
 Result<std::string> pdf_of_page(const std::string& svg) {
   const Descriptor input(::memfd_create("page.svg", MFD_CLOEXEC));
   const Descriptor output(::memfd_create("page.pdf", MFD_CLOEXEC));
-  if (!input.is_open() || !output.is_open() || !write_all(input.number(), svg)) {
+  if (!input.is_open() || !output.is_open() || !write_all(input.number(), svg) ||
+      ::lseek(input.number(), 0, SEEK_SET) != 0) {
     return failed(errno, "make");
   }
   const auto child = start(input.number(), output.number());

@@ -74,16 +74,6 @@ int open_beside(const fs::path& path, mode_t mode, std::string& name) {
   return file;
 }
 
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 /// Makes the renaming itself last through a power cut. Some file systems cannot, which is no fault.
 void sync_folder(const fs::path& folder) {
   const Descriptor descriptor(
@@ -98,6 +88,16 @@ bool give_to(int file, const Owned& owned) {
 }
 
 }  // namespace
+
+bool write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
 
 fs::path end_of_links(fs::path path) {
   constexpr int kMostLinks = 40;

@@ -29,6 +29,9 @@ enum class Readers { kByUmask, kAll };
 Result<void> write_file_bytes(const std::filesystem::path& path, std::string_view bytes,
                               Readers of_new = Readers::kByUmask);
 
+/// All of `bytes` to an open file, however often a signal breaks in. False with errno set.
+bool write_all(int descriptor, std::string_view bytes);
+
 /// What write_file_bytes() writes to: where a link leads to, which need not be there, and the links
 /// after it; `path` itself if it is none.
 std::filesystem::path end_of_links(std::filesystem::path path);

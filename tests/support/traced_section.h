@@ -3,7 +3,7 @@
 #include "core/geometry/point_cloud.h"
 #include "core/girth/band/plane_band.h"
 #include "core/girth/contour/contour.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep::test {
 

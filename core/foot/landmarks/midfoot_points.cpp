@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/foot/skin/robust_extreme.h"
-#include "core/foot/skin/rough_tape.h"
 #include "core/foot/skin/skin_round.h"
 #include "core/geometry/quadratic_skin.h"
+#include "core/girth/rough_tape.h"
 #include "core/girth/tape_plane.h"
 
 namespace instep {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fusion/sole/close_sole.h"
+#include "core/fusion/sole/wall_foot.h"
 
 namespace instep {
 namespace {

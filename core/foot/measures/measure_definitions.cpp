@@ -7,8 +7,8 @@
 
 #include "core/foot/measures/foot_lengths.h"
 #include "core/foot/measures/foot_tapes.h"
-#include "core/foot/skin/rough_tape.h"
 #include "core/foot/sole/sunk_floor.h"
+#include "core/girth/rough_tape.h"
 
 namespace instep {
 namespace {

@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "core/foot/skin/skin_pieces.h"
+#include "core/foot/standing/skin_pieces.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"
-#include "core/girth/section/section_gaps.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/picked.h"
 
 namespace instep {

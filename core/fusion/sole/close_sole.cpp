@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/fusion/ground_plan.h"
+#include "core/fusion/sole/ground_plan.h"
+#include "core/fusion/sole/wall_foot.h"
 
 namespace instep {
 namespace {

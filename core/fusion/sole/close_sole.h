@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "core/fusion/sole/wall_foot.h"
 #include "core/geometry/point_cloud.h"
 
 namespace instep {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <tuple>
 
-#include "core/fusion/ground_plan.h"
+#include "core/fusion/sole/ground_plan.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/wall_facing.h"
 

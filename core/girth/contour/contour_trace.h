@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/girth/contour/contour.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/geometry/polygon.h"
-#include "core/girth/control_points.h"
+#include "core/girth/contour/control_points.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

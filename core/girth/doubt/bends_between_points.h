@@ -2,7 +2,7 @@
 
 #include "core/girth/contour/contour_course.h"
 #include "core/girth/doubt/unseen_bends.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

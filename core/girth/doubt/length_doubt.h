@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/girth/contour/contour.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

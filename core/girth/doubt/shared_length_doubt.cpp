@@ -6,7 +6,6 @@
 
 #include "core/geometry/polygon.h"
 #include "core/geometry/seen_skin.h"
-#include "core/girth/doubt/length_doubt.h"
 #include "core/normal_spread.h"
 
 namespace instep {

@@ -7,7 +7,7 @@
 #include "core/geometry/point_cloud.h"
 #include "core/girth/band/plane_band.h"
 #include "core/girth/contour/contour_index.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 #include "core/surface/ribbon/ribbon_spline.h"
 
 namespace instep {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/girth/section/section_gaps.h"
+#include "core/girth/contour/section_gaps.h"
 
 namespace instep {
 namespace {

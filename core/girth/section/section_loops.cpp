@@ -8,7 +8,7 @@
 
 #include "core/geometry/polygon.h"
 #include "core/girth/contour/contour_trace.h"
-#include "core/girth/section/section_gaps.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/mean.h"
 
 namespace instep {

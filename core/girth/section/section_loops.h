@@ -7,7 +7,7 @@
 #include "core/girth/contour/contour.h"
 #include "core/girth/contour/contour_index.h"
 #include "core/girth/section/section_evidence.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

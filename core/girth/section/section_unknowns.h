@@ -14,7 +14,7 @@
 #include "core/girth/section/skin_layers.h"
 #include "core/girth/section/smooth_section.h"
 #include "core/girth/section/unfollowed_skin.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

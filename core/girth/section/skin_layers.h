@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/girth/band/plane_band.h"
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,12 @@
 #include "core/mean.h"
 
 namespace instep {
+namespace {
+
+/// A side (radians) on which no point lies, from the middle of them all, that keeps a section open.
+constexpr double kNotableSide = 0.5;
+
+}  // namespace
 
 UnseenSide widest_unseen_side(const PlaneBand& band) {
   std::vector<Eigen::Vector2d> places;
@@ -36,6 +44,21 @@ UnseenSide widest_unseen_side(const PlaneBand& band) {
     widest = {angle, (places[next] - places[angles[i].second]).norm()};
   }
   return widest;
+}
+
+tl::unexpected<Error> does_not_close(const PlaneBand& band) {
+  const std::string what = "the section at the tape plane does not close";
+  const UnseenSide side = widest_unseen_side(band);
+  // From the middle of a thin body neighbours beside it lie at far different angles.
+  if (side.angle < kNotableSide || side.across < evidence_reach(band)) {
+    return fail(ErrorCode::kInsufficientData, what + ", though there are points all round it",
+                "take away strays, a floor or what else touches the body, or scan from nearer");
+  }
+  char figure[32];
+  std::snprintf(figure, sizeof figure, "%.0f mm", band.unit_mm * side.across);
+  return fail(ErrorCode::kInsufficientData,
+              what + ": there are no points over some " + figure + " of it",
+              "scan the body from there too");
 }
 
 }  // namespace instep

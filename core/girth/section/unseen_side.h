@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/girth/band/plane_band.h"
+#include "core/result.h"
 
 namespace instep {
 
@@ -14,5 +15,8 @@ struct UnseenSide {
 
 /// Of a band with a point at least. O(n log n).
 UnseenSide widest_unseen_side(const PlaneBand& band);
+
+/// Why there is no girth, of points round which no loop closes: how much of it none of them shows.
+tl::unexpected<Error> does_not_close(const PlaneBand& band);
 
 }  // namespace instep

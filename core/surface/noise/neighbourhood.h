@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/geometry/point_index.h"
 #include "core/surface/heights/kriging_likelihood.h"
 #include "core/surface/heights/tangent_view.h"
 

@@ -12,8 +12,8 @@
 #include "core/stride.h"
 #include "core/surface/heights/quadratic_sheet.h"
 #include "core/surface/patches/crease_rule.h"
+#include "core/surface/patches/sheet_rows.h"
 #include "core/surface/patches/two_sheets.h"
-#include "core/surface/sheet_rows.h"
 
 namespace instep {
 namespace {

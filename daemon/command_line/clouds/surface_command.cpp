@@ -14,9 +14,9 @@
 #include "daemon/cloud_files/mesh_ply_writer.h"
 #include "daemon/cloud_files/text_tokens.h"
 #include "daemon/command_line/clouds/cloud_options.h"
-#include "daemon/command_line/clouds/file_ending.h"
-#include "daemon/command_line/clouds/own_input.h"
 #include "daemon/command_line/command_output.h"
+#include "daemon/command_line/file_ending.h"
+#include "daemon/command_line/own_input.h"
 
 namespace instep {
 namespace {

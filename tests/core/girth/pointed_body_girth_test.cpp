@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/girth/control_points.h"
+#include "core/girth/contour/control_points.h"
 #include "core/girth/girth.h"
 #include "tests/support/analytic_shapes.h"
 #include "tests/support/random_numbers.h"

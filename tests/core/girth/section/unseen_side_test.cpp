@@ -8,7 +8,6 @@
 
 #include "core/degree.h"
 #include "core/girth/girth.h"
-#include "core/girth/refusals.h"
 #include "tests/support/cylinder_tape.h"
 #include "tests/support/empty_band.h"
 

@@ -1,4 +1,4 @@
-#include "config/devices/pose_matrix.h"
+#include "config/poses/pose_matrix.h"
 
 #include "core/fusion/frames/camera_limits.h"
 #include "core/geometry/pose_rows.h"

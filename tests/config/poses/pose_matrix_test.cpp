@@ -1,4 +1,4 @@
-#include "config/devices/pose_matrix.h"
+#include "config/poses/pose_matrix.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "daemon/command_line/clouds/file_ending.h"
-#include "daemon/command_line/clouds/own_input.h"
 #include "daemon/command_line/command_output.h"
 #include "daemon/command_line/commands.h"
+#include "daemon/command_line/file_ending.h"
+#include "daemon/command_line/own_input.h"
 #include "daemon/json/untrusted_json.h"
 #include "daemon/repeat/repeat_report.h"
 #include "daemon/repeat/repeat_study.h"

@@ -1,4 +1,4 @@
-#include "core/fusion/ground_plan.h"
+#include "core/fusion/sole/ground_plan.h"
 
 #include <algorithm>
 #include <utility>

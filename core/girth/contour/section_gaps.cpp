@@ -1,4 +1,4 @@
-#include "core/girth/section/section_gaps.h"
+#include "core/girth/contour/section_gaps.h"
 
 #include <algorithm>
 #include <cstddef>

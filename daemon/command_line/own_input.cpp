@@ -1,4 +1,4 @@
-#include "daemon/command_line/clouds/own_input.h"
+#include "daemon/command_line/own_input.h"
 
 #include <system_error>
 

@@ -1,4 +1,4 @@
-#include "core/girth/section_warnings.h"
+#include "core/girth/section/section_warnings.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/girth/contour/loop_choice.h"
-#include "core/girth/section/section_gaps.h"
+#include "core/girth/contour/section_gaps.h"
 #include "core/in_millimetres.h"
 
 namespace instep {

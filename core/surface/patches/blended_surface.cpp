@@ -1,4 +1,4 @@
-#include "core/surface/blended_surface.h"
+#include "core/surface/patches/blended_surface.h"
 
 #include <algorithm>
 #include <cmath>

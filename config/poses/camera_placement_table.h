@@ -1,6 +1,6 @@
 #pragma once
 
-#include "config/devices/camera_placement.h"
+#include "config/poses/camera_placement.h"
 #include "config/reading/settings_table.h"
 
 namespace instep {

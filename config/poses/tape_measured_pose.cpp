@@ -1,4 +1,4 @@
-#include "config/devices/tape_measured_pose.h"
+#include "config/poses/tape_measured_pose.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "core/surface/sheet_rows.h"
+#include "core/surface/patches/sheet_rows.h"
 
 #include <gtest/gtest.h>
 

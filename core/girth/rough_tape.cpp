@@ -1,4 +1,4 @@
-#include "core/foot/skin/rough_tape.h"
+#include "core/girth/rough_tape.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

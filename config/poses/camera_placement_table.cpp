@@ -1,11 +1,11 @@
-#include "config/devices/camera_placement_table.h"
+#include "config/poses/camera_placement_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "config/devices/pose_matrix.h"
-#include "config/devices/tape_measured_pose.h"
+#include "config/poses/pose_matrix.h"
+#include "config/poses/tape_measured_pose.h"
 #include "core/fusion/frames/camera_limits.h"
 
 namespace instep {

@@ -1,4 +1,4 @@
-#include "core/foot/skin/unseen_half.h"
+#include "core/foot/standing/unseen_half.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/girth/control_points.h"
+#include "core/girth/contour/control_points.h"
 
 #include <algorithm>
 
