@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/girth/girth_in_frame.h"
+
 namespace instep {
 namespace {
 

@@ -14,11 +14,11 @@
 #include "core/girth/band/plane_band.h"
 #include "core/girth/contour/contour_trace.h"
 #include "core/girth/contour/section_gaps.h"
+#include "core/girth/girth_in_frame.h"
 #include "core/girth/section/section_evidence.h"
 #include "core/girth/section/section_loops.h"
 #include "core/girth/section/section_unknowns.h"
 #include "core/girth/section/section_warnings.h"
-#include "core/girth/told_girth.h"
 #include "core/in_millimetres.h"
 #include "core/surface/patches/blended_surface.h"
 

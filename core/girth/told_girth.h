@@ -2,16 +2,10 @@
 
 #include <optional>
 
-#include "core/geometry/point_cloud.h"
-#include "core/girth/band/plane_band.h"
 #include "core/girth/contour/contour_zigzags.h"
 #include "core/girth/girth.h"
-#include "core/girth/section/section_evidence.h"
-#include "core/girth/section/smooth_section.h"
 #include "core/girth/section/unfollowed_skin.h"
-#include "core/girth/tape_plane.h"
 #include "core/result.h"
-#include "core/surface/patches/blended_surface.h"
 
 namespace instep {
 
@@ -41,15 +35,11 @@ struct ToldGirth {
   bool is_plain() const;
 };
 
-/// What the patches of a surface tell of a contour on it (doubt_of()), whose points are `sigma`
-/// off.
-MeasuredSection section_by_patches(const Contour& contour, const BlendedSurface& surface,
-                                   double sigma);
-
-/// What a section of that band tells, in millimetres and on the plane; without the number of the
-/// cloud's points, and without warnings.
-Girth girth_of(const PlaneBand& band, const MeasuredSection& section,
-               const SectionEvidence& evidence);
+/// Half of a 95 % interval that leaves nothing to be told, against the stretched length.
+inline constexpr double kMostDoubt = 0.1;
+/// The same of the contact length: with so many folds it may be no section at all. A hull of one
+/// was 63 mm short.
+inline constexpr double kMostFolded = 0.2;
 
 /// Whether the intervals of a girth that has both leave nothing to be told.
 bool is_too_doubtful(const Girth& girth);
@@ -62,9 +52,19 @@ void widen(double contact, double stretched, const tl::unexpected<Error>& why, T
 
 bool is_told(const Result<ToldGirth>& girth);
 
-/// The girth of a cloud that passed check_cloud(), all points near the plane taken together, as the
-/// plane's u and v let a surface through them run; see girth_of_all().
-Result<ToldGirth> girth_in_frame(const PointCloud& cloud, const TapePlane& plane,
-                                 const GirthOptions& options);
+/// Of a section that zigzags, by all that these add, where they may be made by strays.
+void widen_by_zigzags(ToldGirth& told);
+
+/// By what a section may have lost with some points: a part of the body that others of them are of
+/// still, or skin that led away from it before.
+void widen_by_lost_parts(const ToldGirth& before, ToldGirth& told);
+
+/// Whether a section that zigzags has about the same lengths without some points: then the skin is
+/// what turns to and fro.
+bool is_unchanged(const ToldGirth& zigzagging, const ToldGirth& other);
+
+/// Whether a section that zigzags may have taken in what lies beside its body, as a strip of floor
+/// that it stands on, rather than be of a body that turns so.
+bool may_have_taken_in(const ToldGirth& told);
 
 }  // namespace instep
