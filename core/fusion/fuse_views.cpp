@@ -7,14 +7,16 @@
 #include <numbers>
 #include <optional>
 
+#include "core/fusion/foot_points.h"
 #include "core/fusion/outliers.h"
-#include "core/fusion/overruled.h"
-#include "core/fusion/platform.h"
-#include "core/fusion/poses/pose_check.h"
+#include "core/fusion/pose_check.h"
+#include "core/fusion/poses/platform.h"
 #include "core/fusion/separate_feet.h"
 #include "core/fusion/sole/close_sole.h"
-#include "core/fusion/thin.h"
-#include "core/fusion/working_view.h"
+#include "core/fusion/station_region.h"
+#include "core/fusion/views/overruled.h"
+#include "core/fusion/views/thin.h"
+#include "core/fusion/views/working_view.h"
 #include "core/geometry/plane_vectors.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"

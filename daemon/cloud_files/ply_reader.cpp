@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/fusion/shared_errors.h"
+#include "core/fusion/views/shared_errors.h"
 #include "daemon/cloud_files/error_properties.h"
 #include "daemon/cloud_files/ply_body.h"
 #include "daemon/cloud_files/ply_header.h"

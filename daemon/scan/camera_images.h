@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fusion/frames/temporal_fusion.h"
-#include "core/fusion/fuse_views.h"
+#include "core/fusion/views/view.h"
 #include "core/go_on.h"
 #include "core/result.h"
 #include "daemon/scan/scan_pipeline.h"

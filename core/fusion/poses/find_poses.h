@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fusion/fuse_views.h"
+#include "core/fusion/views/view.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"
 #include "core/result.h"

@@ -6,7 +6,7 @@
 #include "core/fusion/poses/bent_depths.h"
 #include "core/fusion/poses/view_equations.h"
 #include "core/fusion/poses/view_matches.h"
-#include "core/fusion/shared_errors.h"
+#include "core/fusion/views/shared_errors.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"
 #include "core/result.h"

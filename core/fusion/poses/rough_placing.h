@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/fusion/witness.h"
+#include "core/fusion/views/witness.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
 #include "core/go_on.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/fusion/working_view.h"
+#include "core/fusion/views/working_view.h"
 #include "core/geometry/point_cloud.h"
 
 namespace instep {

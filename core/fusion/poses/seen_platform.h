@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/fusion/platform.h"
+#include "core/fusion/poses/platform.h"
 #include "core/fusion/poses/view_matches.h"
-#include "core/fusion/working_view.h"
+#include "core/fusion/views/working_view.h"
 #include "core/geometry/rigid_transform.h"
 
 namespace instep {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/fusion/poses/view_matches.h"
-#include "core/fusion/shared_errors.h"
+#include "core/fusion/views/shared_errors.h"
 
 namespace instep {
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/degree.h"
-#include "core/fusion/surface_points.h"
+#include "core/fusion/views/surface_points.h"
 #include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 

@@ -1,4 +1,4 @@
-#include "core/fusion/overruled.h"
+#include "core/fusion/views/overruled.h"
 
 #include <algorithm>
 #include <cmath>

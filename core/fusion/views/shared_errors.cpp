@@ -1,4 +1,4 @@
-#include "core/fusion/shared_errors.h"
+#include "core/fusion/views/shared_errors.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

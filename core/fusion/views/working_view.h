@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "core/fusion/fuse_views.h"
-#include "core/fusion/seen_through.h"
-#include "core/fusion/shared_errors.h"
-#include "core/fusion/thin.h"
+#include "core/fusion/views/shared_errors.h"
+#include "core/fusion/views/view.h"
+#include "core/fusion/views/witness.h"
+#include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
+#include "core/result.h"
 
 namespace instep {
 
@@ -48,22 +49,7 @@ void visit_pixels(const WorkingView& view, int stride, const Visit& visit) {
 /// Whether a point lies so near to the station's upright axis.
 bool is_within(const Eigen::Vector3d& point, double radius_mm);
 
-/// Whether a point of the station lies near enough to the platform to matter: within 600 mm of its
-/// middle in plan and 500 in height. What does not is background.
-bool in_region(const Eigen::Vector3d& point, const FusionSettings& settings);
-
 /// The points of some pixels, in the station frame.
 PointCloud station_cloud(const WorkingView& view, const std::vector<std::uint32_t>& pixels);
-
-/// What one view shows of the feet.
-struct FootPoints {
-  ViewedCloud points;  ///< above the platform and below the ceiling, seen through by no other view
-  std::size_t seen_through = 0;
-};
-
-/// Needs the standing height of `scene` and whether the platform was found. Changes nothing, so
-/// that several threads may each do one view.
-FootPoints foot_points(const std::vector<WorkingView>& views, std::size_t number,
-                       const FusionSettings& settings, const FusedScene& scene);
 
 }  // namespace instep

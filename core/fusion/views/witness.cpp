@@ -1,4 +1,4 @@
-#include "core/fusion/witness.h"
+#include "core/fusion/views/witness.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/fusion/poses/pose_check.h"
+#include "core/fusion/pose_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "core/fusion/frames/lens.h"
 #include "core/fusion/poses/registration.h"
+#include "core/fusion/station_region.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"
 

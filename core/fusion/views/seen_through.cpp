@@ -1,4 +1,4 @@
-#include "core/fusion/seen_through.h"
+#include "core/fusion/views/seen_through.h"
 
 namespace instep {
 

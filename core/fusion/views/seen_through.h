@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/fusion/thin.h"
-#include "core/fusion/witness.h"
+#include "core/fusion/views/thin.h"
+#include "core/fusion/views/witness.h"
 
 namespace instep {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/fusion/seen_through.h"
+#include "core/fusion/views/witness.h"
 #include "core/geometry/point_cloud.h"
 
 namespace instep {

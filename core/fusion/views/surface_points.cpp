@@ -1,4 +1,4 @@
-#include "core/fusion/surface_points.h"
+#include "core/fusion/views/surface_points.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/fusion/thin.h"
+#include "core/fusion/views/thin.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,8 @@
 
 #include <vector>
 
-#include "core/fusion/working_view.h"
+#include "core/fusion/fused_scene.h"
+#include "core/fusion/views/working_view.h"
 #include "core/go_on.h"
 #include "core/result.h"
 #include "core/workers.h"

@@ -1,4 +1,4 @@
-#include "core/fusion/overruled.h"
+#include "core/fusion/views/overruled.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/fusion/surface_points.h"
+#include "core/fusion/views/surface_points.h"
 #include "tests/support/fused_frames.h"
 #include "tests/support/ray_cast_scene.h"
 

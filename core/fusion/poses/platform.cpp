@@ -1,4 +1,4 @@
-#include "core/fusion/platform.h"
+#include "core/fusion/poses/platform.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
