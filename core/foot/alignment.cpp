@@ -6,16 +6,16 @@
 #include <string>
 #include <utility>
 
+#include "core/foot/axis/foot_axis.h"
+#include "core/foot/axis/outline_axis.h"
+#include "core/foot/axis/side_from_shape.h"
+#include "core/foot/cloud/normals_of_shape.h"
+#include "core/foot/cloud/scanner_lines.h"
 #include "core/foot/sole/floor_below.h"
 #include "core/foot/sole/open_sole.h"
 #include "core/foot/standing/foot_alone.h"
-#include "core/foot/standing/foot_axis.h"
-#include "core/foot/standing/normals_of_shape.h"
-#include "core/foot/standing/outline_axis.h"
 #include "core/foot/standing/plane_under_foot.h"
-#include "core/foot/standing/scanner_lines.h"
 #include "core/foot/standing/shoe_last.h"
-#include "core/foot/standing/side_from_shape.h"
 #include "core/foot/standing/unseen_half.h"
 #include "core/in_millimetres.h"
 #include "core/in_percent.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/foot/cloud/quieted.h"
+#include "core/foot/cloud/scanner_lines.h"
 #include "core/foot/measuring_rules.h"
 #include "core/foot/side.h"
-#include "core/foot/standing/quieted.h"
-#include "core/foot/standing/scanner_lines.h"
 #include "core/geometry/point_cloud.h"
 #include "core/geometry/rigid_transform.h"
 

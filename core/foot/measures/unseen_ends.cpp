@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "core/foot/alignment.h"
+#include "core/foot/axis/outline_axis.h"
 #include "core/foot/full_size.h"
 #include "core/foot/landmarks.h"
 #include "core/foot/landmarks/toe_points.h"
 #include "core/foot/skin/end_facing.h"
 #include "core/foot/skin/robust_extreme.h"
 #include "core/foot/skin/skin_round.h"
-#include "core/foot/standing/outline_axis.h"
 #include "core/foot/standing/shoe_last.h"
 
 namespace instep {

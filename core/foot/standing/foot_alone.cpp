@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/foot/standing/left_out_strays.h"
+#include "core/foot/cloud/left_out_strays.h"
 #include "core/foot/standing/plane_under_foot.h"
 #include "core/foot/standing/seen_floor.h"
 #include "core/foot/standing/standing_body.h"

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/foot/axis/outline_axis.h"
 #include "core/foot/full_size.h"
-#include "core/foot/standing/outline_axis.h"
 #include "core/geometry/extent.h"
 #include "core/geometry/moments.h"
 #include "core/some_of.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/foot/standing/outline_axis.h"
+#include "core/foot/axis/outline_axis.h"
 #include "core/median.h"
 
 namespace instep {

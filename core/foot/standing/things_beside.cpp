@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/foot/standing/skin_pieces.h"
+#include "core/foot/cloud/skin_pieces.h"
 #include "core/geometry/moments.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"

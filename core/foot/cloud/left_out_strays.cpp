@@ -1,11 +1,11 @@
-#include "core/foot/standing/left_out_strays.h"
+#include "core/foot/cloud/left_out_strays.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
-#include "core/foot/standing/scanner_lines.h"
+#include "core/foot/cloud/scanner_lines.h"
 #include "core/geometry/place_hash.h"
 #include "core/geometry/point_index.h"
 #include "core/geometry/point_spacing.h"

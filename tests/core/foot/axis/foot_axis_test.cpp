@@ -1,4 +1,4 @@
-#include "core/foot/standing/foot_axis.h"
+#include "core/foot/axis/foot_axis.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-#include "core/foot/standing/side_from_shape.h"
+#include "core/foot/axis/side_from_shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "core/foot/axis/outline_axis.h"
 #include "core/foot/full_size.h"
 #include "core/foot/skin/border_profile.h"
 #include "core/foot/skin/border_smoothing.h"
 #include "core/foot/skin/skin_round.h"
-#include "core/foot/standing/outline_axis.h"
 #include "core/geometry/extent.h"
 
 namespace instep {

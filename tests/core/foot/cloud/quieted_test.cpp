@@ -1,4 +1,4 @@
-#include "core/foot/standing/quieted.h"
+#include "core/foot/cloud/quieted.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/foot/standing/left_out_strays.h"
+#include "core/foot/cloud/left_out_strays.h"
 
 #include <gtest/gtest.h>
 

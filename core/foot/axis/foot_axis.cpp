@@ -1,16 +1,16 @@
-#include "core/foot/standing/foot_axis.h"
+#include "core/foot/axis/foot_axis.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "core/foot/axis/axis_turn.h"
 #include "core/foot/full_size.h"
 #include "core/foot/landmarks/second_toe.h"
 #include "core/foot/skin/border_crest.h"
 #include "core/foot/skin/end_facing.h"
 #include "core/foot/skin/robust_extreme.h"
-#include "core/foot/standing/axis_turn.h"
 
 namespace instep {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "core/foot/standing/scanner_lines.h"
+#include "core/foot/cloud/scanner_lines.h"
 #include "core/geometry/point_cloud.h"
 
 namespace instep {

@@ -1,4 +1,4 @@
-#include "core/foot/standing/scanner_lines.h"
+#include "core/foot/cloud/scanner_lines.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/foot/axis/outline_axis.h"
 #include "core/foot/measuring_rules.h"
 #include "core/foot/side.h"
-#include "core/foot/standing/outline_axis.h"
 #include "core/geometry/rigid_transform.h"
 
 namespace instep {

@@ -1,4 +1,4 @@
-#include "core/foot/standing/normals_of_shape.h"
+#include "core/foot/cloud/normals_of_shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/foot/standing/skin_pieces.h"
+#include "core/foot/cloud/skin_pieces.h"
 
 #include <algorithm>
 #include <cmath>

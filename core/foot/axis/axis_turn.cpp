@@ -1,13 +1,13 @@
-#include "core/foot/standing/axis_turn.h"
+#include "core/foot/axis/axis_turn.h"
 
 #include <cmath>
 #include <vector>
 
+#include "core/foot/axis/outline_axis.h"
 #include "core/foot/landmarks/ball_points.h"
 #include "core/foot/skin/border_profile.h"
 #include "core/foot/skin/border_smoothing.h"
 #include "core/foot/skin/foot_outline.h"
-#include "core/foot/standing/outline_axis.h"
 
 namespace instep {
 namespace {

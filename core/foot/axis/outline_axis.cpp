@@ -1,4 +1,4 @@
-#include "core/foot/standing/outline_axis.h"
+#include "core/foot/axis/outline_axis.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
