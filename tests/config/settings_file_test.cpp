@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "config/reading/settings_text.h"
 #include "config/settings_description.h"
 #include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"

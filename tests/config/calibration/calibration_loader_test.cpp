@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/calibration/calibration_file.h"
+#include "config/reading/settings_text.h"
 #include "config/settings_description.h"
 #include "config/settings_file.h"
 #include "tests/support/temporary_folder.h"
