@@ -40,7 +40,7 @@ constexpr double kSharpestTurn = 0.15;
 /// From so many points of a band on the line is asked first, which costs a twentieth. A fold of
 /// patches may bend it more than the skin, so that its turns tell less.
 constexpr std::size_t kManyPoints = 3000;
-constexpr double kSharpestTurnOfLine = 0.25;
+constexpr double kSharpestTurnOfLine = 0.2;
 
 constexpr double kLeast = 8e-5;
 
