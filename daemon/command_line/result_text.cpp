@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "daemon/json/untrusted_json.h"
+#include "daemon/report/number_text.h"
 #include "daemon/report/sizes_report.h"
 
 namespace instep {
@@ -25,7 +26,7 @@ std::string measure_line(const json& measure, const json& truth) {
   if (!value) return fmt::format("  {:<26}       -\n", id);
   const auto interval = number_at(measure, is_angle ? "u95_deg" : "u95_mm");
   std::string line = fmt::format("  {:<26}{:>8.1f} {}{:>8}", id, *value, is_angle ? "deg" : "mm ",
-                                 interval ? fmt::format("+-{:.1f}", *interval) : "");
+                                 interval ? "+-" + interval_tenths(*interval) : "");
   if (const auto known = number_at(truth, id.c_str())) {
     line += fmt::format("{:>9.1f}{:>+8.2f}", *known, *value - *known);
   }

@@ -13,8 +13,12 @@ std::string tenths(double value) {
   return fmt::format("{:.1f}", rounded_to(value, 0.001));
 }
 
+std::string interval_tenths(double u95) {
+  return tenths(u95 < 0.1 ? 0.1 : u95);
+}
+
 std::string interval_text(double value, const std::optional<double>& u95) {
-  return u95 ? fmt::format("{} ± {}", tenths(value), tenths(*u95)) : tenths(value);
+  return u95 ? fmt::format("{} ± {}", tenths(value), interval_tenths(*u95)) : tenths(value);
 }
 
 std::string measure_text(const Measure& measure) {

@@ -11,6 +11,9 @@ namespace instep {
 /// rounds alike.
 std::string tenths(double value);
 
+/// The same of half of an interval, "0.1" at the least: no measure is told to be exact.
+std::string interval_tenths(double u95);
+
 /// "251.3", or "251.3 +- 0.2" with a true plus-minus sign where there is an interval.
 std::string interval_text(double value, const std::optional<double>& u95);
 

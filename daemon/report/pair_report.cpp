@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "daemon/json/untrusted_json.h"
+#include "daemon/report/number_text.h"
 #include "daemon/report/sizes_report.h"
 
 namespace instep {
@@ -20,10 +21,9 @@ std::string measure_line(const json& measure) {
   const auto difference = number_at(measure, "difference_mm");
   if (!left || !right || !difference) return {};
   const auto interval = number_at(measure, "u95_mm");
-  std::string line =
-      fmt::format("  {:<26}{:>8.1f}{:>8.1f}{:>+8.1f} {:<7}{}", string_at(measure, "id"), *left,
-                  *right, *difference, interval ? fmt::format("+-{:.1f}", *interval) : "",
-                  string_at(measure, "larger"));
+  std::string line = fmt::format(
+      "  {:<26}{:>8.1f}{:>8.1f}{:>+8.1f} {:<7}{}", string_at(measure, "id"), *left, *right,
+      *difference, interval ? "+-" + interval_tenths(*interval) : "", string_at(measure, "larger"));
   line.erase(line.find_last_not_of(' ') + 1);
   return line + "\n";
 }

@@ -12,7 +12,7 @@ namespace instep {
 namespace {
 
 std::string interval_column(const std::optional<double>& u95) {
-  return u95 ? "± " + tenths(*u95) : std::string();
+  return u95 ? "± " + interval_tenths(*u95) : std::string();
 }
 
 std::size_t widest_name(const MeasureSet& measures) {

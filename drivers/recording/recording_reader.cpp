@@ -48,6 +48,10 @@ Result<void> check_fits_memory(const Recording& recording) {
 }  // namespace
 
 Result<Recording> read_recording(const std::filesystem::path& folder) {
+  if (folder.empty()) {
+    return fail(ErrorCode::kInvalidInput, "the name of the recording is empty",
+                fmt::format("give the folder that holds {}", kRecordingFileName));
+  }
   std::error_code error;
   if (std::filesystem::is_regular_file(folder, error)) {
     return fail(ErrorCode::kInvalidInput, folder.string() + " is a file",

@@ -58,18 +58,23 @@ Result<Descriptor> hold(const fs::path& folder) {
 
 }  // namespace
 
+Result<void> RecordingWriter::check_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error) || fs::is_empty(folder, error)) return {};
+  if (holds_only_unfinished(folder, error)) return {};
+  return fail(ErrorCode::kInvalidInput, folder.string() + " is there and not empty",
+              "give the name of a new folder");
+}
+
 Result<RecordingWriter> RecordingWriter::create(const fs::path& folder, Recording header) {
   header.folder = folder;
   header.frames.clear();
   if (auto good = check_header(header, folder / kRecordingFileName); !good) {
     return tl::make_unexpected(good.error());
   }
+  if (auto good = check_folder(folder); !good) return tl::make_unexpected(good.error());
   std::error_code error;
   const bool is_left_half_done = holds_only_unfinished(folder, error);
-  if (!is_left_half_done && fs::exists(folder, error) && !fs::is_empty(folder, error)) {
-    return fail(ErrorCode::kInvalidInput, folder.string() + " is there and not empty",
-                "give the name of a new folder");
-  }
   const bool made_folder = fs::create_directories(folder, error);
   if (error) return tl::make_unexpected(file_error(error.value(), "make", folder));
   auto held = hold(folder);

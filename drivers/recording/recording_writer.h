@@ -24,8 +24,12 @@ namespace instep {
 /// One thread at a time. Cost of a frame: its compression and one sync of the disk.
 class RecordingWriter {
  public:
+  /// Whether a recording can be written there, as far as can be told without making anything:
+  /// kInvalidInput where something else is there. For those who would work long in vain.
+  static Result<void> check_folder(const std::filesystem::path& folder);
+
   /// `header` holds everything but folder and frames, which are ignored. Makes `folder`; it must
-  /// not exist, be empty (kInvalidInput) or hold what a sudden end has left; kBusy where another
+  /// not exist, be empty or hold what a sudden end has left (check_folder()); kBusy where another
   /// program writes there. Also fails where the cameras are not ones that
   /// read_recording() would take, and with kPermissionDenied or kNoSpace.
   static Result<RecordingWriter> create(const std::filesystem::path& folder, Recording header);

@@ -259,11 +259,23 @@ TEST_F(BadInput, SimulateRefusesAFolderThatHoldsSomething) {
                  "new folder");
 }
 
+/// It was computed for some seconds first; and a side was left alone without a word.
+TEST_F(BadInput, SimulateRefusesBeforeItComputes) {
+  file("mine.txt", "x");
+  expect_failure({"simulate", "--out", folder_.path(), "--subject", "feet", "--side", "left"}, 1,
+                 "--subject foot");
+  expect_failure(
+      {"simulate", "--out", folder_.path() / "new", "--subject", "last", "--side", "left"}, 1,
+      "--subject foot");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new"));
+}
+
 TEST_F(BadInput, AnEmptyNameIsCalledSo) {
   expect_failure({"simulate", "--out", "", "--subject", "cylinder", "--frames", "1"}, 1,
                  "the name of what to make is empty");
   expect_failure({"girth", "", "--plane=0,0,0,1,0,0,0,1,0"}, 1,
                  "the name of what to read is empty");
+  expect_failure({"replay", ""}, 1, "the name of the recording is empty");
 }
 
 // With other settings than those that were meant a station measures otherwise.

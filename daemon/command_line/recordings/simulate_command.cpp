@@ -9,6 +9,7 @@
 #include "daemon/command_line/recordings/capture_recording.h"
 #include "daemon/command_line/stop_request.h"
 #include "daemon/station/devices.h"
+#include "drivers/recording/recording_writer.h"
 #include "sim/simulated_station.h"
 
 namespace instep {
@@ -22,7 +23,7 @@ struct SimulateCommand {
   std::string folder;
   std::uint64_t seed = 1;
   std::string subject = "foot";
-  std::string side = "right";
+  std::string side;
   std::string noise = "typical";
   int cameras = 4;
   std::size_t frames = 15;
@@ -38,6 +39,16 @@ std::string check_seed(const std::string& text) {
              : "needs a whole number from 0 to 18446744073709551615";
 }
 
+/// What takes no time, so that nothing is computed in vain.
+Result<void> check(const SimulateCommand& command) {
+  if (!command.side.empty() && command.subject != "foot") {
+    return fail(ErrorCode::kInvalidInput,
+                "--side says which foot it is, and --subject " + command.subject + " has no choice",
+                "leave --side out, or use --subject foot");
+  }
+  return RecordingWriter::check_folder(command.folder);
+}
+
 Result<SimulatedStation> build(const SimulateCommand& command) {
   SimulationSettings settings;
   settings.seed = command.seed;
@@ -50,6 +61,7 @@ Result<SimulatedStation> build(const SimulateCommand& command) {
 }
 
 Result<void> run(const SimulateCommand& command) {
+  if (auto good = check(command); !good) return tl::make_unexpected(good.error());
   const auto station = build(command);
   if (!station) return tl::make_unexpected(station.error());
   const auto truth = station->truth();
@@ -91,9 +103,8 @@ void add_simulate_command(CLI::App& app, int& exit_code) {
   simulate->add_option("--subject", command->subject, "what stands on the platform")
       ->check(CLI::IsMember({"foot", "feet", "cylinder", "last"}))
       ->capture_default_str();
-  simulate->add_option("--side", command->side, "which foot, if there is one alone")
-      ->check(CLI::IsMember({"left", "right"}))
-      ->capture_default_str();
+  simulate->add_option("--side", command->side, "which foot, of --subject foot: right if not given")
+      ->check(CLI::IsMember({"left", "right"}));
   simulate->add_option("--noise", command->noise, "how much the cameras err")
       ->check(CLI::IsMember({"none", "typical", "pessimistic"}))
       ->capture_default_str();

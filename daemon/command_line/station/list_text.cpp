@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "daemon/json/untrusted_json.h"
+#include "daemon/report/number_text.h"
 #include "daemon/scan/scan_id.h"
 
 namespace instep {
@@ -48,7 +49,7 @@ std::string measure_text(const json& result, const std::string& id, const char* 
     const auto interval = length_at(measure, "u95_mm");
     if (!value) break;
     return fmt::format("{} {:.1f}{} mm", name, *value,
-                       interval ? fmt::format(" +-{:.1f}", *interval) : "");
+                       interval ? " +-" + interval_tenths(*interval) : "");
   }
   return fmt::format("no {}", name);
 }

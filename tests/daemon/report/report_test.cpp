@@ -88,6 +88,7 @@ TEST(Report, TenthsAreThoseOfTheThousandthsThatAreKept) {
   EXPECT_EQ(tenths(0.6497), tenths(0.65));
   EXPECT_EQ(tenths(251.349), "251.3");
   EXPECT_EQ(interval_text(100.0, 0.6497), "100.0 ± " + tenths(0.65));
+  EXPECT_EQ(interval_text(100.0, 0.00055), "100.0 ± 0.1") << "none is exact";
 }
 
 TEST(ResultJson, HoldsWhatAGirthIs) {
