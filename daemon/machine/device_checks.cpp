@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "daemon/machine/inventory.h"
+#include "drivers/files/system_user.h"
 #include "drivers/usb/sysfs.h"
 #include "drivers/usb/usb_devices.h"
 
@@ -48,7 +49,7 @@ std::optional<DeviceTrouble> trouble_of_camera(const V4l2Settings& camera,
     const bool denied = errno == EACCES;
     return DeviceTrouble{
         fmt::format("{} cannot be opened: {}", node.path.string(), std::strerror(errno)),
-        denied ? "sudo usermod -aG video $USER, then log in again" : "sudo udevadm trigger"};
+        denied ? command_to_join("video") + ", then log in again" : "sudo udevadm trigger"};
   }
   const auto& device = nodes->front().device;
   if (device.could_be_faster) {

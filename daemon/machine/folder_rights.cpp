@@ -1,32 +1,17 @@
 #include "daemon/machine/folder_rights.h"
 
 #include <grp.h>
-#include <pwd.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
+#include <cstddef>
 #include <vector>
+
+#include "drivers/files/system_user.h"
 
 namespace instep {
 namespace {
-
-struct User {
-  std::string name;
-  gid_t group = 0;
-};
-
-std::optional<User> find_user(uid_t number) {
-  std::array<char, 16384> text{};
-  passwd entry{};
-  passwd* found = nullptr;
-  if (::getpwuid_r(number, &entry, text.data(), text.size(), &found) != 0 || found == nullptr) {
-    return std::nullopt;
-  }
-  return User{found->pw_name, found->pw_gid};
-}
 
 bool is_in_group(uid_t number, gid_t group) {
   const auto user = find_user(number);
@@ -39,11 +24,6 @@ bool is_in_group(uid_t number, gid_t group) {
 }
 
 }  // namespace
-
-std::string user_name(uid_t user) {
-  const auto found = find_user(user);
-  return found ? found->name : std::to_string(user);
-}
 
 bool may_write_in(const std::filesystem::path& folder, uid_t user) {
   struct stat there {};

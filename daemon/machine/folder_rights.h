@@ -7,9 +7,6 @@
 
 namespace instep {
 
-/// The user's name, or number where the system knows none.
-std::string user_name(uid_t user);
-
 /// Whether the folder's owner, group and mode let the user make something in it. True where there
 /// is an access list, which is not read, or the folder cannot be looked at: nothing is known then.
 bool may_write_in(const std::filesystem::path& folder, uid_t user);

@@ -13,6 +13,7 @@
 #include "daemon/machine/folder_rights.h"
 #include "drivers/files/file_bytes.h"
 #include "drivers/files/file_identity.h"
+#include "drivers/files/system_user.h"
 
 namespace instep {
 namespace {

@@ -13,17 +13,19 @@
 
 #include "drivers/files/folder_entries.h"
 #include "drivers/files/node_error.h"
+#include "drivers/files/system_user.h"
 
 namespace instep {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPermissionAdvice =
-    "let the udev rules of Instep name it, then: sudo usermod -aG plugdev $USER";
+std::string advice_on_rights() {
+  return "let the udev rules of Instep name it, then: " + command_to_join("plugdev");
+}
 
 Error not_opened(int error_number, const fs::path& node) {
-  if (auto known = node_error(error_number, node, kPermissionAdvice, "plug the pedal in")) {
+  if (auto known = node_error(error_number, node, advice_on_rights(), "plug the pedal in")) {
     return *known;
   }
   return fail(ErrorCode::kIo,
@@ -99,7 +101,7 @@ Result<std::unique_ptr<InputDevice>> find_by_ids(const fs::path& folder, const U
     return fail(
         ErrorCode::kPermissionDenied,
         fmt::format("no {} among the devices that this user may open; {} is none", text, closed),
-        kPermissionAdvice);
+        advice_on_rights());
   }
   return fail(ErrorCode::kNotFound,
               without_key ? fmt::format("the device {} has no key {}", text, key_name(key))

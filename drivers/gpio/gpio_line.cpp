@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/files/system_user.h"
+
 namespace instep {
 namespace {
 
@@ -77,7 +79,7 @@ Result<GpioLine> GpioLine::find(const GpioLineAddress& address, const fs::path& 
   if (found) return std::move(*found);
   if (!closed.empty()) {
     return fail(ErrorCode::kPermissionDenied, "this user may not open " + closed,
-                "sudo usermod -aG plugdev $USER, where the udev rules of Instep are installed");
+                command_to_join("plugdev") + ", where the udev rules of Instep are installed");
   }
   return not_found(address.text(), nodes.paths);
 }

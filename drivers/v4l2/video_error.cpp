@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "drivers/files/system_user.h"
+
 namespace instep {
 
 Error video_error(int number, const std::string& doing) {
@@ -21,7 +23,7 @@ Error video_error(int number, const std::string& doing) {
     case EACCES:
     case EPERM:
       return {ErrorCode::kPermissionDenied, Remedy::kOperator, message,
-              "add the user of the daemon to the group video"};
+              command_to_join("video") + ", then log in again, or start instepd again"};
     case EMFILE:
     case ENFILE:
     case ENOMEM:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "drivers/files/node_error.h"
+#include "drivers/files/system_user.h"
 #include "drivers/v4l2/depth_format.h"
 #include "drivers/v4l2/video_call.h"
 #include "drivers/v4l2/video_error.h"
@@ -53,7 +54,7 @@ Result<std::vector<VideoModes>> modes_of(VideoSystem& system, int node) {
 }
 
 Error not_opened(int error_number, const std::filesystem::path& path) {
-  return node_error(error_number, path, "sudo usermod -aG video $USER, then log in again",
+  return node_error(error_number, path, command_to_join("video") + ", then log in again",
                     "plug it in again")
       .value_or(video_error(error_number, "opening " + path.string()));
 }

@@ -12,6 +12,7 @@
 
 #include "daemon/machine/folder_rights.h"
 #include "drivers/files/file_bytes.h"
+#include "drivers/files/system_user.h"
 
 namespace instep {
 namespace {

@@ -34,10 +34,5 @@ TEST(FolderRights, OfAFolderThatIsNotThereAreUnknown) {
   EXPECT_TRUE(may_write_in("/none/at/all", kOwner));
 }
 
-TEST(UserName, IsTheNumberOfWhomNobodyKnows) {
-  EXPECT_EQ(user_name(0), "root");
-  EXPECT_EQ(user_name(kOwner), "54321");
-}
-
 }  // namespace
 }  // namespace instep

@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "daemon/machine/folder_rights.h"
+#include "drivers/files/system_user.h"
 
 namespace instep {
 namespace {

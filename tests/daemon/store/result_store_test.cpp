@@ -11,9 +11,9 @@
 #include <new>
 #include <thread>
 
-#include "daemon/machine/folder_rights.h"
 #include "daemon/scan/scan_id.h"
 #include "daemon/store/posix_storage.h"
+#include "drivers/files/system_user.h"
 #include "tests/daemon/store/result_store_on_disk.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "drivers/files/system_user.h"
 #include "drivers/gpio/gpio_chips.h"
 #include "tests/support/temporary_folder.h"
 
@@ -38,6 +39,8 @@ TEST(GpioLineSearch, SaysWhyAChipCannotBeOpened) {
     EXPECT_EQ(code_at(of_system), ErrorCode::kIo) << of_system;
   }
   EXPECT_EQ(code_at(EACCES), ErrorCode::kPermissionDenied);
+  EXPECT_EQ(GpioLine::find({"pedal", "", {}}, devices.path()).error().advice,
+            command_to_join("plugdev") + ", where the udev rules of Instep are installed");
   for (const int of_none : {ENOENT, ENODEV, ENOTTY}) {
     EXPECT_EQ(code_at(of_none), ErrorCode::kNotFound) << of_none;
   }

@@ -10,7 +10,7 @@
 #include <optional>
 #include <thread>
 
-#include "daemon/machine/folder_rights.h"
+#include "drivers/files/system_user.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
