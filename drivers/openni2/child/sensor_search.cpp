@@ -28,10 +28,16 @@ tl::unexpected<Error> not_found(const std::string& serial, const std::vector<std
                                 const std::optional<Error>& trouble) {
   const std::string wanted =
       serial.empty() ? "no OpenNI2 sensor is" : "the OpenNI2 sensor " + serial + " is not";
+  if (!trouble) {
+    return fail(ErrorCode::kNotFound, Remedy::kReopen,
+                fmt::format("{} plugged in ({})", wanted, with_serials(others)),
+                "plug it in, or correct its serial number in the settings");
+  }
   return fail(ErrorCode::kNotFound, Remedy::kReopen,
-              fmt::format("{} plugged in ({}{})", wanted, with_serials(others),
-                          trouble ? ", and " + trouble->message : ""),
-              "plug it in, or correct its serial number in the settings");
+              fmt::format("{} plugged in, unless it is one that cannot be opened ({}{})", wanted,
+                          others.empty() ? "" : with_serials(others) + ", and ", trouble->message),
+              "plug it in, or correct its serial number in the settings; if both are right, " +
+                  trouble->advice);
 }
 
 /// Where OpenNI2 was loaded from: those who load the same one see the same sensors. This program's
@@ -93,11 +99,11 @@ Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial) {
     }
   }
   if (found) return found;
-  // Of one that cannot be opened it is not known whether it is the one.
-  const bool said_all = places.size() == 1 || serial.empty();
-  if (first_trouble && (said_all || first_trouble->code == ErrorCode::kPermissionDenied)) {
-    return tl::make_unexpected(*first_trouble);
-  }
+  // Of one that cannot be opened it is not known whether it is the one: mostly it is another camera
+  // of this very station.
+  const bool says_all =
+      first_trouble && (serial.empty() || first_trouble->code == ErrorCode::kPermissionDenied);
+  if (says_all) return tl::make_unexpected(*first_trouble);
   return not_found(serial, others, first_trouble);
 }
 

@@ -28,8 +28,9 @@ class SearchTurn {
 };
 
 /// Opens the sensor of this serial number; with none, the only one there is. Fails with kNotFound
-/// if it is not there, naming those that are, kInvalidInput if several have the number, or with
-/// what kept it from being opened if it may be one of those.
+/// if it is not there, naming those that are and one that cannot be opened, with kPermissionDenied
+/// if that is for want of rights, with kInvalidInput if several have the number; without a number,
+/// with what keeps the only one from being opened.
 Result<std::unique_ptr<DepthSensor>> find_sensor(const std::string& serial);
 
 /// All sensors, each opened for a moment.

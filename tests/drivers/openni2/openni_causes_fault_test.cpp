@@ -52,9 +52,18 @@ INSTANTIATE_TEST_SUITE_P(
                 bus.plug_in({.serial = "C3", .faults = {"busy"}});
               },
               ErrorCode::kNotFound,
-              "A1 is not plugged in (there is B2, and the sensor at sim://1/2"},
-        Cause{"Busy", [](auto& bus, auto&) { bus.plug_in({.faults = {"busy"}}); }, ErrorCode::kBusy,
-              "held by somebody else"},
+              "A1 is not plugged in, unless it is one that cannot be opened (there is B2, and the "
+              "sensor at sim://1/2"},
+        // Which may be the station's own, at another camera of its: to close other programs was the
+        // advice for a cable that was out.
+        Cause{"OnlyOneInUse", [](auto& bus, auto&) { bus.plug_in({.faults = {"busy"}}); },
+              ErrorCode::kNotFound, "if both are right, close other programs that use it"},
+        Cause{"Busy",
+              [](auto& bus, auto& settings) {
+                bus.plug_in({.faults = {"busy"}});
+                settings.serial.clear();
+              },
+              ErrorCode::kBusy, "held by somebody else"},
         Cause{"NoDriver",
               [](auto& bus, auto&) {
                 std::filesystem::remove(bus.folder() / "OpenNI2/Drivers/libinstepsim.so.0");
