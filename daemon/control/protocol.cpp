@@ -120,9 +120,11 @@ json to_json(const StationStatus& status) {
   for (const auto& [name, on, trouble] : status.outputs) {
     outputs.push_back(with_trouble({{"name", name}, {"on", on}}, trouble));
   }
+  json troubles = json::array();
+  for (const auto& trouble : status.troubles) troubles.push_back(trouble.error.line());
   return {{"state", to_string(status.state)},
           {"trouble", status.trouble()},
-          {"troubles", status.troubles},
+          {"troubles", troubles},
           {"warnings", status.warnings},
           {"stage", status.stage},
           {"done", json(json_number(status.done))},

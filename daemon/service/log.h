@@ -1,9 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/settings.h"
@@ -37,27 +37,37 @@ class ChangeLog {
   std::map<std::string, std::string> said_;
 };
 
+/// A thing that lasts. Its line may change meanwhile, its name does not.
+struct LastingThing {
+  std::string name;
+  std::string line;
+};
+
 /// Of things that last, several at a time: logs each once for as long as it does.
-class LastingLines {
+class LastingThings {
  public:
-  /// Which of them did not last already. What is not among them is over: it would be news again.
-  std::vector<std::string> news(const std::vector<std::string>& lines) {
-    std::vector<std::string> news;
-    std::copy_if(lines.begin(), lines.end(), std::back_inserter(news),
-                 [&](const auto& line) { return !holds(line); });
-    lines_ = lines;
-    return news;
+  /// The lines of those that did not last already. What is not among them is over: it would be news
+  /// again.
+  std::vector<std::string> news(const std::vector<LastingThing>& things) {
+    std::vector<std::string> lines;
+    std::vector<std::string> names;
+    for (const auto& [name, line] : things) {
+      if (!holds(name)) lines.push_back(line);
+      names.push_back(name);
+    }
+    names_ = std::move(names);
+    return lines;
   }
   /// Told by other means.
-  void add(const std::string& line) { lines_.push_back(line); }
-  bool empty() const { return lines_.empty(); }
+  void add(const std::string& name) { names_.push_back(name); }
+  bool empty() const { return names_.empty(); }
 
  private:
-  bool holds(const std::string& line) const {
-    return std::find(lines_.begin(), lines_.end(), line) != lines_.end();
+  bool holds(const std::string& name) const {
+    return std::find(names_.begin(), names_.end(), name) != names_.end();
   }
 
-  std::vector<std::string> lines_;
+  std::vector<std::string> names_;
 };
 
 }  // namespace instep

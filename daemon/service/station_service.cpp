@@ -5,12 +5,14 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "daemon/control/store_requests.h"
 #include "daemon/loop/caught.h"
+#include "daemon/station/cause_of_trouble.h"
 #include "daemon/store/posix_storage.h"
 
 namespace instep {
@@ -29,6 +31,19 @@ static_assert(kShutdownLimit + std::max(kThreadsLimit, OutputKeeper::kLastMoment
 constexpr std::chrono::microseconds kWatchdogTick{1000000};
 /// Mostly a scan is stored within a second.
 constexpr std::chrono::seconds kLongStoring{30};
+
+LastingThing lasting(const StationTrouble& trouble) {
+  const std::string line = trouble.error.line();
+  return {trouble.camera.empty() ? line : told_once("camera " + trouble.camera, trouble.error),
+          line};
+}
+
+template <class Things, class ToLasting>
+std::vector<LastingThing> all_lasting(const Things& things, const ToLasting& to_lasting) {
+  std::vector<LastingThing> all;
+  std::transform(things.begin(), things.end(), std::back_inserter(all), to_lasting);
+  return all;
+}
 
 }  // namespace
 
@@ -142,16 +157,18 @@ void StationService::station_changed() {
     if (now.state == StationState::kStoring) storing_timer_.set(kLongStoring);
   }
   const bool was_in_trouble = !troubles_.empty();
-  for (const auto& trouble : troubles_.news(now.troubles)) log_warning(trouble);
+  for (const auto& line : troubles_.news(all_lasting(now.troubles, lasting))) log_warning(line);
   if (was_in_trouble && troubles_.empty()) log_info("all is well again");
-  for (const auto& warning : warnings_.news(now.warnings)) log_warning(warning);
+  const auto in_its_words = [](const std::string& line) { return LastingThing{line, line}; };
+  for (const auto& line : warnings_.news(all_lasting(now.warnings, in_its_words))) {
+    log_warning(line);
+  }
   if (said_.is_news("stage", now.stage) && !now.stage.empty()) {
     log_debug("scan is at " + now.stage);
   }
   for (const auto& [name, on, trouble] : now.outputs) {
-    const std::string line = trouble ? trouble->line() : "";
-    if (!said_.is_news(name, line)) continue;
-    trouble ? log_warning(name + ": " + line) : log_info(name + " is there again");
+    if (!said_.is_news(name, trouble ? told_once(name, *trouble) : "")) continue;
+    trouble ? log_warning(name + ": " + trouble->line()) : log_info(name + " is there again");
   }
   store_care_->station_changed();
   manager_.status(text_of(now));
@@ -170,9 +187,10 @@ void StationService::scan_succeeded(const std::vector<StoredResult>& results) {
 
 void StationService::scan_failed(const Error& error) {
   log_warning("no scan: " + error.line());
-  const auto lasting = station_->status().troubles;
-  const bool lasts = std::find(lasting.begin(), lasting.end(), error.line()) != lasting.end();
-  if (lasts) troubles_.add(error.line());
+  for (const auto& trouble : station_->status().troubles) {
+    const auto [name, line] = lasting(trouble);
+    if (line == error.line()) troubles_.add(name);
+  }
   server_->broadcast(event_line("failure", {{"error", to_json(error)}}));
 }
 

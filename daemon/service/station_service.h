@@ -71,8 +71,8 @@ class StationService {
   std::unique_ptr<ControlServer> server_;
   std::unique_ptr<Station> station_;
   std::optional<StoreCare> store_care_;  ///< there with station_
-  LastingLines troubles_;
-  LastingLines warnings_;
+  LastingThings troubles_;
+  LastingThings warnings_;
   std::string last_result_event_;
   std::chrono::nanoseconds last_result_time_{0};
   ProgressWatch progress_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/result.h"
 
@@ -11,6 +12,12 @@ namespace instep {
 inline std::optional<ErrorCode> cause_of(const std::optional<Error>& trouble) {
   if (!trouble) return std::nullopt;
   return trouble->code == ErrorCode::kDeviceGone ? ErrorCode::kNotFound : trouble->code;
+}
+
+/// What of a trouble of `part` a person is told once for as long as it lasts: that it is away, in
+/// whatever words, which tell of what is there instead; of any other trouble, the words.
+inline std::string told_once(const std::string& part, const Error& trouble) {
+  return cause_of(trouble) == ErrorCode::kNotFound ? part + " is away" : trouble.line();
 }
 
 }  // namespace instep

@@ -183,53 +183,42 @@ Result<void> check_names(const Devices& devices) {
   return {};
 }
 
-/// The error, with the cameras that have none.
-Error with_waiting(Error trouble, const Devices& devices) {
-  std::string names;
-  for (const auto& camera : devices.cameras) {
-    names += (names.empty() ? "" : ", ") + camera->description().geometry.id;
+Result<void> add_source(const CameraSettings& source, const Settings& settings, OpenSensors& kept,
+                        Devices& devices) {
+  switch (source.kind) {
+    case CameraKind::kSimulated:
+      return add_simulated(settings.simulation, devices);
+    case CameraKind::kRecording:
+      return add_recording(source.path, devices);
+    case CameraKind::kOpenni:
+      return add_openni(source.openni, kept, devices);
+    case CameraKind::kV4l2:
+      return add_v4l2(source.v4l2, devices);
   }
-  if (!names.empty()) trouble.message += " (no fault so far: " + names + ")";
-  return trouble;
+  return {};
 }
 
 /// Leaves in `kept` the sensors that it could open, if it fails, for the next time.
-Result<Devices> open_all(OpenSensors& kept, const Settings& settings) {
+OpenedDevices open_all(OpenSensors& kept, const Settings& settings) {
   Devices devices;
-  std::optional<Error> trouble;
-  for (const auto& camera : settings.cameras) {
-    Result<void> added;
-    switch (camera.kind) {
-      case CameraKind::kSimulated:
-        added = add_simulated(settings.simulation, devices);
-        break;
-      case CameraKind::kRecording:
-        added = add_recording(camera.path, devices);
-        break;
-      case CameraKind::kOpenni:
-        added = add_openni(camera.openni, kept, devices);
-        break;
-      case CameraKind::kV4l2:
-        added = add_v4l2(camera.v4l2, devices);
-        break;
-    }
-    if (camera.placement() != nullptr) devices.calibration = source_of_poses(settings);
-    if (added) continue;
+  OpeningFailure failure;
+  for (const auto& source : settings.cameras) {
+    const auto* placed = source.placement();
+    if (placed != nullptr) devices.calibration = source_of_poses(settings);
+    const auto added = add_source(source, settings, kept, devices);
     // One that is away does not hide what is wrong with another.
-    if (trouble) {
-      trouble->message += "; " + added.error().message;
-    } else {
-      trouble = added.error();
-    }
+    if (!added) failure.sources.push_back({placed != nullptr ? placed->name : "", added.error()});
   }
-  if (trouble) {
-    const Error error = with_waiting(*trouble, devices);
+  if (!failure.sources.empty()) {
+    for (const auto& camera : devices.cameras) {
+      failure.without_fault.push_back(camera->description().geometry.id);
+    }
     kept.keep(settings, std::move(devices));
-    return tl::make_unexpected(error);
+    return tl::make_unexpected(std::move(failure));
   }
   kept.clear();
   if (const auto distinct = check_names(devices); !distinct) {
-    return tl::make_unexpected(distinct.error());
+    return tl::make_unexpected(OpeningFailure{{{"", distinct.error()}}, {}});
   }
   return devices;
 }
@@ -293,7 +282,8 @@ std::optional<UsbAddress> usb_address_of(const OpenniSettings& sensor,
 }
 
 Result<Devices> open_devices(const Settings& settings) {
-  return open_devices_at_last()(settings);
+  return open_devices_at_last()(settings).map_error(
+      [](const OpeningFailure& failure) { return failure.as_one(); });
 }
 
 OpenDevices open_devices_at_last() {

@@ -9,6 +9,7 @@
 
 #include "config/settings.h"
 #include "core/result.h"
+#include "daemon/station/opening_failure.h"
 #include "drivers/depth_camera.h"
 #include "drivers/output_line.h"
 #include "drivers/pedal.h"
@@ -37,7 +38,8 @@ Result<Devices> open_devices(const Settings& settings);
 
 /// The same for whoever tries again until all are there: OpenNI2 sensors that it could open stay
 /// open from a call that failed to the next. For one thread at a time.
-using OpenDevices = std::function<Result<Devices>(const Settings&)>;
+using OpenedDevices = tl::expected<Devices, OpeningFailure>;
+using OpenDevices = std::function<OpenedDevices(const Settings&)>;
 OpenDevices open_devices_at_last();
 
 /// z of the standing surface, by the settings or else as the cameras' source says it. Asked anew

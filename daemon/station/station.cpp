@@ -132,7 +132,7 @@ StationStatus Station::status() const {
   StationStatus status;
   status.state = machine_.state();
   status.cameras = camera_status();
-  for (const auto& one : troubles(status.cameras)) status.troubles.push_back(one.line());
+  status.troubles = troubles(status.cameras);
   status.warnings = pose_warnings(status.cameras);
   const std::string late = warning_of_short_deadline(settings_);
   if (!late.empty()) status.warnings.push_back(late);
@@ -206,19 +206,19 @@ void Station::open_devices_again() {
   opening_ = true;
   scan_thread_.post(
       [this, post = loop_.poster(), open = open_devices_, settings = settings_](TaskProgress&) {
-        auto devices = std::make_shared<Result<Devices>>(open(settings));
+        auto devices = std::make_shared<OpenedDevices>(open(settings));
         post([this, devices] { take_devices(std::move(*devices)); });
       });
 }
 
-void Station::take_devices(Result<Devices> devices) {
+void Station::take_devices(OpenedDevices devices) {
   opening_ = false;
   if (!devices) {
-    open_trouble_ = devices.error();
+    opening_troubles_ = std::move(devices.error().sources);
     open_timer_.set(open_back_off_.next());
     return handle(StationEvent::kCamerasLost);
   }
-  open_trouble_.reset();
+  opening_troubles_.clear();
   devices_ = std::move(*devices);
   cameras_ = std::make_shared<CameraSet>(std::exchange(devices_.cameras, {}));
   begin_care();
@@ -359,16 +359,16 @@ Error Station::refusal() const {
     return {ErrorCode::kBusy, Remedy::kRetry, "the station is starting",
             "wait a moment and scan again"};
   }
-  return all.front();
+  return all.front().error;
 }
 
-std::vector<Error> Station::troubles(const std::vector<CameraStatus>& cameras) const {
-  std::vector<Error> all;
-  const auto add = [&](const std::optional<Error>& trouble) {
-    if (trouble) all.push_back(*trouble);
+std::vector<StationTrouble> Station::troubles(const std::vector<CameraStatus>& cameras) const {
+  std::vector<StationTrouble> all;
+  const auto add = [&](const std::optional<Error>& trouble, const std::string& camera = {}) {
+    if (trouble) all.push_back({*trouble, camera});
   };
-  add(open_trouble_);
-  for (const auto& camera : cameras) add(camera.trouble);
+  for (const auto& source : opening_troubles_) add(source.error, source.camera);
+  for (const auto& camera : cameras) add(camera.trouble, camera.id);
   add(store_trouble_);
   add(pedal_trouble_);
   return all;

@@ -84,7 +84,7 @@ class Station {
   void handle(StationEvent event);
   void act(StationAction action);
   void open_devices_again();
-  void take_devices(Result<Devices> devices);
+  void take_devices(OpenedDevices devices);
   void begin_care();
   void cameras_looked_at();
   void pedal_signalled(PedalSignal signal);
@@ -100,7 +100,7 @@ class Station {
   void scan_ended(const ScanOutcome& outcome);
   void note_store_failure(const Error& error);
   ScanTools tools() const;
-  std::vector<Error> troubles(const std::vector<CameraStatus>& cameras) const;
+  std::vector<StationTrouble> troubles(const std::vector<CameraStatus>& cameras) const;
   /// Why a scan cannot begin now.
   Error refusal() const;
 
@@ -118,7 +118,7 @@ class Station {
   std::optional<Error> pedal_trouble_;
   std::optional<Error> store_trouble_;
   std::uint64_t store_failures_ = 0;
-  std::optional<Error> open_trouble_;
+  std::vector<SourceTrouble> opening_troubles_;
 
   Devices devices_;  ///< without its cameras, which the set owns
   std::shared_future<std::map<std::string, double>> truth_;

@@ -32,11 +32,16 @@ struct StoreStatus {
   std::optional<Error> trouble;
 };
 
+/// What is wrong and what to do.
+struct StationTrouble {
+  Error error;
+  std::string camera{};  ///< if it is one's
+};
+
 /// All that is told of a station from outside.
 struct StationStatus {
   StationState state = StationState::kStarting;
-  /// What is wrong and what to do, a line each: cameras, store, pedal.
-  std::vector<std::string> troubles;
+  std::vector<StationTrouble> troubles;  ///< of cameras, store, pedal
   std::vector<std::string> warnings;  ///< what spoils measures or holds up a scan, and stops none
   std::string stage;                  ///< of the scan that runs; empty if none does
   double done = 0.0;                  ///< of that scan, 0 to 1
@@ -49,8 +54,8 @@ struct StationStatus {
   /// Id; empty if there was none since the daemon started, or it was removed.
   std::string last_result;
 
-  /// The first; empty if nothing is wrong.
-  std::string trouble() const { return troubles.empty() ? "" : troubles.front(); }
+  /// The first, in a line; empty if nothing is wrong.
+  std::string trouble() const { return troubles.empty() ? "" : troubles.front().error.line(); }
 };
 
 }  // namespace instep

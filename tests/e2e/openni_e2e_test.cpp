@@ -143,6 +143,50 @@ TEST(OpenniStation, KeepsItsOtherSensorsOpenWhileOneIsMissing) {
             2);
 }
 
+/// What the daemon says is wrong with a camera; empty if nothing is.
+std::string trouble_of(const StationProcess& station, const std::string& camera) {
+  const auto status = json::parse(station.run_instep("status --format json").text);
+  for (const json& trouble : status.at("troubles")) {
+    const auto line = trouble.get<std::string>();
+    if (line.starts_with("camera " + camera + ":")) return line;
+  }
+  return {};
+}
+
+/// Each that came was another camera there in place of those that had not, which were all warned of
+/// once more.
+TEST(OpenniStation, LogsOnceThatACameraIsMissingWhateverElseComes) {
+  OpenniBus bus;
+  OpenniStation sensors(bus, small_station(), 3);
+  for (std::size_t i = 0; i < sensors.size(); ++i) bus.unplug(sensors.serial(i));
+  StationProcess station;
+  station.write_settings(sensors.camera_tables() + kSmallCapture);
+  station.start();
+  ASSERT_TRUE(station.wait_for("is not plugged in", kLong)) << station.log();
+  const auto& last = sensors.name(2);
+  const auto first_words = trouble_of(station, last);
+  ASSERT_THAT(first_words, HasSubstr(sensors.serial(2) + " is not plugged in"));
+  for (std::size_t i = 0; i < 2; ++i) {
+    sensors.plug_in(i);
+    const auto deadline = steady_clock::now() + kLong;
+    while (!trouble_of(station, sensors.name(i)).empty() && steady_clock::now() < deadline) {
+      std::this_thread::sleep_for(10ms);
+    }
+    EXPECT_EQ(trouble_of(station, sensors.name(i)), "");
+    EXPECT_THAT(trouble_of(station, last), HasSubstr(sensors.serial(2) + " is not plugged in"));
+    EXPECT_NE(trouble_of(station, last), first_words) << "its newest words are told";
+  }
+  sensors.plug_in(2);
+  ASSERT_EQ(station.run_instep("status --wait-ready 60").exit_code, 0) << station.log();
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const std::string log = station.log();
+    const std::string warning = sensors.serial(i) + " is not plugged in";
+    const auto first = log.find(warning);
+    ASSERT_NE(first, std::string::npos) << log;
+    EXPECT_EQ(log.find(warning, first + 1), std::string::npos) << log;
+  }
+}
+
 TEST(OpenniStation, TakesTheSetOnceMoreWhenAProcessDiesInMidScan) {
   OpenniBus bus;
   const OpenniStation sensors(bus, small_station(), 3);

@@ -106,13 +106,15 @@ TEST(Protocol, TellsHowEachPartIsInTheStatus) {
   StationStatus status;
   EXPECT_TRUE(to_json(status).at("pedal").is_null());
   EXPECT_EQ(to_json(status).at("trouble"), "");
-  status.troubles = {"the camera left", "it is stuck: take the foot off it"};
-  status.pedal = {
-      Error{ErrorCode::kBusy, Remedy::kOperator, "it is stuck", "take the foot off it"}};
+  const Error stuck{ErrorCode::kBusy, Remedy::kOperator, "it is stuck", "take the foot off it"};
+  status.troubles = {{{ErrorCode::kDeviceGone, Remedy::kReopen, "the camera left", ""}, "left"},
+                     {stuck}};
+  status.pedal = {stuck};
   status.store.root = "/scans";
   const auto json = to_json(status);
   EXPECT_EQ(json.at("trouble"), "the camera left");
-  EXPECT_EQ(json.at("troubles"), nlohmann::json(status.troubles));
+  EXPECT_EQ(json.at("troubles"),
+            (nlohmann::json{"the camera left", "it is stuck: take the foot off it"}));
   EXPECT_EQ(json.at("pedal").at("ok"), false);
   EXPECT_EQ(json.at("pedal").at("trouble"), "it is stuck: take the foot off it");
   EXPECT_EQ(json.at("pedal").at("advice"), "take the foot off it");

@@ -30,17 +30,21 @@ TEST(Log, StaysWhenItsLevelIsSet) {
 }
 
 /// What came back after it was over was never told again.
-TEST(LastingLines, AreNewsOnceForAsLongAsTheyLast) {
+TEST(LastingThings, AreNewsOnceForAsLongAsTheyLast) {
   using testing::ElementsAre;
   using testing::IsEmpty;
-  LastingLines lines;
-  EXPECT_THAT(lines.news({"late", "tilted"}), ElementsAre("late", "tilted"));
-  EXPECT_THAT(lines.news({"tilted", "dark", "late"}), ElementsAre("dark"));
-  EXPECT_THAT(lines.news({}), IsEmpty());
-  EXPECT_TRUE(lines.empty());
-  EXPECT_THAT(lines.news({"late"}), ElementsAre("late"));
-  lines.add("dark");
-  EXPECT_THAT(lines.news({"late", "dark"}), IsEmpty());
+  LastingThings things;
+  const LastingThing late{"late", "it is late"};
+  const LastingThing tilted{"tilted", "it is tilted"};
+  const LastingThing dark{"dark", "it is dark"};
+  EXPECT_THAT(things.news({late, tilted}), ElementsAre(late.line, tilted.line));
+  EXPECT_THAT(things.news({tilted, dark, late}), ElementsAre(dark.line));
+  EXPECT_THAT(things.news({}), IsEmpty());
+  EXPECT_TRUE(things.empty());
+  EXPECT_THAT(things.news({late}), ElementsAre(late.line));
+  things.add(dark.name);
+  EXPECT_THAT(things.news({late, dark}), IsEmpty());
+  EXPECT_THAT(things.news({{late.name, "it is later yet"}, dark}), IsEmpty());
 }
 
 }  // namespace

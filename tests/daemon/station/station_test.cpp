@@ -44,7 +44,7 @@ class ScriptedStation : public test::StationOnLoop {
         [cameras](const Settings&) {
           Devices devices;
           devices.cameras.push_back(std::move(*cameras));
-          return Result<Devices>(std::move(devices));
+          return OpenedDevices(std::move(devices));
         },
         opens_pedal);
   }

@@ -78,7 +78,7 @@ json told(const std::optional<Error>& camera, const std::optional<Error>& pedal,
   status.pedal = {pedal};
   status.store = {"/scans", store};
   for (const auto& trouble : {camera, store, pedal}) {
-    if (trouble) status.troubles.push_back(trouble->line());
+    if (trouble) status.troubles.push_back({*trouble});
   }
   return to_json(status);
 }
@@ -142,14 +142,16 @@ TEST(DaemonCheck, TellsWhatNoPartTells) {
   EXPECT_THAT(check_cameras_of(to_json(status), {})[0].finding, HasSubstr("none is open"));
   const Error silent{ErrorCode::kTimeout, Remedy::kOperator, "the pedal does not answer", "see"};
   status.pedal = {silent};
-  status.troubles = {silent.line()};
+  status.troubles = {{silent}};
   EXPECT_THAT(check_cameras_of(to_json(status), {})[0].finding, HasSubstr("none is open"))
       << "a pedal is no reason";
   status.pedal.reset();
-  status.troubles = {"camera left: the sensor 123 is not plugged in: plug it in"};
+  const Error away{ErrorCode::kNotFound, Remedy::kReopen,
+                   "camera left: the sensor 123 is not plugged in", "plug it in"};
+  status.troubles = {{away, "left"}};
   const auto daemon = check_daemon(to_json(status), "/run/s");
   EXPECT_FALSE(daemon.good);
-  EXPECT_EQ(daemon.finding, "degraded: " + status.troubles[0]);
+  EXPECT_EQ(daemon.finding, "degraded: " + away.line());
   EXPECT_THAT(check_cameras_of(to_json(status), {}), IsEmpty()) << "which that explains";
 }
 
