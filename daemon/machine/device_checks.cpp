@@ -49,7 +49,7 @@ std::optional<DeviceTrouble> trouble_of_camera(const V4l2Settings& camera,
     const bool denied = errno == EACCES;
     return DeviceTrouble{
         fmt::format("{} cannot be opened: {}", node.path.string(), std::strerror(errno)),
-        denied ? command_to_join("video") + ", then log in again" : "sudo udevadm trigger"};
+        denied ? command_to_join("video") + ", then log in again" : "sudo udevadm trigger", denied};
   }
   const auto& device = nodes->front().device;
   if (device.could_be_faster) {

@@ -13,6 +13,7 @@ namespace instep {
 struct DeviceTrouble {
   std::string finding;
   std::string remedy;
+  bool is_closed = false;  ///< it is that this user may not open it, which another may
 };
 
 /// Names the cause if the camera is not there, is in another's place, has no driver, may not be

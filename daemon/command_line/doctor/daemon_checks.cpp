@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "daemon/command_line/doctor/closed_check.h"
 #include "daemon/command_line/doctor/store_check.h"
 #include "daemon/json/untrusted_json.h"
 
@@ -146,11 +147,25 @@ std::vector<DoctorCheck> check_cameras_of(const json& status, const VideoTrouble
   return checks;
 }
 
-std::vector<DoctorCheck> check_video_cameras(const VideoTroubles& video) {
+VideoTroubles without_those_of(const json& status, VideoTroubles video) {
+  for (const auto& camera : list_at(status, "cameras")) {
+    const auto shown = video.find(string_at(camera, "id"));
+    if (shown != video.end() && shown->second && shown->second->is_closed) video.erase(shown);
+  }
+  return video;
+}
+
+std::vector<DoctorCheck> check_video_cameras(const VideoTroubles& video,
+                                             std::optional<uid_t> daemon) {
   std::vector<DoctorCheck> checks;
   for (const auto& [name, trouble] : video) {
-    checks.push_back(trouble ? bad_check("camera", name + ": " + trouble->finding, trouble->remedy)
-                             : good_check("camera", name + " is plugged in and may be opened"));
+    if (!trouble) {
+      checks.push_back(good_check("camera", name + " is plugged in and may be opened"));
+      continue;
+    }
+    const std::string finding = name + ": " + trouble->finding;
+    checks.push_back(trouble->is_closed ? closed_check("camera", finding, trouble->remedy, daemon)
+                                        : bad_check("camera", finding, trouble->remedy));
   }
   return checks;
 }
@@ -179,8 +194,9 @@ std::vector<DoctorCheck> check_outputs(const std::vector<OutputFinding>& outputs
     for (const auto& one : outputs) {
       if (one.trouble == output.trouble) names.push_back(one.name);
     }
-    checks.push_back(bad_check(
-        "output", fmt::format("{}: {}", fmt::join(names, ", "), output.trouble), output.remedy));
+    const auto finding = fmt::format("{}: {}", fmt::join(names, ", "), output.trouble);
+    checks.push_back(output.is_closed ? closed_check("output", finding, output.remedy)
+                                      : bad_check("output", finding, output.remedy));
   }
   return checks;
 }

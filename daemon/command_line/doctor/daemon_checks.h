@@ -40,14 +40,20 @@ DoctorCheck no_cameras();
 /// of which check_video_cameras() tells; one for all if they answer.
 std::vector<DoctorCheck> check_cameras_of(const nlohmann::json& status, const VideoTroubles& video);
 
-/// One for each of them.
-std::vector<DoctorCheck> check_video_cameras(const VideoTroubles& video);
+/// Those of which the kernel's folders tell whoever asks more than the daemon does: not a camera
+/// that they may not open, and the daemon has.
+VideoTroubles without_those_of(const nlohmann::json& status, VideoTroubles video);
+
+/// One for each of them. `daemon`: whom it runs as, if it answers.
+std::vector<DoctorCheck> check_video_cameras(const VideoTroubles& video,
+                                             std::optional<uid_t> daemon);
 
 /// A lamp or a projector, and what is wrong with it.
 struct OutputFinding {
   std::string name;
   std::string trouble;  ///< empty if it is there
   std::string remedy;
+  bool is_closed = false;  ///< it is that whoever asks may not open it
 };
 
 /// As the daemon tells them.

@@ -10,7 +10,10 @@ struct DoctorCheck {
   std::string name;
   bool good = true;
   std::string finding;
-  std::string remedy;  ///< empty if good
+  std::string remedy;   ///< empty if good
+  bool unseen = false;  ///< whoever asks may not look: neither good nor known to be wrong
+
+  bool is_wrong() const { return !good && !unseen; }
 };
 
 inline DoctorCheck good_check(const char* name, std::string finding) {
@@ -19,6 +22,11 @@ inline DoctorCheck good_check(const char* name, std::string finding) {
 
 inline DoctorCheck bad_check(const char* name, std::string finding, std::string remedy) {
   return {name, false, std::move(finding), std::move(remedy)};
+}
+
+/// `remedy`: how to look.
+inline DoctorCheck unseen_check(const char* name, std::string finding, std::string remedy) {
+  return {name, false, std::move(finding), std::move(remedy), true};
 }
 
 }  // namespace instep

@@ -14,6 +14,7 @@
 
 #include "core/built_for.h"
 #include "daemon/build_facts.h"
+#include "daemon/command_line/doctor/closed_check.h"
 #include "daemon/command_line/doctor/daemon_checks.h"
 #include "daemon/command_line/doctor/store_check.h"
 #include "daemon/command_line/station_settings.h"
@@ -69,19 +70,24 @@ VideoTroubles troubles_of_video_cameras(const Settings& settings) {
 }
 
 /// Nothing of video cameras, which are among the devices though they be away.
-std::optional<DoctorCheck> check_opening(const Result<Devices>& devices,
-                                         const VideoTroubles& video) {
+std::vector<DoctorCheck> check_opening(const OpenedDevices& devices, const VideoTroubles& video) {
+  std::vector<DoctorCheck> checks;
   if (!devices) {
-    return bad_check("cameras", devices.error().message,
-                     devices.error().advice.empty() ? "instepd --check" : devices.error().advice);
+    for (const auto& source : devices.error().sources) {
+      checks.push_back(failed_check("cameras", source.error));
+      if (checks.back().remedy.empty()) checks.back().remedy = "instepd --check";
+    }
+  } else if (devices->cameras.empty()) {
+    checks.push_back(no_cameras());
   }
-  if (devices->cameras.empty()) return no_cameras();
-  if (devices->cameras.size() <= video.size()) return std::nullopt;
-  return good_check("cameras",
-                    fmt::format("{} can be opened", devices->cameras.size() - video.size()));
+  const auto opened = devices ? devices->cameras.size() : devices.error().without_fault.size();
+  if (opened > video.size()) {
+    checks.push_back(good_check("cameras", fmt::format("{} can be opened", opened - video.size())));
+  }
+  return checks;
 }
 
-ToldSerials told_serials(const Result<Devices>& devices) {
+ToldSerials told_serials(const OpenedDevices& devices) {
   ToldSerials told;
   if (!devices) return told;
   for (const auto& camera : devices->cameras) {
@@ -96,19 +102,21 @@ void add(std::vector<DoctorCheck> more, std::vector<DoctorCheck>& checks) {
 
 /// Asks the daemon, who has the cameras, or opens them if there is none and the settings are sound.
 /// Gives what they tell.
-ToldSerials look_at_cameras(const Result<json>& status, const Settings& settings, bool are_sound,
+ToldSerials look_at_cameras(const Result<json>& status, std::optional<uid_t> daemon,
+                            const Settings& settings, bool are_sound,
                             std::vector<DoctorCheck>& checks) {
-  const auto video = troubles_of_video_cameras(settings);
+  auto video = troubles_of_video_cameras(settings);
   ToldSerials told;
   if (status) {
+    video = without_those_of(*status, std::move(video));
     add(check_cameras_of(*status, video), checks);
     told = told_serials(list_at(*status, "cameras"));
   } else if (are_sound) {
-    const auto devices = open_devices(settings);
-    if (auto check = check_opening(devices, video)) checks.push_back(std::move(*check));
+    const auto devices = open_devices_at_last()(settings);
+    add(check_opening(devices, video), checks);
     told = told_serials(devices);
   }
-  add(check_video_cameras(video), checks);
+  add(check_video_cameras(video, daemon), checks);
   return told;
 }
 
@@ -129,7 +137,7 @@ void check_pedal(const Result<json>& status, const Settings& settings,
   if (kind != PedalKind::kGpio && kind != PedalKind::kEvdev) return;
   const auto pedal = open_pedal(settings);
   checks.push_back(pedal ? good_check("pedal", "can be opened")
-                         : bad_check("pedal", pedal.error().message, pedal.error().advice));
+                         : failed_check("pedal", pedal.error()));
 }
 
 /// Asks the daemon, who has the lines, or looks whether they could be had. Touches none.
@@ -138,8 +146,9 @@ std::vector<DoctorCheck> look_at_outputs(const Result<json>& status, const Setti
   std::vector<OutputFinding> outputs;
   for (const auto& [name, output] : settings.outputs.named()) {
     const auto there = check_output(*output);
-    outputs.push_back(there ? OutputFinding{name, "", ""}
-                            : OutputFinding{name, there.error().message, there.error().advice});
+    const auto trouble = there ? Error{} : there.error();
+    outputs.push_back(
+        {name, trouble.message, trouble.advice, trouble.code == ErrorCode::kPermissionDenied});
   }
   return check_outputs(outputs, "can be opened");
 }
@@ -216,7 +225,7 @@ std::vector<DoctorCheck> examine_machine() {
   checks.push_back(status ? check_store_of(*status, store, daemon) : check_store(store, daemon));
   if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
   checks.push_back(check_daemon(status, settings.control.socket));
-  const auto told = look_at_cameras(status, settings, found.has_value(), checks);
+  const auto told = look_at_cameras(status, daemon, settings, found.has_value(), checks);
   // Of a faulty calibration check_settings() tells.
   auto calibration = found ? check_calibration(settings, told) : std::nullopt;
   if (calibration) checks.push_back(std::move(*calibration));

@@ -1,6 +1,5 @@
 #include "daemon/command_line/doctor/store_check.h"
 
-#include <pwd.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -10,18 +9,13 @@
 #include <string>
 #include <system_error>
 
+#include "daemon/command_line/doctor/closed_check.h"
 #include "daemon/machine/folder_rights.h"
 #include "drivers/files/file_bytes.h"
 #include "drivers/files/system_user.h"
 
 namespace instep {
 namespace {
-
-/// Whom the daemon would run as: where Instep is installed, not as root.
-std::optional<uid_t> installed_user() {
-  const auto* user = ::getpwnam("instep");
-  return user != nullptr ? std::optional(user->pw_uid) : std::nullopt;
-}
 
 /// For no daemon runs: may it, or whoever runs it, write there?
 bool may_owner_write(const std::filesystem::path& folder) {

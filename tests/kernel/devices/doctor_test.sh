@@ -47,7 +47,8 @@ says "\"lamp\", the lamp.ready" instep devices --format text
 # As udev leaves a chip without the rules of Instep.
 node=/dev/$(cat $chip/bank0/chip_name)
 chmod 600 "$node"
-says "this user may not open $node" setpriv --reuid=65534 --clear-groups "$(command -v instep)" doctor
+says "?     pedal       not looked at: this user may not open $node" \
+  setpriv --reuid=65534 --clear-groups "$(command -v instep)" doctor
 says "$node: you may not open it" \
   setpriv --reuid=65534 --clear-groups "$(command -v instep)" devices --format text
 

@@ -88,7 +88,7 @@ std::vector<std::string> all_bad(json status, const VideoTroubles& video) {
   const test::TemporaryFolder root;
   status["store"]["root"] = root.path().string();
   std::vector<DoctorCheck> checks = check_cameras_of(status, video);
-  const auto shown = check_video_cameras(video);
+  const auto shown = check_video_cameras(video, std::nullopt);
   checks.insert(checks.end(), shown.begin(), shown.end());
   checks.push_back(check_daemon(status, "/run/s"));
   checks.push_back(check_store_of(status, root.path(), ::geteuid()));
@@ -120,6 +120,27 @@ TEST(DaemonCheck, TellsEachFaultOnceWithOneRemedy) {
   EXPECT_THAT(all_bad(told(kAway, std::nullopt, std::nullopt), none_shown),
               ElementsAre("camera camera left: it is away -> plug it in"))
       << "of which the kernel knows nothing";
+}
+
+/// A camera that the daemon had open was wrong for whoever might not open it.
+TEST(DaemonCheck, LeavesToTheDaemonACameraThatWhoeverAsksMayNotOpen) {
+  const VideoTroubles closed{
+      {"left", DeviceTrouble{"/dev/video0 cannot be opened", "join the group", true}},
+      {"right", DeviceTrouble{"it is on a slow link", "plug it in elsewhere"}},
+      {"new", DeviceTrouble{"/dev/video9 cannot be opened", "join the group", true}}};
+  for (const auto& trouble : {std::optional<Error>(), std::optional(kAway)}) {
+    const auto video = without_those_of(told(trouble, std::nullopt, std::nullopt), closed);
+    EXPECT_FALSE(video.contains("left"));
+    EXPECT_TRUE(video.at("right").has_value()) << "which the daemon does not tell";
+    EXPECT_TRUE(video.contains("new")) << "which the daemon does not know";
+  }
+  const auto away = told(kAway, std::nullopt, std::nullopt);
+  EXPECT_THAT(all_bad(away, without_those_of(away, {{"left", closed.at("left")}})),
+              ElementsAre("camera camera left: it is away -> plug it in"));
+  const auto unknown = check_video_cameras({{"new", closed.at("new")}}, ::geteuid() + 1);
+  ASSERT_EQ(unknown.size(), 1U);
+  EXPECT_TRUE(unknown[0].unseen);
+  EXPECT_THAT(unknown[0].finding, HasSubstr("new: /dev/video9"));
 }
 
 /// Of those that come before it nobody was told while the first one was away.
@@ -188,6 +209,14 @@ TEST(OutputCheck, NamesLampsThatAreAwayForOneCauseTogether) {
   EXPECT_EQ(checks[0].finding, "lamp.ready, projector: there is no chip");
   EXPECT_EQ(checks[0].remedy, "plug it in");
   EXPECT_EQ(checks[1].finding, "lamp.busy is there");
+}
+
+TEST(OutputCheck, IsNotWrongForWantOfRightsOfWhoeverAsks) {
+  const auto checks =
+      check_outputs({{"lamp.ready", "this user may not open it", "join", true}}, "can be opened");
+  ASSERT_EQ(checks.size(), 1U);
+  EXPECT_TRUE(checks[0].unseen);
+  EXPECT_THAT(checks[0].finding, HasSubstr("lamp.ready: this user may not open it"));
 }
 
 }  // namespace

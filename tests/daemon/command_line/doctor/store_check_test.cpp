@@ -3,14 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pwd.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <optional>
-#include <thread>
 
 #include "drivers/files/system_user.h"
+#include "tests/support/stranger.h"
 #include "tests/support/temporary_folder.h"
 
 namespace instep {
@@ -18,15 +17,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// As somebody finds it who owns nothing: that thread alone is another user's.
 DoctorCheck check_of_stranger(const std::filesystem::path& store, std::optional<uid_t> daemon) {
-  constexpr int kNobody = 65534;
-  DoctorCheck check;
-  std::thread([&] {
-    ::syscall(SYS_setresuid, kNobody, kNobody, kNobody);
-    check = check_store(store, daemon);
-  }).join();
-  return check;
+  return test::as_stranger([&] { return check_store(store, daemon); });
 }
 
 TEST(StoreCheck, NeedsNoRightOfWhoeverAsks) {
