@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "daemon/control/unix_socket.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -34,16 +35,21 @@ class Doctor : public testing::Test {
     }
   }
 
-  /// The check of that name; null if it was not made.
-  static json check(const std::string& name, const fs::path& store) {
+  static json checks(const fs::path& store) {
     ::setenv("INSTEP_STORE", store.c_str(), 1);
     const auto run = test::run_program("instep", {"doctor", "--format", "json"});
-    EXPECT_EQ(run.exit_code, 1) << "no daemon runs: " << run.errors;
-    const json checks = json::parse(run.output)["checks"];
+    EXPECT_EQ(run.exit_code, 1) << "no daemon answers: " << run.errors;
+    return json::parse(run.output)["checks"];
+  }
+  /// The one of that name; null if it was not made.
+  static json named(const std::string& name, const json& checks) {
     for (const auto& one : checks) {
       if (one["name"] == name) return one;
     }
     return nullptr;
+  }
+  static json check(const std::string& name, const fs::path& store) {
+    return named(name, checks(store));
   }
 
   test::TemporaryFolder folder_;
@@ -84,6 +90,19 @@ TEST_F(Doctor, TellsADiskThatTakesNothingFromAFolderThatOneMayNotWriteIn) {
   ::umount(disk.c_str());
   EXPECT_EQ(store["good"], false);
   EXPECT_NE(store.dump().find("mounted read-only"), std::string::npos) << store;
+}
+
+/// What it holds was taken from it, or said to be somebody else's.
+TEST_F(Doctor, OpensNoDeviceOfADaemonThatDoesNotAnswer) {
+  EXPECT_EQ(check("cameras", folder_.path())["good"], true) << "without one";
+  const auto socket = ListeningSocket::open(folder_.path() / "control.sock");
+  ASSERT_TRUE(socket) << socket.error().line();
+  const json all = checks(folder_.path());
+  EXPECT_EQ(named("cameras", all), nullptr);
+  EXPECT_EQ(named("daemon", all)["good"], false);
+  const json devices = named("devices", all);
+  EXPECT_TRUE(devices["good"].is_null()) << devices;
+  EXPECT_EQ(devices["remedy"], "sudo systemctl restart instepd");
 }
 
 }  // namespace

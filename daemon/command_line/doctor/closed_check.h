@@ -20,7 +20,7 @@ DoctorCheck closed_check(const char* name, const std::string& finding,
                          const std::string& advice_on_rights,
                          std::optional<uid_t> daemon = std::nullopt);
 
-/// Of what failed as whoever asks opened it, with no daemon there.
+/// Of what failed when whoever asks opened it.
 DoctorCheck failed_check(const char* name, const Error& error);
 
 }  // namespace instep

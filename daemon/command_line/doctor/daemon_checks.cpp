@@ -81,9 +81,9 @@ DoctorCheck cameras_that_open() {
 
 DoctorCheck check_daemon(const Result<json>& status, const std::filesystem::path& socket) {
   if (!status) {
-    const bool hangs = status.error().code == ErrorCode::kTimeout;
-    return bad_check("daemon", status.error().message,
-                     hangs ? "sudo systemctl restart instepd" : status.error().advice);
+    Error error = status.error();
+    if (error.code == ErrorCode::kTimeout) error.advice = "sudo systemctl restart instepd";
+    return failed_check("daemon", error);
   }
   const auto its_own = its_own_troubles(*status);
   const auto state = string_at(*status, "state");

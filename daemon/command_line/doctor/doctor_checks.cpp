@@ -30,6 +30,26 @@ using nlohmann::json;
 
 constexpr const char* kCalibrate = "instep calibrate";
 
+/// The daemon, as it answers or does not.
+struct AskedDaemon {
+  Result<json> status;
+  std::optional<uid_t> user{};  ///< whom it runs as, if it answers
+
+  /// Nobody listens, and the devices may be opened.
+  bool is_away() const {
+    return !status && (status.error().code == ErrorCode::kNotFound ||
+                       status.error().code == ErrorCode::kInvalidInput);
+  }
+};
+
+AskedDaemon ask_daemon(const std::filesystem::path& socket) {
+  auto client = ControlClient::connect(socket);
+  if (!client) return {tl::make_unexpected(client.error())};
+  auto status = client->ask("status");
+  const auto user = status ? client->daemon_user() : std::nullopt;
+  return {std::move(status), user};
+}
+
 DoctorCheck check_settings(const Result<FoundSettings>& found) {
   if (found) return good_check("settings", found->file.string() + " is sound");
   std::string finding = found.error().line();
@@ -100,23 +120,22 @@ void add(std::vector<DoctorCheck> more, std::vector<DoctorCheck>& checks) {
   std::move(more.begin(), more.end(), std::back_inserter(checks));
 }
 
-/// Asks the daemon, who has the cameras, or opens them if there is none and the settings are sound.
-/// Gives what they tell.
-ToldSerials look_at_cameras(const Result<json>& status, std::optional<uid_t> daemon,
-                            const Settings& settings, bool are_sound,
+/// As the daemon tells, who has the cameras, or opens them if there is none and the settings are
+/// sound. Gives what they tell.
+ToldSerials look_at_cameras(const AskedDaemon& daemon, const Settings& settings, bool are_sound,
                             std::vector<DoctorCheck>& checks) {
   auto video = troubles_of_video_cameras(settings);
   ToldSerials told;
-  if (status) {
-    video = without_those_of(*status, std::move(video));
-    add(check_cameras_of(*status, video), checks);
-    told = told_serials(list_at(*status, "cameras"));
-  } else if (are_sound) {
+  if (daemon.status) {
+    video = without_those_of(*daemon.status, std::move(video));
+    add(check_cameras_of(*daemon.status, video), checks);
+    told = told_serials(list_at(*daemon.status, "cameras"));
+  } else if (daemon.is_away() && are_sound) {
     const auto devices = open_devices_at_last()(settings);
     add(check_opening(devices, video), checks);
     told = told_serials(devices);
   }
-  add(check_video_cameras(video, daemon), checks);
+  add(check_video_cameras(video, daemon.user), checks);
   return told;
 }
 
@@ -126,23 +145,24 @@ void check_usb_memory(std::vector<DoctorCheck>& checks) {
   }
 }
 
-/// Asks the daemon, who has the pedal, or opens one that is a device.
-void check_pedal(const Result<json>& status, const Settings& settings,
+/// As the daemon tells, who has the pedal, or opens one that is a device.
+void check_pedal(const AskedDaemon& daemon, const Settings& settings,
                  std::vector<DoctorCheck>& checks) {
-  if (status) {
-    if (auto check = check_pedal_of(*status)) checks.push_back(std::move(*check));
+  if (daemon.status) {
+    if (auto check = check_pedal_of(*daemon.status)) checks.push_back(std::move(*check));
     return;
   }
   const auto kind = settings.pedal.kind;
-  if (kind != PedalKind::kGpio && kind != PedalKind::kEvdev) return;
+  if (!daemon.is_away() || (kind != PedalKind::kGpio && kind != PedalKind::kEvdev)) return;
   const auto pedal = open_pedal(settings);
   checks.push_back(pedal ? good_check("pedal", "can be opened")
                          : failed_check("pedal", pedal.error()));
 }
 
-/// Asks the daemon, who has the lines, or looks whether they could be had. Touches none.
-std::vector<DoctorCheck> look_at_outputs(const Result<json>& status, const Settings& settings) {
-  if (status) return check_outputs(outputs_of(*status), "is there");
+/// As the daemon tells, who has the lines, or looks whether they could be had. Touches none.
+std::vector<DoctorCheck> look_at_outputs(const AskedDaemon& daemon, const Settings& settings) {
+  if (daemon.status) return check_outputs(outputs_of(*daemon.status), "is there");
+  if (!daemon.is_away()) return {};
   std::vector<OutputFinding> outputs;
   for (const auto& [name, output] : settings.outputs.named()) {
     const auto there = check_output(*output);
@@ -183,13 +203,12 @@ DoctorCheck library_versions() {
                   EIGEN_MINOR_VERSION));
 }
 
-/// Notes as whom the daemon that answers runs.
-Result<json> ask_status(const std::filesystem::path& socket, std::optional<uid_t>& daemon) {
-  auto client = ControlClient::connect(socket);
-  if (!client) return tl::make_unexpected(client.error());
-  auto status = client->ask("status");
-  if (status) daemon = client->daemon_user();
-  return status;
+void look_at_daemon(const AskedDaemon& daemon, const std::filesystem::path& socket,
+                    std::vector<DoctorCheck>& checks) {
+  checks.push_back(check_daemon(daemon.status, socket));
+  if (daemon.status || daemon.is_away()) return;
+  checks.push_back(unseen_check("devices", "not looked at: the daemon has them and cannot be asked",
+                                checks.back().remedy));
 }
 
 }  // namespace
@@ -216,22 +235,22 @@ std::optional<DoctorCheck> check_calibration(const Settings& settings, const Tol
 std::vector<DoctorCheck> examine_machine() {
   const auto found = find_station_settings();
   const Settings settings = found ? found->settings : station_settings();
-  std::optional<uid_t> daemon;
-  const auto status = ask_status(settings.control.socket, daemon);
+  const auto daemon = ask_daemon(settings.control.socket);
   std::vector<DoctorCheck> checks;
   checks.push_back(library_versions());
   checks.push_back(check_settings(found));
   const auto store = std::filesystem::absolute(settings.store.root);
-  checks.push_back(status ? check_store_of(*status, store, daemon) : check_store(store, daemon));
+  checks.push_back(daemon.status ? check_store_of(*daemon.status, store, daemon.user)
+                                 : check_store(store, std::nullopt));
   if (auto space = check_free_space(store)) checks.push_back(std::move(*space));
-  checks.push_back(check_daemon(status, settings.control.socket));
-  const auto told = look_at_cameras(status, daemon, settings, found.has_value(), checks);
+  look_at_daemon(daemon, settings.control.socket, checks);
+  const auto told = look_at_cameras(daemon, settings, found.has_value(), checks);
   // Of a faulty calibration check_settings() tells.
   auto calibration = found ? check_calibration(settings, told) : std::nullopt;
   if (calibration) checks.push_back(std::move(*calibration));
   check_usb_memory(checks);
-  check_pedal(status, settings, checks);
-  add(look_at_outputs(status, settings), checks);
+  check_pedal(daemon, settings, checks);
+  add(look_at_outputs(daemon, settings), checks);
   return checks;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/command_line/doctor/closed_check.h"
 #include "daemon/control/control_client.h"
 #include "daemon/control/protocol.h"
 #include "tests/support/temporary_folder.h"
@@ -66,6 +67,14 @@ TEST(DaemonCheck, RestartsADaemonThatHangsAndStartsOneThatIsNotThere) {
   ASSERT_FALSE(none);
   EXPECT_THAT(check_daemon(tl::make_unexpected(none.error()), "/run/s").remedy,
               HasSubstr("sudo systemctl start instepd"));
+}
+
+/// It had whoever might not ask it believe that it was wrong.
+TEST(DaemonCheck, IsNotWrongWhereWhoeverAsksMayNotAskIt) {
+  const auto check =
+      check_daemon(fail(ErrorCode::kPermissionDenied, "you may not", "join its group"), "/run/s");
+  EXPECT_FALSE(check.good);
+  EXPECT_EQ(check.is_wrong(), installed_user() == ::geteuid());
 }
 
 /// A status with these troubles of its parts, as the daemon itself tells it.
