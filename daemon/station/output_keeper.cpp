@@ -17,12 +17,12 @@ Result<void> write_to(std::unique_ptr<OutputLine>& line, const OutputKeeper::Ope
   return line->set(on);
 }
 
-Error silent() {
+}  // namespace
+
+Error silent_output() {
   return {ErrorCode::kTimeout, Remedy::kOperator, "it does not answer",
           "unplug its board and plug it in again"};
 }
-
-}  // namespace
 
 OutputKeeper::OutputKeeper(EventLoop& loop, const std::string& name, Open open,
                            std::function<void()> on_change, const Pace& pace)
@@ -33,7 +33,7 @@ OutputKeeper::OutputKeeper(EventLoop& loop, const std::string& name, Open open,
       line_(std::make_shared<std::unique_ptr<OutputLine>>()),
       thread_(name) {
   refresh_timer_ = loop_.timer([this] { write(); });
-  patience_timer_ = loop_.timer([this] { note(silent()); });
+  patience_timer_ = loop_.timer([this] { note(silent_output()); });
   write();
 }
 

@@ -13,6 +13,9 @@
 
 namespace instep {
 
+/// The trouble of one that hangs.
+Error silent_output();
+
 /// Keeps one output as it is wanted to be. A line may hang, so it is touched on a thread of its
 /// own; what is wanted meanwhile is done after that, the last wish first and only. The level is
 /// written again at every refresh: so a board that left is noticed though nothing changes, and its

@@ -8,14 +8,6 @@
 #include "daemon/station/cause_of_trouble.h"
 
 namespace instep {
-namespace {
-
-Error silent_pedal() {
-  return {ErrorCode::kTimeout, Remedy::kOperator, "the pedal does not answer",
-          "unplug it, or the board that has its line, and plug it in again"};
-}
-
-}  // namespace
 
 Error stuck_pedal() {
   return {ErrorCode::kBusy, Remedy::kOperator, "the pedal is held down or stuck",
@@ -25,6 +17,11 @@ Error stuck_pedal() {
 Error chattering_pedal() {
   return {ErrorCode::kIo, Remedy::kOperator, "the pedal's contact opens and closes all the time",
           "check its plug and its cable, or try another pedal"};
+}
+
+Error silent_pedal() {
+  return {ErrorCode::kTimeout, Remedy::kOperator, "the pedal does not answer",
+          "unplug it, or the board that has its line, and plug it in again"};
 }
 
 PedalWatch::PedalWatch(EventLoop& loop, const PedalSettings& settings, Open open, Listener listener,

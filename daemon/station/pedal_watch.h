@@ -19,6 +19,8 @@ namespace instep {
 /// The trouble that the signals of these names stand for.
 Error stuck_pedal();
 Error chattering_pedal();
+/// That of one that hangs.
+Error silent_pedal();
 
 /// A pedal on the event loop: lets the debouncer judge its edges, opens it again when it was lost.
 /// A pedal may hang in any call, so it is touched on a thread of its own. One that does not answer

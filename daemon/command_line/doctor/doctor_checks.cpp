@@ -16,6 +16,8 @@
 #include "daemon/build_facts.h"
 #include "daemon/command_line/doctor/closed_check.h"
 #include "daemon/command_line/doctor/daemon_checks.h"
+#include "daemon/command_line/doctor/output_look.h"
+#include "daemon/command_line/doctor/pedal_check.h"
 #include "daemon/command_line/doctor/store_check.h"
 #include "daemon/command_line/station_settings.h"
 #include "daemon/control/control_client.h"
@@ -146,31 +148,22 @@ void check_usb_memory(std::vector<DoctorCheck>& checks) {
 }
 
 /// As the daemon tells, who has the pedal, or opens one that is a device.
-void check_pedal(const AskedDaemon& daemon, const Settings& settings,
-                 std::vector<DoctorCheck>& checks) {
+void look_at_pedal(const AskedDaemon& daemon, const Settings& settings,
+                   std::vector<DoctorCheck>& checks) {
   if (daemon.status) {
     if (auto check = check_pedal_of(*daemon.status)) checks.push_back(std::move(*check));
     return;
   }
   const auto kind = settings.pedal.kind;
   if (!daemon.is_away() || (kind != PedalKind::kGpio && kind != PedalKind::kEvdev)) return;
-  const auto pedal = open_pedal(settings);
-  checks.push_back(pedal ? good_check("pedal", "can be opened")
-                         : failed_check("pedal", pedal.error()));
+  checks.push_back(check_pedal(settings.pedal, [settings] { return open_pedal(settings); }));
 }
 
 /// As the daemon tells, who has the lines, or looks whether they could be had. Touches none.
 std::vector<DoctorCheck> look_at_outputs(const AskedDaemon& daemon, const Settings& settings) {
   if (daemon.status) return check_outputs(outputs_of(*daemon.status), "is there");
   if (!daemon.is_away()) return {};
-  std::vector<OutputFinding> outputs;
-  for (const auto& [name, output] : settings.outputs.named()) {
-    const auto there = check_output(*output);
-    const auto trouble = there ? Error{} : there.error();
-    outputs.push_back(
-        {name, trouble.message, trouble.advice, trouble.code == ErrorCode::kPermissionDenied});
-  }
-  return check_outputs(outputs, "can be opened");
+  return check_outputs(look_for_outputs(settings.outputs, check_output), "can be opened");
 }
 
 /// Of real cameras that no calibration placed; a single one that stands as the settings say has
@@ -249,7 +242,7 @@ std::vector<DoctorCheck> examine_machine() {
   auto calibration = found ? check_calibration(settings, told) : std::nullopt;
   if (calibration) checks.push_back(std::move(*calibration));
   check_usb_memory(checks);
-  check_pedal(daemon, settings, checks);
+  look_at_pedal(daemon, settings, checks);
   add(look_at_outputs(daemon, settings), checks);
   return checks;
 }
