@@ -17,6 +17,9 @@ namespace instep {
 struct FinerSkin {
   double height = 0.0;  ///< root mean square
   double slope = 0.0;   ///< the same, along the line
+  /// What noise may have taken of both, if points are off along the line as much as across it: so
+  /// many times as high waves would show as these do.
+  double blur = 1.0;
 };
 
 /// What a line without them is too short by, at most: one laid half-way up, if they are waves.

@@ -17,7 +17,7 @@ constexpr double kNotableNoise = 0.012;
 /// What is this part of a doubt is its reason: half of its square.
 constexpr double kMostOfDoubt = 0.7;
 /// What finer skin may add, against the section, that whoever reads the girth should know of.
-constexpr double kNotableFinerSkin = 0.004;
+constexpr double kNotableFinerSkin = 0.005;
 constexpr const char* kFinerSkin =
     "the points show waves or ribs finer than a surface through them follows, as of a ribbed sock "
     "or of frames that do not fit each other";
