@@ -99,13 +99,18 @@ TEST(OpenniStation, PartialSetIsNeverFusedSilentlyAndIsWholeAgainAfterAReplug) {
   EXPECT_EQ(station.run_instep("scan").exit_code, 0) << station.log();
 }
 
+/// A station whose sensors are all away.
+void start_unplugged(OpenniBus& bus, const OpenniStation& sensors, StationProcess& station) {
+  for (std::size_t i = 0; i < sensors.size(); ++i) bus.unplug(sensors.serial(i));
+  station.write_settings(sensors.camera_tables() + kSmallCapture);
+  station.start();
+}
+
 TEST(OpenniStation, StartsWithoutItsCamerasAndSurvivesTheirCrashes) {
   OpenniBus bus;
   OpenniStation sensors(bus, small_station(), 3);
-  for (std::size_t i = 0; i < sensors.size(); ++i) bus.unplug(sensors.serial(i));
   StationProcess station;
-  station.write_settings(sensors.camera_tables() + kSmallCapture);
-  station.start();
+  start_unplugged(bus, sensors, station);
   ASSERT_TRUE(station.wait_for("READY=1", kLong)) << station.log();
   ASSERT_TRUE(station.wait_for("is not plugged in", kLong)) << station.log();
   for (std::size_t i = 0; i < sensors.size(); ++i) sensors.plug_in(i);
@@ -158,10 +163,8 @@ std::string trouble_of(const StationProcess& station, const std::string& camera)
 TEST(OpenniStation, LogsOnceThatACameraIsMissingWhateverElseComes) {
   OpenniBus bus;
   OpenniStation sensors(bus, small_station(), 3);
-  for (std::size_t i = 0; i < sensors.size(); ++i) bus.unplug(sensors.serial(i));
   StationProcess station;
-  station.write_settings(sensors.camera_tables() + kSmallCapture);
-  station.start();
+  start_unplugged(bus, sensors, station);
   ASSERT_TRUE(station.wait_for("is not plugged in", kLong)) << station.log();
   const auto& last = sensors.name(2);
   const auto first_words = trouble_of(station, last);
